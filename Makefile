@@ -35,8 +35,10 @@ run: system $(VENV)/.run  ## open the program with the built-in simulator
 	@$(BIN)/rotemina
 
 test: PROGRAMS := --assembler
+# In the order of the folders: by number of tests, the few long ones would all come last.
 test: system $(VENV)/.test  ## run the quick tests
-	@$(PYTEST) --numprocesses auto --maxprocesses 4 --dist loadfile -m "not slow"
+	@$(PYTEST) --numprocesses auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder \
+	-m "not slow"
 
 # pytest fails when it selects nothing, which is right as soon as one slow test is written.
 test-slow: PROGRAMS := --screen --assembler
@@ -74,15 +76,21 @@ screenshots: system $(VENV)/.screenshots  ## draw the pictures of the documentat
 	@$(BIN)/python -m rotemina.app.shell.screenshots docs/screenshots
 
 # One file of texts for each folder that shows some, named as their context; all make one .qm.
-LUPDATE := $(BIN)/pyside6-lupdate -silent -tr-function-alias QT_TRANSLATE_NOOP+=marked \
+LUPDATE := $(BIN)/pyside6-lupdate -silent -tr-function-alias QT_TRANSLATE_NOOP+=marked,QT_TRANSLATE_NOOP+=message \
+-disable-heuristic sametext -disable-heuristic similartext \
 -locations none -no-obsolete -source-language en -target-language de
 LRELEASE := $(BIN)/pyside6-lrelease -silent
 
+# What refuses and reports below the window; the diagnosis has a file of its own.
+ENGINE := app/motion app/microscope app/cameras app/calibration app/records $(wildcard app/*.py) drivers \
+$(filter-out sim/gap sim/blind%,$(wildcard sim/*))
 languages: system $(VENV)/.run  ## find what is to be translated, make resources/languages/*.qm
-	@for folder in app/shell plugins/*/; do \
-	if ls $$folder/*.py >/dev/null 2>&1 && grep -Eqs '\b(translate|marked)\(' $$folder/*.py; then \
-	$(LUPDATE) $${folder%/}/*.py -ts resources/languages/de/$$(basename $$folder).ts || exit 1; \
+	@for folder in app/shell app/widgets app/cli plugins/*/; do \
+	if ls $$folder/*.py >/dev/null 2>&1 && grep -Eqs '\b(translate|marked|message)\(' $$folder/*.py; then \
+	$(LUPDATE) $${folder%/}/*.py $$([ $$folder != plugins/gap/ ] || find sim/gap -name '*.py') \
+	-ts resources/languages/de/$$(basename $$folder).ts || exit 1; \
 	fi; done
+	@$(LUPDATE) $$(find $(ENGINE) -name '*.py') -ts resources/languages/de/engine.ts
 	@$(LRELEASE) resources/languages/de/*.ts -qm resources/languages/de.qm
 
 viewer: $(VENV)/.python  ## take the viewer of the 3-D view from the newest package meshcat

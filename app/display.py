@@ -1,40 +1,15 @@
 """How numbers and names of axes are shown to people: units, digits, labels. Free of Qt."""
 
 import math
-import re
-from dataclasses import dataclass
 
+from rotemina.sim.quantities import Scale, decimals_of, fixed, rounded, scale_in, scale_of
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.resampling import induced_velocity
 from rotemina.sim.robot.model import Axis, Robot
-from rotemina.sim.units import symbol, to_unit
+from rotemina.sim.units import to_unit
 
 LABELS = {"x": "X", "y": "Y", "z": "Z", "thx": "θx", "thy": "θy", "zn": "Z nano"}
-# What float() takes beside this (1_0, digits of other scripts, a comma in some locales) is likelier
-# a slip than a number.
-PLAIN_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _COARSE_M = 1e-3  # a range from here on reads better in mm
-
-
-@dataclass(frozen=True, slots=True)
-class Scale:
-    """The unit in which an axis is shown, and the digits that its sensor can tell."""
-
-    unit: str
-    decimals: int
-
-    @property
-    def symbol(self) -> str:
-        """The unit as screens write it, such as ``µm``."""
-        return symbol(self.unit)
-
-    def number(self, value: float) -> str:
-        """Return a position (SI) as digits, without its unit."""
-        return f"{to_unit(value, self.unit):.{self.decimals}f}"
-
-    def text(self, value: float) -> str:
-        """Return a position (SI) with its unit."""
-        return f"{self.number(value)} {self.symbol}"
 
 
 def axis_scale(axis: Axis) -> Scale:
@@ -45,8 +20,16 @@ def axis_scale(axis: Axis) -> Scale:
         unit = "mm" if axis.span >= _COARSE_M else "um"
     resolution = axis.sensor.resolution if axis.sensor else 0.0
     resolution = resolution or axis.span / 1e5
-    decimals = math.ceil(-math.log10(float(to_unit(resolution, unit))) - 1e-9)
-    return Scale(unit, min(max(decimals, 0), 6))
+    return scale_in(unit, decimals=decimals_of(float(to_unit(resolution, unit))))
+
+
+def noticeable(axis: Axis) -> float:
+    """Return the least difference that noise alone does not make, m or rad.
+
+    Three floors of the sensor, or two steps of it.
+    """
+    sensor = axis.sensor
+    return max(3.0 * sensor.noise_floor, 2.0 * sensor.resolution) if sensor else 0.0
 
 
 def label(axis: str) -> str:
@@ -73,9 +56,10 @@ def speed_changes(before: Record, after: Record) -> str:
     old, new = induced_velocity(before), induced_velocity(after)
     lines = []
     for axis in old:
-        unit = "mrad" if before.units[axis] == "rad" else "mm"
-        values = (f"{to_unit(speeds[axis], unit):.4g}" for speeds in (old, new))
-        lines.append(f"{label(axis)}: {' → '.join(values)} {symbol(unit)}/s")
+        unit = f"{before.units[axis]}/s"
+        scale = scale_of(unit, max(float(old[axis]), float(new[axis])))
+        values = (scale.number(float(speeds[axis])) for speeds in (old, new))
+        lines.append(f"{label(axis)}: {' → '.join(values)} {scale.symbol}")
     return "\n".join(lines)
 
 
@@ -83,10 +67,9 @@ def duration_text(seconds: float, decimals: int = 0) -> str:
     """Return a duration as clocks write it, such as ``1:02:03`` or ``0:07.5``."""
     step = 10**decimals
     parts = math.floor(seconds * step + 1e-6)  # a moment that has not come is not shown
-    whole, fraction = divmod(parts, step)
-    minutes, rest = divmod(whole, 60)
+    minutes, rest = divmod(parts, 60 * step)
     hours, minutes = divmod(minutes, 60)
-    digits = f"{rest:02d}" + (f".{fraction:0{decimals}d}" if decimals else "")
+    digits = fixed(rest / step, decimals).rjust(2 + bool(decimals) + decimals, "0")
     return f"{hours}:{minutes:02d}:{digits}" if hours else f"{minutes}:{digits}"
 
 
@@ -95,6 +78,6 @@ def size_text(size: int) -> str:
     amount = float(size)
     for unit in ("bytes", "kB", "MB", "GB"):
         if amount < 999.5:
-            return f"{amount:.0f} {unit}" if unit == "bytes" else f"{amount:.3g} {unit}"
+            return f"{rounded(amount, 3)} {unit}"
         amount /= 1000.0
-    return f"{amount:.3g} TB"
+    return f"{rounded(amount, 3)} TB"

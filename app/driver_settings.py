@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from rotemina.app.settings import Settings
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.settings import SettingError, SettingValue
+from rotemina.sim.messages import message
 
 # What float() and int() take beside these (1_0, digits of other scripts) is likelier a slip.
 _WHOLE = re.compile(r"[+-]?[0-9]+")
@@ -28,14 +29,26 @@ def typed(name: str, default: SettingValue, text: str) -> SettingValue:
     if isinstance(default, bool):
         if word.lower() in _SWITCHES:
             return _SWITCHES[word.lower()]
-        raise SettingError(f"setting {name}: {text!r} is no switch; write true or false")
+        raise SettingError(
+            message("engine", "setting {name}: {text} is no switch; write true or false").fill(
+                name=name, text=repr(text)
+            )
+        )
     if isinstance(default, int):
         if _WHOLE.fullmatch(word):
             return int(word)
-        raise SettingError(f"setting {name}: {text!r} is no whole number")
+        raise SettingError(
+            message("engine", "setting {name}: {text} is no whole number").fill(
+                name=name, text=repr(text)
+            )
+        )
     if _NUMBER.fullmatch(word):
         return float(word)
-    raise SettingError(f"setting {name}: {text!r} is no number; write one with a decimal point")
+    raise SettingError(
+        message(
+            "engine", "setting {name}: {text} is no number; write one with a decimal point"
+        ).fill(name=name, text=repr(text))
+    )
 
 
 def assigned(kind: type[Driver], assignments: Iterable[str]) -> dict[str, SettingValue]:
@@ -52,10 +65,18 @@ def assigned(kind: type[Driver], assignments: Iterable[str]) -> dict[str, Settin
         name, equals, value = text.partition("=")
         name = name.strip()
         if not equals or not name:
-            raise SettingError(f"--set {text!r}: write it as name=value, such as baud=9600")
+            raise SettingError(
+                message("engine", "--set {text}: write it as name=value, such as baud=9600").fill(
+                    text=repr(text)
+                )
+            )
         if name not in defaults:
             known = ", ".join(defaults) or "none at all"
-            raise SettingError(f"driver {kind.name!r} has no setting {name!r}; it knows {known}")
+            raise SettingError(
+                message(
+                    "engine", "driver {driver} has no setting {setting}; it knows {known}"
+                ).fill(driver=repr(kind.name), setting=repr(name), known=known)
+            )
         values[name] = typed(name, defaults[name], value)
     return values
 

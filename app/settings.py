@@ -16,10 +16,12 @@ from platformdirs import user_config_path
 from rotemina.app.files import write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.input_files import parse_json, read_text
+from rotemina.sim.messages import message
 from rotemina.sim.whole_files import FileWriteError
 
 logger = logging.getLogger(__name__)
 
+LANGUAGE = "window.language"  # a preference that the command line keeps to as well
 _MOST_BYTES = 1_000_000
 Value = TypeVar("Value", str, bool, int, float)
 
@@ -83,7 +85,11 @@ class Settings:
             text = read_text(self._path, InputError, _MOST_BYTES)
             values = parse_json(text, str(self._path), InputError)
             if not isinstance(values, dict):
-                raise InputError(f"{self._path}: it holds no table of preferences")
+                raise InputError(
+                    message("engine", "{path}: it holds no table of preferences").fill(
+                        path=self._path
+                    )
+                )
         except InputError as error:
             self.fault = str(error)
             self._set_aside()

@@ -16,6 +16,8 @@ from rotemina.drivers.parameters import ParameterDifference
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import AxisName, marked, message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
@@ -57,20 +59,36 @@ class VelocityMover(Driver, ABC):
         """Raise :class:`LimitError` where :meth:`move_velocity` would; asks the device nothing."""
         if not is_finite(lease_s) or not 0.0 < lease_s <= LONGEST_LEASE_S:
             raise LimitError(
-                f"{self.name}: a lease of {lease_s} s: must be more than 0 s, at most "
-                f"{LONGEST_LEASE_S:g} s"
+                message(
+                    "engine",
+                    "{name}: a lease of {lease} s: must be more than 0 s, at most {longest} s",
+                ).fill(name=self.name, lease=lease_s, longest=rounded(LONGEST_LEASE_S, 6))
             )
         for axis, speed in velocities.items():
             if axis not in self.robot.axes:
                 raise LimitError(
-                    f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}"
+                    message("engine", "{name}: no such axis {axis}; it has {axes}").fill(
+                        name=self.name, axis=repr(axis), axes=", ".join(self.axes)
+                    )
                 )
             most = self.robot.axes[axis].max_speed
             if not is_finite(speed) or (most is not None and abs(speed) > most * (1.0 + 1e-9)):
-                bound = "a finite number" if most is None else f"{most:g} at most"
+                bound = (
+                    marked("engine", "a finite number")
+                    if most is None
+                    else message("engine", "{most} at most").fill(most=most)
+                )
                 raise LimitError(
-                    f"{self.name}: axis {axis}: a speed of {speed} {self.robot.unit(axis)}/s: "
-                    f"must be {bound}"
+                    message(
+                        "engine",
+                        "{name}: axis {axis}: a speed of {speed} {unit}/s: must be {bound}",
+                    ).fill(
+                        name=self.name,
+                        axis=AxisName(axis),
+                        speed=speed,
+                        unit=self.robot.unit(axis) or "?",
+                        bound=bound,
+                    )
                 )
 
     @abstractmethod
@@ -103,12 +121,24 @@ class Homer(Driver, ABC):
         self._require_open("home")
         status = self._status()
         if status.state is not DeviceState.IDLE or status.silent_s > 0.0:
-            why = f"a fault ({status.fault})" if status.fault else status.state
-            raise StateError(f"{self.name}: cannot home in {why}; wait, stop or clear it first")
+            why = (
+                message("engine", "a fault ({fault})").fill(fault=status.fault)
+                if status.fault
+                else status.state
+            )
+            raise StateError(
+                message(
+                    "engine", "{name}: cannot home in {why}; wait, stop or clear it first"
+                ).fill(name=self.name, why=why)
+            )
         for axis in axes:
             if axis not in self.homing_axes:
-                have = ", ".join(self.homing_axes) or "no axis has any"
-                raise LimitError(f"{self.name}: axis {axis!r} has no limit switch; these: {have}")
+                have = ", ".join(self.homing_axes) or marked("engine", "no axis has any")
+                raise LimitError(
+                    message(
+                        "engine", "{name}: axis {axis} has no limit switch; these: {have}"
+                    ).fill(name=self.name, axis=repr(axis), have=have)
+                )
         if axes:
             self._home(tuple(axes), permit)
 
@@ -117,12 +147,16 @@ class Homer(Driver, ABC):
         """Begin to look for the switches of axes that have some."""
 
 
+# Ranges of an amplifier a second: faster, a ramp leaves piezos ringing beyond their range.
+VOLTAGE_SLEW = 1.0
+
+
 class VoltageOutput(Driver, ABC):
     """A device whose piezo amplifiers can be given a voltage straight."""
 
     @final
     def set_voltage(self, axis: str, voltage: float, *, permit: Permit | None = None) -> None:
-        """Put out a voltage, V, no faster than the axis may go; the next move takes over from it.
+        """Put out a voltage, V, within `VOLTAGE_SLEW`; the next move takes over from it.
 
         Raises
         ------
@@ -135,14 +169,29 @@ class VoltageOutput(Driver, ABC):
         state = self._require_sound("put out a voltage")
         if state is not DeviceState.IDLE:
             raise StateError(
-                f"{self.name}: cannot put out a voltage while it is {state}; stop it or wait"
+                message(
+                    "engine",
+                    "{name}: cannot put out a voltage while it is {state}; stop it or wait",
+                ).fill(name=self.name, state=state)
             )
         bounds = getattr(self.robot.axes.get(axis), "voltage_range", None)
         if bounds is None:
-            raise LimitError(f"{self.name}: axis {axis!r} has no amplifier with a voltage range")
+            raise LimitError(
+                message("engine", "{name}: axis {axis} has no amplifier with a voltage range").fill(
+                    name=self.name, axis=repr(axis)
+                )
+            )
         if not bounds[0] <= voltage <= bounds[1]:
             raise LimitError(
-                f"{self.name}: axis {axis}: {voltage:g} V: must be {bounds[0]:g} to {bounds[1]:g} V"
+                message(
+                    "engine", "{name}: axis {axis}: {voltage} V: must be {low} to {high} V"
+                ).fill(
+                    name=self.name,
+                    axis=AxisName(axis),
+                    voltage=rounded(voltage, 6),
+                    low=rounded(bounds[0], 6),
+                    high=rounded(bounds[1], 6),
+                )
             )
         self._set_voltage(axis, voltage, permit)
 
@@ -175,17 +224,34 @@ class Capturer(Driver, ABC):
         for axis in axes:
             if axis not in self.robot.axes:
                 raise LimitError(
-                    f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}"
+                    message("engine", "{name}: no such axis {axis}; it has {axes}").fill(
+                        name=self.name, axis=repr(axis), axes=", ".join(self.axes)
+                    )
                 )
         if not 1 <= len(axes) <= rates.axes:
-            raise LimitError(f"{self.name}: a capture of {len(axes)} axes: 1 to {rates.axes}")
+            raise LimitError(
+                message("engine", "{name}: a capture of {axes} axes: 1 to {most}").fill(
+                    name=self.name, axes=len(axes), most=rates.axes
+                )
+            )
         most = rates.of(len(axes))
         if not 0.0 < rate_hz <= most:
             raise LimitError(
-                f"{self.name}: a capture of {len(axes)} axes at {rate_hz:g} Hz: {most:g} Hz at most"
+                message(
+                    "engine", "{name}: a capture of {axes} axes at {rate_hz} Hz: {most} Hz at most"
+                ).fill(
+                    name=self.name,
+                    axes=len(axes),
+                    rate_hz=rounded(rate_hz, 6),
+                    most=rounded(most, 6),
+                )
             )
         if not 1 <= count <= rates.samples:
-            raise LimitError(f"{self.name}: a capture of {count} samples: 1 to {rates.samples}")
+            raise LimitError(
+                message("engine", "{name}: a capture of {count} samples: 1 to {most}").fill(
+                    name=self.name, count=count, most=rates.samples
+                )
+            )
         self._capture(tuple(axes), rate_hz, count)
 
     @abstractmethod
@@ -214,7 +280,11 @@ class ProfileRunner(Driver, ABC):
         permit = self._permitted(permit)
         state = self._require_sound("take a profile")
         if state is not DeviceState.IDLE:
-            raise StateError(f"{self.name}: cannot take a profile while it is {state}")
+            raise StateError(
+                message("engine", "{name}: cannot take a profile while it is {state}").fill(
+                    name=self.name, state=state
+                )
+            )
         try:
             profile.check(self.robot, self._commanded(profile.axis))
         except InputError as error:
@@ -281,7 +351,11 @@ class Display(Driver, ABC):
         """
         self._require_open("show a text")
         if not 0 <= row < DISPLAY_ROWS:
-            raise LimitError(f"{self.name}: row {row} of the display: 0 or {DISPLAY_ROWS - 1}")
+            raise LimitError(
+                message("engine", "{name}: row {row} of the display: 0 or {last}").fill(
+                    name=self.name, row=row, last=DISPLAY_ROWS - 1
+                )
+            )
         self._show(row, text[:DISPLAY_COLUMNS].ljust(DISPLAY_COLUMNS))
 
     @abstractmethod
@@ -319,7 +393,11 @@ class Parameterised(Driver, ABC):
         self._require_open("write its parameters")
         state = self._status().state
         if state not in (DeviceState.IDLE, DeviceState.FAULT):
-            raise StateError(f"{self.name}: cannot write its parameters while it is {state}")
+            raise StateError(
+                message("engine", "{name}: cannot write its parameters while it is {state}").fill(
+                    name=self.name, state=state
+                )
+            )
         self._write_parameters(permit)
 
     @abstractmethod
@@ -383,7 +461,11 @@ class TrajectoryPlayer(Driver, ABC):
         permit = self._permitted(permit)
         state = self._require_sound("play")
         if state is not DeviceState.IDLE:
-            raise StateError(f"{self.name}: it is still {state}; stop it or wait before playing")
+            raise StateError(
+                message(
+                    "engine", "{name}: it is still {state}; stop it or wait before playing"
+                ).fill(name=self.name, state=state)
+            )
         self._play(self.accept(trajectory).commands, permit)
 
     @abstractmethod

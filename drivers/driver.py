@@ -21,7 +21,9 @@ from rotemina.drivers.gate import Gate, Permit, Purpose
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingValue, resolve
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.plugin_points import API_VERSIONS
+from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import check_speeds, check_target
 
@@ -97,7 +99,9 @@ class Driver(ABC):
             If the device cannot be reached or is not the one expected.
         """
         if self._is_open:
-            raise StateError(f"{self.name}: it is open already; close it first")
+            raise StateError(
+                message("engine", "{name}: it is open already; close it first").fill(name=self.name)
+            )
         self._last_time_s = float("-inf")
         self._open()
         self._is_open = True
@@ -207,12 +211,23 @@ class Driver(ABC):
         samples = self._read()
         if samples.command.shape[1] != len(self.axes):
             count = samples.command.shape[1]
-            raise ProtocolError(f"{self.name}: samples of {count} axes, expected {len(self.axes)}")
+            raise ProtocolError(
+                message("engine", "{name}: samples of {count} axes, expected {axes}").fill(
+                    name=self.name, count=count, axes=len(self.axes)
+                )
+            )
         if len(samples):
             if samples.device_time_s[0] <= self._last_time_s:
                 raise ProtocolError(
-                    f"{self.name}: device time went from {self._last_time_s:.9g} s back to "
-                    f"{samples.device_time_s[0]:.9g} s; was the device reset?"
+                    message(
+                        "engine",
+                        "{name}: device time went from {last_time_s} s back to "
+                        "{device_time_s} s; was the device reset?",
+                    ).fill(
+                        name=self.name,
+                        last_time_s=rounded(self._last_time_s, 9),
+                        device_time_s=rounded(samples.device_time_s[0], 9),
+                    )
                 )
             self._last_time_s = float(samples.device_time_s[-1])
         return samples
@@ -225,30 +240,51 @@ class Driver(ABC):
 
     def _require_open(self, action: str) -> None:
         if not self._is_open:
-            raise StateError(f"{self.name}: cannot {action} while closed; open it first")
+            raise StateError(
+                message("engine", "{name}: cannot {action} while closed; open it first").fill(
+                    name=self.name, action=action
+                )
+            )
 
     def _require_sound(self, action: str) -> DeviceState:
         self._require_open(action)
         status = self._status()
         if status.silent_s > 0.0:
             raise StateError(
-                f"{self.name}: cannot {action}: the device has said nothing for "
-                f"{status.silent_s:.2g} s; wait until it answers"
+                message(
+                    "engine",
+                    "{name}: cannot {action}: the device has said nothing for {silent} "
+                    "s; wait until it answers",
+                ).fill(name=self.name, action=action, silent=rounded(status.silent_s, 2))
             )
         if status.state is DeviceState.FAULT:
-            raise StateError(f"{self.name}: cannot {action} in a fault ({status.fault}); clear it")
-        if not status.position_known:
-            which = f" of {', '.join(status.unhomed)}" if status.unhomed else ""
             raise StateError(
-                f"{self.name}: cannot {action} while the position{which} is unknown; home first"
+                message("engine", "{name}: cannot {action} in a fault ({fault}); clear it").fill(
+                    name=self.name, action=action, fault=status.fault or ""
+                )
             )
+        if not status.position_known:
+            unknown = message(
+                "engine", "{name}: cannot {action} while the position is unknown; home first"
+            )
+            if status.unhomed:
+                unknown = message(
+                    "engine",
+                    "{name}: cannot {action} while the position of {axes} is unknown; home first",
+                )
+            axes = ", ".join(status.unhomed)
+            raise StateError(unknown.fill(name=self.name, action=action, axes=axes))
         return status.state
 
     def _require_free(self, action: str) -> None:
         """Refuse what would break into a trajectory, a profile or a search for switches."""
         state = self._require_sound(action)
         if state in (DeviceState.PLAYING, DeviceState.HOMING):
-            raise StateError(f"{self.name}: cannot {action} while it is {state}; stop it first")
+            raise StateError(
+                message(
+                    "engine", "{name}: cannot {action} while it is {state}; stop it first"
+                ).fill(name=self.name, action=action, state=state)
+            )
 
     @abstractmethod
     def _open(self) -> None:

@@ -1,9 +1,9 @@
 """What can go wrong with a device. Each error is also the builtin that fits it."""
 
-from rotemina.sim.errors import InputError
+from rotemina.sim.errors import InputError, ToldError
 
 
-class DriverError(Exception):
+class DriverError(ToldError):
     """A device did not do what it was asked; the message says what, where and what to do."""
 
 

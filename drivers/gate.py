@@ -17,6 +17,7 @@ from typing import NamedTuple
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import StateError
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 
 class GateError(StateError, InputError):
@@ -110,18 +111,22 @@ class Gate:
     def _compare(self, permit: "Permit", *, begins: bool) -> None:
         """Refuse a permit that does not pass now; the lock is held."""
         if permit.epoch.connections != self._epoch.connections:
-            raise OvertakenError("the connection is another one now; ask again")
+            raise OvertakenError(message("engine", "the connection is another one now; ask again"))
         if permit.purpose is Purpose.ENQUIRY:
             return
         if self._latched is not None:
-            raise OvertakenError(f"{self._latched} is latched; release it first")
+            raise OvertakenError(
+                message("engine", "{stop} is latched; release it first").fill(stop=self._latched)
+            )
         if permit.epoch != self._epoch:
-            raise OvertakenError("a stop came after this was asked for; ask again")
+            raise OvertakenError(
+                message("engine", "a stop came after this was asked for; ask again")
+            )
         if self.clock() > permit.until_s:
-            raise OvertakenError("its lease has run out; ask again")
+            raise OvertakenError(message("engine", "its lease has run out; ask again"))
         why = self.locks(permit) if begins else None
         if why is not None:
-            raise GateError(f"motion is locked: {why}")
+            raise GateError(message("engine", "motion is locked: {locked}").fill(locked=why))
 
 
 @dataclass(frozen=True, slots=True)

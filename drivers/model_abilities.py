@@ -12,6 +12,7 @@ from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import AxisEffect
 
 if TYPE_CHECKING:  # a board's commands need none of it
@@ -27,6 +28,11 @@ class EffectCarrier(Driver, ABC):
     @abstractmethod
     def effects(self) -> tuple[AxisEffect, ...]:
         """The effects in place, those that are switched off among them; any thread may ask."""
+
+    @property
+    def effects_text(self) -> str:
+        """The effects that are on, as records and the library name them; "" for none."""
+        return ", ".join(f"{one.axis} {one.id}" for one in self.effects if one.enabled)
 
     @final
     def check_effects(self, effects: Sequence[AxisEffect]) -> None:
@@ -87,12 +93,23 @@ class Compensator(Driver, ABC):
         state = self._require_sound("change a compensation")
         if state is not DeviceState.IDLE:
             raise StateError(
-                f"{self.name}: cannot change a compensation while it is {state}; stop it or wait"
+                message(
+                    "engine",
+                    "{name}: cannot change a compensation while it is {state}; stop it or wait",
+                ).fill(name=self.name, state=state)
             )
         if axis not in self.robot.axes:
-            raise LimitError(f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}")
+            raise LimitError(
+                message("engine", "{name}: no such axis {axis}; it has {names}").fill(
+                    name=self.name, axis=repr(axis), names=", ".join(self.axes)
+                )
+            )
         if model is not None and model.axis != axis:
-            raise LimitError(f"{self.name}: an inverse of axis {model.axis} is none of {axis}")
+            raise LimitError(
+                message("engine", "{name}: an inverse of axis {axis} is none of {other}").fill(
+                    name=self.name, axis=model.axis, other=axis
+                )
+            )
         self._compensate(axis, model, permit)
 
     @abstractmethod
@@ -137,17 +154,30 @@ class Regulator(Driver, ABC):
         state = self._require_sound("change a loop")
         if state is not DeviceState.IDLE:
             raise StateError(
-                f"{self.name}: cannot change a loop while it is {state}; stop it or wait"
+                message(
+                    "engine", "{name}: cannot change a loop while it is {state}; stop it or wait"
+                ).fill(name=self.name, state=state)
             )
         if axis not in self.robot.axes:
-            raise LimitError(f"{self.name}: no such axis {axis!r}; it has {', '.join(self.axes)}")
+            raise LimitError(
+                message("engine", "{name}: no such axis {axis}; it has {names}").fill(
+                    name=self.name, axis=repr(axis), names=", ".join(self.axes)
+                )
+            )
         if regulation is not None:
             if regulation.axis != axis:
-                raise LimitError(f"{self.name}: a loop of axis {regulation.axis} is none of {axis}")
+                raise LimitError(
+                    message("engine", "{name}: a loop of axis {axis} is none of {other}").fill(
+                        name=self.name, axis=regulation.axis, other=axis
+                    )
+                )
             if regulation.robot.axes[axis] != self.robot.axes[axis]:
                 raise LimitError(
-                    f"{self.name}: axis {axis}: the loop was found stable on robot "
-                    f"{regulation.robot.name!r} with another such axis; check it on this one"
+                    message(
+                        "engine",
+                        "{name}: axis {axis}: the loop was found stable on robot {robot_name} with "
+                        "another such axis; check it on this one",
+                    ).fill(name=self.name, axis=axis, robot_name=repr(regulation.robot.name))
                 )
         self._regulate(axis, regulation, permit)
 

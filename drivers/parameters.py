@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from rotemina.sim.messages import message
+
 
 @dataclass(frozen=True, slots=True)
 class ParameterDifference:
@@ -17,4 +19,6 @@ class ParameterDifference:
     robot: float
 
     def __str__(self) -> str:
-        return f"{self.name}: {self.device:g} {self.unit}, robot file {self.robot:g} {self.unit}"
+        return message("engine", "{name}: {device} {unit}, robot file {robot} {unit}").fill(
+            name=self.name, device=self.device, unit=self.unit, robot=self.robot
+        )

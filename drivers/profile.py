@@ -7,9 +7,10 @@ from math import copysign, sqrt
 import numpy as np
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import check_target
-from rotemina.sim.trajectory.wording import readable
 
 MOST_SEGMENTS = 16
 _SLACK = 1.0 + 1e-9
@@ -89,7 +90,9 @@ class Profile:
         check_target(robot, self.axis, start)
         if not 1 <= len(self.segments) <= MOST_SEGMENTS:
             raise InputError(
-                f"profile of {self.axis}: {len(self.segments)} segments: 1 to {MOST_SEGMENTS}"
+                message(
+                    "engine", "profile of {axis}: {segments} segments: 1 to {most_segments}"
+                ).fill(axis=self.axis, segments=len(self.segments), most_segments=MOST_SEGMENTS)
             )
         axis, unit = robot.axes[self.axis], robot.unit(self.axis) or ""
         at = start
@@ -98,19 +101,31 @@ class Profile:
             numbers = (segment.duration_s, segment.c1, segment.c2, segment.c3)
             if not np.isfinite(numbers).all() or segment.duration_s <= 0.0:
                 raise InputError(
-                    f"{where}: duration and coefficients must be finite, time positive"
+                    message(
+                        "engine", "{where}: duration and coefficients must be finite, time positive"
+                    ).fill(where=where)
                 )
             for extreme in segment.extremes():
                 try:
                     check_target(robot, self.axis, at + extreme)
                 except InputError as error:
-                    raise InputError(f"{where}: {error}") from error
+                    raise InputError(
+                        message("engine", "{where}: {error}").fill(where=where, error=str(error))
+                    ) from error
             speed = segment.greatest_speed()
             if axis.max_speed is not None and speed > axis.max_speed * _SLACK:
-                most = readable(axis.max_speed, unit)
-                raise InputError(f"{where}: {readable(speed, unit)}/s: at most {most}/s")
+                most = exact(axis.max_speed, f"{unit}/s")
+                raise InputError(
+                    message("engine", "{where}: {speed}: at most {most}").fill(
+                        where=where, speed=exact(speed, f"{unit}/s"), most=most
+                    )
+                )
             acceleration = segment.greatest_acceleration()
             if axis.max_acceleration is not None and acceleration > axis.max_acceleration * _SLACK:
-                most = readable(axis.max_acceleration, unit)
-                raise InputError(f"{where}: {readable(acceleration, unit)}/s²: at most {most}/s²")
+                most = exact(axis.max_acceleration, f"{unit}/s²")
+                raise InputError(
+                    message("engine", "{where}: {acceleration}: at most {most}").fill(
+                        where=where, acceleration=exact(acceleration, f"{unit}/s²"), most=most
+                    )
+                )
             at += segment.length

@@ -7,6 +7,7 @@ from typing import Any
 
 from rotemina.drivers.driver import Driver
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.plugin_points import PluginError, load, require_version
 
 DRIVERS = "rotemina.drivers"
@@ -55,9 +56,17 @@ def driver_named(name: str) -> type[Driver]:
     """
     discovery = discover_drivers()
     if name in discovery.broken:
-        raise InputError(f"driver {name!r} cannot be used: {discovery.broken[name]}")
+        raise InputError(
+            message("engine", "driver {name} cannot be used: {broken}").fill(
+                name=repr(name), broken=discovery.broken[name]
+            )
+        )
     if name not in discovery.found:
-        raise InputError(f"there is no driver {name!r}; installed: {', '.join(discovery.found)}")
+        raise InputError(
+            message("engine", "there is no driver {name}; installed: {names}").fill(
+                name=repr(name), names=", ".join(discovery.found)
+            )
+        )
     return discovery.found[name]
 
 

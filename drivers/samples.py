@@ -10,6 +10,7 @@ import numpy as np
 
 from rotemina.drivers.errors import ProtocolError
 from rotemina.sim.arrays import FloatArray, IntArray, read_only
+from rotemina.sim.messages import message
 
 
 class DeviceState(StrEnum):
@@ -103,13 +104,23 @@ class Samples:
         if self.reference is not None:
             shapes.add(self.reference.shape)
         if len(shapes) != 1 or self.command.shape[:1] != (count,) or self.command.ndim != 2:
-            raise ProtocolError(f"samples: arrays of shapes {sorted(shapes)} for {count} times")
+            raise ProtocolError(
+                message("engine", "samples: arrays of shapes {shapes} for {count} times").fill(
+                    shapes=str(sorted(shapes)), count=count
+                )
+            )
         if self.playback_row.shape != (count,):
-            raise ProtocolError(f"samples: {len(self.playback_row)} rows for {count} times")
+            raise ProtocolError(
+                message("engine", "samples: {rows} rows for {times} times").fill(
+                    rows=len(self.playback_row), times=count
+                )
+            )
         if not np.isfinite(self.device_time_s).all() or (np.diff(self.device_time_s) <= 0).any():
-            raise ProtocolError("samples: the device's time does not increase")
+            raise ProtocolError(message("engine", "samples: the device's time does not increase"))
         if not (np.isfinite(self.command).all() and np.isfinite(self.measured).all()):
-            raise ProtocolError("samples: a command or reading is not a finite number")
+            raise ProtocolError(
+                message("engine", "samples: a command or reading is not a finite number")
+            )
 
     @classmethod
     @cache  # asked for every millisecond

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from math import isfinite
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import marked, message
 
 SettingValue = bool | int | float | str
 
@@ -24,8 +25,12 @@ def resolve(
     """
     unknown = [name for name in given if name not in defaults]
     if unknown:
-        known = ", ".join(defaults) or "none at all"
-        raise SettingError(f"{owner}: unknown setting {unknown[0]!r}; it knows {known}")
+        known = ", ".join(defaults) or marked("engine", "none at all")
+        raise SettingError(
+            message("engine", "{owner}: unknown setting {unknown}; it knows {known}").fill(
+                owner=owner, unknown=repr(unknown[0]), known=known
+            )
+        )
     return {
         name: _typed(f"{owner}: setting {name}", default, given.get(name, default))
         for name, default in defaults.items()
@@ -38,8 +43,14 @@ def _typed(where: str, default: SettingValue, value: object) -> SettingValue:
         value = float(value)
     if type(value) is not wanted or not isinstance(value, (bool, int, float, str)):
         raise SettingError(
-            f"{where}: {value!r} is no {wanted.__name__}, like its default {default!r}"
+            message("engine", "{where}: {value} is no {name}, like its default {default}").fill(
+                where=where, value=repr(value), name=wanted.__name__, default=repr(default)
+            )
         )
     if isinstance(value, float) and not isfinite(value):
-        raise SettingError(f"{where}: {value} is not a finite number")
+        raise SettingError(
+            message("engine", "{where}: {value} is not a finite number").fill(
+                where=where, value=value
+            )
+        )
     return value

@@ -1,7 +1,16 @@
 """Errors that a user of the program can cause by a file or a request."""
 
 
-class InputError(ValueError):
+class ToldError(Exception):
+    """An error whose text is what it was raised with: a message keeps its template and fields."""
+
+    def __str__(self) -> str:
+        """Return the text itself, not a copy that would forget its template and fields."""
+        told = self.args[0] if len(self.args) == 1 else None
+        return told if isinstance(told, str) else super().__str__()
+
+
+class InputError(ToldError, ValueError):
     """A file or request that cannot be used.
 
     The message names what is wrong, where, the value, the bound and what to do. The command line

@@ -10,6 +10,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from rotemina.sim.messages import joined, marked, message
+
 _DEEPEST = 50  # tables and lists within each other; what we write has fewer than ten
 _DO_NOT_WAIT = getattr(os, "O_NONBLOCK", 0)  # for a pipe that nobody writes into
 _MOST_DIGITS = 15  # of a whole number: a float holds each of them exactly
@@ -40,17 +42,25 @@ def open_file(
         large, or may not be read.
     """
     name = fspath(path)
-    then = f"; {advice}" if advice else ""
+    then = joined(("", advice), "; ") if advice else ""
     try:
         _require_regular(Path(name).stat())  # before: opening some devices does something
         # It may have become another one in between, so that is looked at again.
         file = os.fdopen(_opened(name), "rb")
         size = os.fstat(file.fileno()).st_size
     except FileNotFoundError as cause:
-        raise error(f"{name}: it cannot be read (there is no such file){then}") from cause
+        raise error(
+            message("engine", "{name}: it cannot be read (there is no such file){then}").fill(
+                name=name, then=then
+            )
+        ) from cause
     except (OSError, ValueError) as cause:
-        reason = getattr(cause, "strerror", None) or cause
-        raise error(f"{name}: it cannot be read ({reason}){then}") from cause
+        reason = str(getattr(cause, "strerror", None) or cause)
+        raise error(
+            message("engine", "{name}: it cannot be read ({reason}){then}").fill(
+                name=name, reason=reason, then=then
+            )
+        ) from cause
     if most_bytes is not None and size > most_bytes:
         file.close()
         raise error(_too_large(name, most_bytes, then))
@@ -62,12 +72,16 @@ def read_bytes(
 ) -> bytes:
     """Return what a file holds; parameters and errors as of :func:`open_file`."""
     name = fspath(path)
-    then = f"; {advice}" if advice else ""
+    then = joined(("", advice), "; ") if advice else ""
     with open_file(path, error, most_bytes=most_bytes, advice=advice) as file:
         try:
             data = file.read(most_bytes + 1)
         except OSError as cause:
-            raise error(f"{name}: it cannot be read ({cause.strerror}){then}") from cause
+            raise error(
+                message("engine", "{name}: it cannot be read ({reason}){then}").fill(
+                    name=name, reason=str(cause.strerror), then=then
+                )
+            ) from cause
     if len(data) > most_bytes:  # it grew, or is one whose size the system does not tell
         raise error(_too_large(name, most_bytes, then))
     return data
@@ -81,7 +95,11 @@ def read_text(
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as cause:
-        raise error(f"{fspath(path)}: not UTF-8 text (byte {cause.start})") from cause
+        raise error(
+            message("engine", "{name}: not UTF-8 text (byte {start})").fill(
+                name=fspath(path), start=cause.start
+            )
+        ) from cause
 
 
 def parse_toml(text: str, source: str, error: Refusal) -> dict[str, Any]:
@@ -93,7 +111,11 @@ def parse_toml(text: str, source: str, error: Refusal) -> dict[str, Any]:
     except RecursionError as cause:
         raise error(_too_deep(source)) from cause
     except ValueError as cause:  # of TOML, and of a number of thousands of digits
-        raise error(f"{source}: not valid TOML: {cause}") from cause
+        raise error(
+            message("engine", "{source}: not valid TOML: {cause}").fill(
+                source=source, cause=str(cause)
+            )
+        ) from cause
     _check(table, source, error)
     return table
 
@@ -113,11 +135,19 @@ def parse_json(text: str | bytes, source: str, error: Refusal) -> Any:
     try:
         value = json.loads(text, parse_int=whole, parse_constant=refuse)
     except json.JSONDecodeError as cause:
-        raise error(f"{source}:{cause.lineno}: not valid JSON: {cause.msg}") from cause
+        raise error(
+            message("engine", "{source}:{lineno}: not valid JSON: {msg}").fill(
+                source=source, lineno=cause.lineno, msg=cause.msg
+            )
+        ) from cause
     except RecursionError as cause:
         raise error(_too_deep(source)) from cause
     except ValueError as cause:
-        raise error(f"{source}: not valid JSON: {cause}") from cause
+        raise error(
+            message("engine", "{source}: not valid JSON: {cause}").fill(
+                source=source, cause=str(cause)
+            )
+        ) from cause
     _check(value, source, error)
     return value
 
@@ -134,17 +164,22 @@ def _opened(name: str) -> int:
 
 def _require_regular(found: os.stat_result) -> None:
     if stat.S_ISDIR(found.st_mode):
-        raise OSError("it is a folder")
+        raise OSError(marked("engine", "it is a folder"))
     if not stat.S_ISREG(found.st_mode):
-        raise OSError("it is a pipe or a device and no file")
+        raise OSError(marked("engine", "it is a pipe or a device and no file"))
 
 
 def _too_large(name: str, most_bytes: int, then: str) -> str:
-    return f"{name}: larger than {most_bytes} bytes, so it is another kind of file{then}"
+    return message(
+        "engine", "{name}: larger than {most_bytes} bytes, so it is another kind of file{then}"
+    ).fill(name=name, most_bytes=most_bytes, then=then)
 
 
 def _too_deep(source: str) -> str:
-    return f"{source}: tables or lists are nested too deeply, more than {_DEEPEST} in each other"
+    return message(
+        "engine",
+        "{source}: tables or lists are nested too deeply, more than {deepest} in each other",
+    ).fill(source=source, deepest=_DEEPEST)
 
 
 def _check(value: object, source: str, error: Refusal) -> None:
@@ -158,7 +193,11 @@ def _check(value: object, source: str, error: Refusal) -> None:
             elif isinstance(one, list):
                 inner += one
             elif isinstance(one, int) and abs(one) >= _GREATEST:
-                raise error(f"{source}: a whole number of {len(str(one))} digits; 18 at most")
+                raise error(
+                    message(
+                        "engine", "{source}: a whole number of {count} digits; 18 at most"
+                    ).fill(source=source, count=len(str(one)))
+                )
         if not inner:
             return
         level = inner

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.plugin_import import import_fault
 
 #: The version of the interface that plugins of each group are written for. It grows when a plugin
@@ -38,12 +39,18 @@ def load(point: EntryPoint) -> Any:
     """
     fault = import_fault(point)
     if fault is not None:
-        raise PluginError(f"{point.value} is not imported: {fault}")
+        raise PluginError(
+            message("engine", "{value} is not imported: {fault}").fill(
+                value=point.value, fault=fault
+            )
+        )
     try:
         return point.load()
     except (Exception, SystemExit) as error:  # a plugin may raise anything, and must end nothing
         raise PluginError(
-            f"{point.value} cannot be imported: {type(error).__name__}: {error}"
+            message("engine", "{value} cannot be imported: {name}: {error}").fill(
+                value=point.value, name=type(error).__name__, error=str(error)
+            )
         ) from error
 
 
@@ -56,6 +63,9 @@ def require_version(point: EntryPoint, version: object, wanted: int | None) -> N
     """
     if version != wanted:
         raise PluginError(
-            f"{point.value} is made for version {version} of the interface, this program has "
-            f"version {wanted}: install a version of the plugin that is made for it"
+            message(
+                "engine",
+                "{value} is made for version {version} of the interface, this program has version "
+                "{wanted}: install a version of the plugin that is made for it",
+            ).fill(value=point.value, version=str(version), wanted=str(wanted))
         )

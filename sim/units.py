@@ -51,7 +51,13 @@ def canonical(unit: str) -> str:
         plain = plain.replace(sign, "u")
     if plain not in _QUANTITIES:
         known = " · ".join(" ".join(table) for table in _PER_SI.values())
-        raise UnitError(f"unknown unit {unit[:20]!r}; use one of {known}")
+        from rotemina.sim.messages import message  # it knows the units itself
+
+        raise UnitError(
+            message("engine", "unknown unit {unit}; use one of {known}").fill(
+                unit=repr(unit[:20]), known=known
+            )
+        )
     return plain
 
 
@@ -75,7 +81,13 @@ def units_of(si_unit: str) -> tuple[str, ...]:
         If ``si_unit`` is not ``"m"``, ``"rad"``, ``"V"`` or ``"s"``.
     """
     if si_unit not in _PER_SI:
-        raise UnitError(f"{si_unit!r} is no SI unit of a record; use one of {' '.join(_PER_SI)}")
+        from rotemina.sim.messages import message
+
+        raise UnitError(
+            message("engine", "{si_unit} is no SI unit of a record; use one of {names}").fill(
+                si_unit=repr(si_unit), names=" ".join(_PER_SI)
+            )
+        )
     return tuple(_PER_SI[si_unit])
 
 
@@ -92,16 +104,3 @@ def from_unit(values: FloatArray | float, unit: str) -> FloatArray:
 def to_unit(values: FloatArray | float, unit: str) -> FloatArray:
     """Convert values of any shape from SI to a unit."""
     return np.asarray(np.multiply(values, per_si(unit)), dtype=np.float64)
-
-
-# Smallest size (SI) from which each unit reads well, largest unit first.
-_READS_WELL = {
-    "m": (("mm", 1e-3), ("um", 1e-6), ("nm", 0.0)),
-    "rad": (("mrad", 0.1), ("urad", 0.0)),
-}
-
-
-def drawing_unit(si_unit: str, largest: float) -> str:
-    """Return the unit in which a signal of this size (SI) reads best."""
-    steps = _READS_WELL.get(si_unit, ())
-    return next((unit for unit, least in steps if largest >= least), si_unit)

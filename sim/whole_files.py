@@ -9,6 +9,7 @@ from typing import BinaryIO
 from uuid import uuid4
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 
 class FileWriteError(InputError):
@@ -29,9 +30,13 @@ def replaced(path: str | PathLike[str]) -> Iterator[BinaryIO]:
     draft = place.with_name(f".{place.name[:40]}.{uuid4().hex}.part")
     try:
         if place.is_dir():
-            raise FileWriteError(f"{name}: it is a folder; name a file in it")
+            raise FileWriteError(
+                message("engine", "{name}: it is a folder; name a file in it").fill(name=name)
+            )
         if place.exists() and not place.is_file():
-            raise FileWriteError(f"{name}: it is a device and no file; name a file")
+            raise FileWriteError(
+                message("engine", "{name}: it is a device and no file; name a file").fill(name=name)
+            )
         with draft.open("xb") as file:
             yield file
             file.flush()
@@ -39,8 +44,10 @@ def replaced(path: str | PathLike[str]) -> Iterator[BinaryIO]:
         draft.replace(place)
     except OSError as error:
         raise FileWriteError(
-            f"{name}: it cannot be written ({error.strerror or error}); "
-            "choose another folder or make room"
+            message(
+                "engine",
+                "{name}: it cannot be written ({reason}); choose another folder or make room",
+            ).fill(name=name, reason=str(error.strerror or error))
         ) from error
     finally:
         with suppress(OSError):  # such as a folder in its way that is a file

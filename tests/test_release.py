@@ -62,6 +62,7 @@ def command(archives):
 
 
 @pytest.mark.slow
+@pytest.mark.xdist_group("release")  # one wheel for all
 @pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
 def test_the_source_archive_holds_what_a_wheel_is_made_of(archives):
     (archive,) = archives.glob("*.tar.gz")
@@ -71,6 +72,7 @@ def test_the_source_archive_holds_what_a_wheel_is_made_of(archives):
 
 
 @pytest.mark.slow
+@pytest.mark.xdist_group("release")  # one wheel for all
 @pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
 def test_the_wheel_carries_every_page_and_the_pictures_in_them(archives):
     (wheel,) = archives.glob("*.whl")
@@ -83,6 +85,7 @@ def test_the_wheel_carries_every_page_and_the_pictures_in_them(archives):
 
 
 @pytest.mark.slow
+@pytest.mark.xdist_group("release")  # one wheel for all
 @pytest.mark.skipif(find_spec("build") is None, reason="build comes with the extra 'test'")
 def test_the_wheel_runs_from_another_folder(command, tmp_path):
     def answer(*words):

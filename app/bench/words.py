@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from rotemina.app.bench.result import LARGEST_SET, LONGEST_S, MOST_OVER, NamedCause, Result
-from rotemina.sim.gap.report.quantities import amount
+from rotemina.sim.quantities import NOTHING, amount, percent
 
 _HEADER = (
     "machine",
@@ -70,7 +70,7 @@ def _cells(result: Result) -> tuple[str, ...]:
         return (name, "–", "–", "–", "–", "–", "–", f"not run: {result.not_run}")
     first = _effect(result.causes[0]) if result.causes else "none"
     sets = ", ".join(map(_set, result.causes)) or "no cause"
-    closed = "–" if result.closed is None else f"{100.0 * result.closed:.1f} %"
+    closed = percent(result.closed)
     return (
         name,
         first,
@@ -93,9 +93,9 @@ def _set(cause: NamedCause) -> str:
 
 def _figure(result: Result, value: float | None) -> str:
     if value is None:
-        return "–"
+        return NOTHING
     if result.is_relative:
-        return f"{100.0 * value:.2g} %"
+        return percent(value, 2)
     return amount(value, result.unit)
 
 

@@ -81,6 +81,11 @@ class HiddenMachine(Simulator):
         """None that anybody is told of."""
         return ()
 
+    @property
+    def effects_text(self) -> str:
+        """What records say of them."""
+        return "hidden"
+
     def _set_effects(self, effects: tuple[AxisEffect, ...], permit: Permit) -> None:
         raise StateError("the machine is hidden, and stays as it is: reveal it first")
 

@@ -19,6 +19,8 @@ from rotemina.sim.identification.model import Orders
 from rotemina.sim.identification.natural_modes import natural_modes
 from rotemina.sim.identification.output_error import identify_oe
 from rotemina.sim.identification.signals import signals_of
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record, Tap
 
 PROBABILITY = 0.95
@@ -52,7 +54,11 @@ def card_of(record: Record, axis: str) -> tuple[Figure, ...]:
     """
     for tap in (Tap.CMD, Tap.MEAS):
         if not record.has(axis, tap):
-            raise IdentificationError(f"health card: the record has no {axis}.{tap}")
+            raise IdentificationError(
+                message("engine", "health card: the record has no {axis}.{tap}").fill(
+                    axis=axis, tap=tap
+                )
+            )
     looks: tuple[Callable[[Record, str], list[Figure]], ...] = (_model, _loop, _holds)
     found: list[Figure] = []
     reasons = []
@@ -63,7 +69,9 @@ def card_of(record: Record, axis: str) -> tuple[Figure, ...]:
             reasons.append(str(error))
     if not found:
         raise IdentificationError(
-            f"health card: the record tells no figure of {axis}: {'; '.join(reasons)}"
+            message("engine", "health card: the record tells no figure of {axis}: {names}").fill(
+                axis=axis, names="; ".join(reasons)
+            )
         )
     return tuple(found)
 
@@ -86,7 +94,11 @@ def _model(record: Record, axis: str) -> list[Figure]:
     signals = signals_of(part, [(axis, Tap.CMD)], [(axis, Tap.MEAS)])
     model = identify_oe(signals, Orders(2, 2, _LAG_ROWS))
     if model.fit_percent < _GOOD_FIT:
-        raise IdentificationError(f"a model of second order fits {model.fit_percent:.0f} % alone")
+        raise IdentificationError(
+            message("engine", "a model of second order fits {fit_percent} % alone").fill(
+                fit_percent=fixed(model.fit_percent, 0)
+            )
+        )
     gain = model.transfer_function.static_gain
     figures = [Figure("gain", gain, _NORMAL * model.static_gain_deviation, "1")]
     for mode in natural_modes(model)[:1]:
@@ -108,7 +120,9 @@ def _holds(record: Record, axis: str) -> list[Figure]:
     command, reading = record.signal(axis, Tap.CMD), record.signal(axis, Tap.MEAS)
     holds = find_holds(record.time_s, command)
     if not len(holds):
-        raise IdentificationError(f"{axis}.cmd rests nowhere after a move")
+        raise IdentificationError(
+            message("engine", "{axis}.cmd rests nowhere after a move").fill(axis=axis)
+        )
     unit = record.units[axis]
     ends: dict[tuple[float, bool], list[float]] = {}
     noises, settled = [], []

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from rotemina.sim.calibration.calibrating import Figure
 from rotemina.sim.errors import InputError
 from rotemina.sim.input_files import parse_json, read_bytes
+from rotemina.sim.messages import message
 from rotemina.sim.whole_files import FileWriteError
 
 FOLDER = "health"
@@ -89,7 +90,9 @@ class HealthBook:
                 file.write(line + "\n")
         except OSError as error:
             raise FileWriteError(
-                f"{path}: the card cannot be kept ({error.strerror}); make room"
+                message("engine", "{path}: the card cannot be kept ({strerror}); make room").fill(
+                    path=path, strerror=str(error.strerror)
+                )
             ) from error
 
 

@@ -12,12 +12,14 @@ from rotemina.app.motion.state import Connection, Event, PlaybackFinished, State
 from rotemina.app.motion.stop_request import PROGRAM
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import Samples
+from rotemina.sim.messages import marked, message
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 
-NO_LASER = (
+NO_LASER = marked(
+    "engine",
     "the device tells no laser's readings; record the laser with its own program, play the motion "
-    "from its file, and fit both records (rotemina calibrate fit --laser)"
+    "from its file, and fit both records (rotemina calibrate fit --laser)",
 )
 
 
@@ -91,19 +93,19 @@ class CalibrationRun:
         permit = self._session.permit() if permit is None else permit
         with self._lock:
             if self._state.phase is not Phase.IDLE:
-                raise RefusedError("this run was begun before; plan another one")
+                raise RefusedError(message("engine", "this run was begun before; plan another one"))
             self._state = RunState(Phase.MOVING)
         self._session.corrections.pause(self._axis)
         try:
             self._session.play(self._motion, permit=permit)
         except Exception:
-            self._end(Phase.FAILED, "the motion was refused")
+            self._end(Phase.FAILED, marked("engine", "the motion was refused"))
             raise
 
     def stop(self, *, by: str = PROGRAM) -> None:
         """Stop the machine, and give the run up; ``by`` as of :meth:`MotionSession.stop`."""
-        self._session.stop("the calibration is given up", by=by)
-        self._end(Phase.FAILED, "stopped; nothing of it is kept")
+        self._session.stop(message("engine", "the calibration is given up"), by=by)
+        self._end(Phase.FAILED, marked("engine", "stopped; nothing of it is kept"))
 
     def close(self) -> None:
         """Have nothing more to do with the session; a run that moves is stopped."""
@@ -128,7 +130,9 @@ class CalibrationRun:
             Connection.FAILED,
             Connection.DISCONNECTED,
         ):
-            self._end(Phase.FAILED, "the connection was lost; nothing of it is kept")
+            self._end(
+                Phase.FAILED, marked("engine", "the connection was lost; nothing of it is kept")
+            )
 
     def _finish(self, completed: bool) -> None:
         with self._lock:
@@ -139,7 +143,9 @@ class CalibrationRun:
         if self._record is not None:
             self._end(Phase.DONE, "")
         else:
-            self._end(Phase.FAILED, "the motion ended early; nothing of it is kept")
+            self._end(
+                Phase.FAILED, marked("engine", "the motion ended early; nothing of it is kept")
+            )
 
     def _end(self, phase: Phase, message: str) -> None:
         with self._lock:

@@ -12,6 +12,7 @@ from rotemina.app.calibration.files import FORMAT, CalibrationFile
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
 from rotemina.sim.calibration.errors import CalibrationError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
 FOLDER, IN_USE = "calibrations", "in-use.toml"
@@ -80,11 +81,20 @@ class CalibrationStore:
         axis = self._robot.axes.get(found.axis)
         if found.robot != self._robot.name or axis is None:
             raise CalibrationError(
-                f"{path}: it is of axis {found.axis} of robot {found.robot!r}, not of "
-                f"{self._robot.name!r}; calibrate this one"
+                message(
+                    "engine",
+                    "{path}: it is of axis {axis} of robot {robot}, not of {name}; calibrate this "
+                    "one",
+                ).fill(
+                    path=path, axis=found.axis, robot=repr(found.robot), name=repr(self._robot.name)
+                )
             )
         if found.unit != (self._robot.unit(found.axis) or "m"):
-            raise CalibrationError(f"{path}: unit = {found.unit!r}: axis {found.axis} has another")
+            raise CalibrationError(
+                message("engine", "{path}: unit = {unit}: axis {axis} has another").fill(
+                    path=path, unit=repr(found.unit), axis=found.axis
+                )
+            )
         return found
 
     def save(self, calibration: CalibrationFile) -> Path:

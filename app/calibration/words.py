@@ -7,38 +7,36 @@ import numpy as np
 
 from rotemina.sim.calibration.calibrating import Calibration, Figure
 from rotemina.sim.calibration.iso230 import Positioning
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.messages import marked
+from rotemina.sim.quantities import NOTHING, amount, exact, rounded
 
 ISO = {
-    "accuracy": "A, accuracy",
-    "repeatability": "R, repeatability",
+    "accuracy": marked("engine", "A, accuracy"),
+    "repeatability": marked("engine", "R, repeatability"),
     "repeatability_up": "R↑",
     "repeatability_down": "R↓",
-    "reversal": "B, reversal value",
-    "mean_reversal": "B̄, mean reversal",
-    "systematic": "E, systematic deviation",
-    "mean_bidirectional": "M, mean bidirectional",
+    "reversal": marked("engine", "B, reversal value"),
+    "mean_reversal": marked("engine", "B̄, mean reversal"),
+    "systematic": marked("engine", "E, systematic deviation"),
+    "mean_bidirectional": marked("engine", "M, mean bidirectional"),
 }
-ISO_HEAD = ("ISO 230-2", "reading before", "after", "where it went")
+_LEAST_SHARE = 1e-3  # in %; below, in ppm
+ISO_HEAD = ("ISO 230-2", "reading before", "after", "position reached")
 
 
-def amount(value: float, unit: str, *, scale: float | None = None, digits: int = 4) -> str:
-    """Return a value with a unit that reads well, to so many digits."""
-    if unit == "1":
-        return (
-            f"{1e6 * value:.{digits}g} ppm"
-            if abs(scale or value) < 1e-3
-            else f"{100 * value:.{digits}g} %"
-        )
-    if unit == "s":
-        return f"{1e3 * value:.{digits}g} ms"
-    return readable(float(f"{value:.{digits}g}"), unit, scale=scale)
+def figure_text(value: float, unit: str, *, size: float | None = None, digits: int = 4) -> str:
+    """Return a figure with the unit that suits it; a relative one in % or ppm."""
+    if unit != "1":
+        return amount(value, unit, size=size, digits=digits)
+    if abs(size or value) < _LEAST_SHARE:
+        return f"{rounded(1e6 * value, digits)} ppm"
+    return f"{rounded(100.0 * value, digits)} %"
 
 
 def _like(value: float, figure: Figure, digits: int = 4) -> str:
     """Return a value in the unit that suits the figure or its interval, whichever is larger."""
     sizes = [abs(each) for each in (figure.value, figure.half_width) if np.isfinite(each)]
-    return amount(value, figure.unit, scale=max(sizes), digits=digits)
+    return figure_text(value, figure.unit, size=max(sizes), digits=digits)
 
 
 def figure_rows(figures: Iterable[Figure]) -> tuple[tuple[str, str, str], ...]:
@@ -47,7 +45,7 @@ def figure_rows(figures: Iterable[Figure]) -> tuple[tuple[str, str, str], ...]:
         (
             each.name,
             _like(each.value, each),
-            f"± {_like(each.half_width, each, 2)}" if np.isfinite(each.half_width) else "–",
+            f"± {_like(each.half_width, each, 2)}" if np.isfinite(each.half_width) else NOTHING,
         )
         for each in figures
     )
@@ -61,7 +59,10 @@ def iso_rows(
     if all(each is None for each in columns):
         return ()
     return tuple(
-        (title, *("–" if each is None else amount(getattr(each, name), unit) for each in columns))
+        (
+            title,
+            *(NOTHING if each is None else amount(getattr(each, name), unit) for each in columns),
+        )
         for name, title in ISO.items()
     )
 
@@ -69,15 +70,12 @@ def iso_rows(
 def summary(calibration: Calibration) -> str:
     """Return all of a calibration as lines of text."""
     unit = calibration.unit
-    low, high = (readable(each, unit, scale=calibration.travel[1]) for each in calibration.travel)
+    low, high = (exact(each, unit, size=calibration.travel[1]) for each in calibration.travel)
     lines = [f"axis {calibration.axis}: {calibration.runs} runs from {low} to {high}"]
     lines += [
         f"  {name:24}{value:>16} {half}" for name, value, half in figure_rows(calibration.figures)
     ]
-    before, after = (
-        readable(float(f"{rms:.4g}"), unit)
-        for rms in (calibration.before_rms, calibration.after_rms)
-    )
+    before, after = (amount(rms, unit) for rms in (calibration.before_rms, calibration.after_rms))
     lines.append(f"  error at held-out runs, rms: {before} before, {after} after")
     rows = iso_rows(
         calibration.reading_before, calibration.reading_after, calibration.reached, unit

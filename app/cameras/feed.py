@@ -14,6 +14,8 @@ from rotemina.drivers.cameras.frame import Frame
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, Trigger
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError, StateError
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import fixed, rounded
 
 _LOG = logging.getLogger(__name__)
 
@@ -29,7 +31,7 @@ class FeedState(StrEnum):
     CLOSED = "closed"
     OPENING = "opening"
     LIVE = "live"
-    WAITING = "waiting for a trigger"
+    WAITING = marked("engine", "waiting for a trigger")
     STALLED = "stalled"
     FROZEN = "frozen"
     BLACK = "black"
@@ -105,7 +107,9 @@ class CameraFeed:
             longest_s = max(longest_s, 3.0 / latest.rate_hz)
         if age_s <= longest_s:
             return replace(latest, age_s=age_s)
-        reason = f"no picture for {age_s:.1f} s; check the camera and its cable, or open it again"
+        reason = message(
+            "engine", "no picture for {seconds} s; check the camera and its cable, or open it again"
+        ).fill(seconds=fixed(age_s, 1))
         return replace(latest, age_s=age_s, state=FeedState.STALLED, reason=reason)
 
     @property
@@ -122,7 +126,11 @@ class CameraFeed:
             If it runs already, or its thread still waits for a camera that does not answer.
         """
         if self._thread is not None and self._thread.is_alive():
-            raise StateError(f"{self.camera.name}: its thread is still running; close it first")
+            raise StateError(
+                message("engine", "{name}: its thread is still running; close it first").fill(
+                    name=self.camera.name
+                )
+            )
         with self._lock:
             self._wanted = settings
             self._triggers = 0
@@ -234,13 +242,16 @@ class CameraFeed:
             state = FeedState.WAITING
         elif picture_state is PictureState.FROZEN:
             state = FeedState.FROZEN
-            reason = (
-                f"every picture has been the same for more than {FROZEN_S:g} s; open it again, and "
-                "do not trust what it shows"
-            )
+            reason = message(
+                "engine",
+                "every picture has been the same for more than {seconds} s; open it "
+                "again, and do not trust what it shows",
+            ).fill(seconds=rounded(FROZEN_S, 6))
         if picture_state is PictureState.BLACK:
             state = FeedState.BLACK
-            reason = "the picture is black; check lamp, shutter, lens cap and exposure"
+            reason = message(
+                "engine", "the picture is black; check lamp, shutter, lens cap and exposure"
+            )
         self._publish(frame=frame, rate_hz=rate_hz, state=state, reason=reason)
         with self._lock:
             listeners = self._listeners

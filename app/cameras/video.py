@@ -11,6 +11,7 @@ from types import MappingProxyType
 from rotemina.app.cameras.video_file import Opener, VideoFile, new_file
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 _LOG = logging.getLogger(__name__)
 
@@ -98,10 +99,16 @@ class Video:
             self._file = VideoFile(path, facts, pixel_m, opener)
         except OSError as error:
             if path.exists():
-                raise VideoError(f"{path}: it is there already; record to another name") from error
+                raise VideoError(
+                    message("engine", "{path}: it is there already; record to another name").fill(
+                        path=path
+                    )
+                ) from error
             raise VideoError(
-                f"{path}: cannot be written ({error.strerror or error}); make room, or choose "
-                "another folder"
+                message(
+                    "engine",
+                    "{path}: cannot be written ({reason}); make room, or choose another folder",
+                ).fill(path=path, reason=str(error.strerror or error))
             ) from error
         self._thread = threading.Thread(target=self._run, name="video", daemon=True)
 
@@ -142,8 +149,11 @@ class Video:
             self._thread.join(timeout_s)
         if self._thread.is_alive():
             raise VideoError(
-                f"{self.path}: the disk has not taken the last pictures within {timeout_s:g} s; "
-                f"{self._status.pictures} pictures are kept"
+                message(
+                    "engine",
+                    "{path}: the disk has not taken the last pictures within {timeout_s} s; "
+                    "{pictures} pictures are kept",
+                ).fill(path=self.path, timeout_s=timeout_s, pictures=self._status.pictures)
             )
         self._file.close()
         return self._status
@@ -194,10 +204,11 @@ class Video:
     def _fail(self, error: Exception) -> None:
         why = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
         kept = self._status.pictures
-        failure = (
-            f"{self.path}: the video has ended ({why}); {kept} pictures are kept. Make room, or "
-            "choose another folder, and begin another one"
-        )
+        failure = message(
+            "engine",
+            "{path}: the video has ended ({why}); {kept} pictures are kept. Make room, or choose "
+            "another folder, and begin another one",
+        ).fill(path=self.path, why=why, kept=kept)
         _LOG.warning(failure)
         with self._changed:
             self._status = replace(self._status, failure=failure)
@@ -210,9 +221,12 @@ class Video:
         if self._status.dropped and not self._told_dropped:
             self._told_dropped = True
             self._tell(
-                f"{self.path.name}: the video leaves pictures out: the disk is too slow, or the "
-                "camera's settings were changed. Use a smaller region, fewer pictures a second, or "
-                "another disk; begin another video after a change of settings"
+                message(
+                    "engine",
+                    "{name}: the video leaves pictures out: the disk is too slow, or the camera's "
+                    "settings were changed. Use a smaller region, fewer pictures a second, or "
+                    "another disk; begin another video after a change of settings",
+                ).fill(name=self.path.name)
             )
 
 

@@ -22,6 +22,7 @@ from rotemina.drivers.mc68hc11.budget import BAUDS
 from rotemina.drivers.virtual_board.boards import VirtualBoards
 from rotemina.drivers.virtual_board.faults import FaultCommandError, RandomFaults, inject
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
 _WAKE_S, _SLEEP_S = 1e-3, 20e-3  # at least so long, and at most, between two looks
@@ -56,6 +57,10 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "--baud", type=int, default=BAUDS[0], metavar="N",
         help=f"of the lines: {' or '.join(map(str, BAUDS))} (default: {BAUDS[0]})",
     )  # fmt: skip
+    parser.add_argument(
+        "--clock", type=int, choices=(2, 4), default=4,
+        help="MHz, E of the boards' chips: half of it has half the rates (default: 4)",
+    )  # fmt: skip
     parser.add_argument("--unpaced", action="store_true", help="let bytes take no time")
     parser.add_argument(
         "--seed", type=int, default=0, metavar="N", help="of noise and faults (default: 0)"
@@ -74,9 +79,13 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 def run(options: argparse.Namespace) -> int:
     """Serve until told to end."""
     if options.seed < 0:
-        raise InputError(f"--seed {options.seed}: must be 0 or more")
+        raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
     if not 0.0 <= options.mishaps <= 1000.0:
-        raise InputError(f"--mishaps {options.mishaps:g}: must be from 0 to 1000 a second")
+        raise InputError(
+            message("cli", "--mishaps {mishaps}: must be from 0 to 1000 a second").fill(
+                mishaps=options.mishaps
+            )
+        )
     robot = robot_of(options)
     count = _count_of_ports(options, len(board_axes(robot)))
     boards = _boards(options, robot, count)
@@ -104,17 +113,24 @@ def _boards(options: argparse.Namespace, robot: Robot, count: Literal[1, 2]) -> 
         paced=not options.unpaced,
         seed=options.seed,
         position_known=options.position_known,
+        tick_s=2e-3 / options.clock,
     )
 
 
 def _count_of_ports(options: argparse.Namespace, boards: int) -> Literal[1, 2]:
     asked = len(options.port) + len(options.tcp)
     if asked > _MOST_PORTS:
-        raise InputError(f"{asked} ports: two boards have {_MOST_PORTS} at most")
+        raise InputError(
+            message("cli", "{asked} ports: two boards have {most_ports} at most").fill(
+                asked=asked, most_ports=_MOST_PORTS
+            )
+        )
     if options.bus and asked == _MOST_PORTS:
-        raise InputError("--bus: it is one line; name one port only")
+        raise InputError(message("cli", "--bus: it is one line; name one port only"))
     if options.bus and boards == 1:
-        raise InputError("--bus: the robot's axes take one board, which shares no line")
+        raise InputError(
+            message("cli", "--bus: the robot's axes take one board, which shares no line")
+        )
     one = options.bus or asked == 1 or (not asked and boards == 1)
     return 1 if one else 2
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Protocol
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 _PIECE = 4096
 _MOST_WAITING = 1 << 16  # bytes that a host does not read
@@ -54,7 +55,9 @@ class PseudoTerminal:
             self._own, self._host = os.openpty()
         except (ImportError, AttributeError, OSError) as error:
             raise InputError(
-                f"this system has no pseudo-terminals ({error}); use --tcp 127.0.0.1:0"
+                message(
+                    "cli", "this system has no pseudo-terminals ({error}); use --tcp 127.0.0.1:0"
+                ).fill(error=str(error))
             ) from error
         tty.setraw(self._host)  # held open: the device stays raw when a host leaves
         os.set_blocking(self._own, False)
@@ -123,7 +126,11 @@ class Socket:
             self._listener.listen(1)
         except OSError as error:
             self._listener.close()
-            raise InputError(f"--tcp {address}: cannot listen there: {error}") from error
+            raise InputError(
+                message("cli", "--tcp {address}: cannot listen there: {error}").fill(
+                    address=address, error=str(error)
+                )
+            ) from error
         self._listener.setblocking(False)
         self._tell = tell
         self._client: socket.socket | None = None
@@ -208,11 +215,18 @@ def _loopback(address: str) -> tuple[str, int]:
         own = False
     if not own:
         raise InputError(
-            f"--tcp {address}: {host or 'no host'!r} is not this machine's own loop; anybody who "
-            "reaches a board can move it: use 127.0.0.1:PORT"
+            message(
+                "cli",
+                "--tcp {address}: {value} is not this machine's own loop; anybody who reaches a "
+                "board can move it: use 127.0.0.1:PORT",
+            ).fill(address=address, value=repr(host or "no host"))
         )
     if not (colon and port.isascii() and port.isdigit() and int(port) <= 65535):
-        raise InputError(f"--tcp {address}: the port must be a number from 0 (any) to 65535")
+        raise InputError(
+            message("cli", "--tcp {address}: the port must be a number from 0 (any) to 65535").fill(
+                address=address
+            )
+        )
     return host, int(port)
 
 
@@ -225,10 +239,18 @@ def _make_link(link: Path, device: str) -> None:
         link.symlink_to(device)
     except FileExistsError as error:
         raise InputError(
-            f"--port {link}: there is something of this name already; remove it, or take another"
+            message(
+                "cli",
+                "--port {link}: there is something of this name already; remove it, or take "
+                "another",
+            ).fill(link=link)
         ) from error
     except OSError as error:
-        raise InputError(f"--port {link}: cannot make a link there: {error}") from error
+        raise InputError(
+            message("cli", "--port {link}: cannot make a link there: {error}").fill(
+                link=link, error=str(error)
+            )
+        ) from error
 
 
 def _leads_to(link: Path) -> str | None:

@@ -18,6 +18,7 @@ from rotemina.sim.calibration.errors import CalibrationError
 from rotemina.sim.calibration.joining import joined
 from rotemina.sim.calibration.parts import compared
 from rotemina.sim.calibration.plan import RATE_HZ, RUNS, TARGETS, calibration_motion
+from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
@@ -147,7 +148,9 @@ def _fit(options: argparse.Namespace) -> int:
     if options.laser:
         if len(options.laser) != len(records):
             raise CalibrationError(
-                f"--laser: {len(options.laser)} files for {len(records)} records; give one each"
+                message("cli", "--laser: {count} files for {records} records; give one each").fill(
+                    count=len(options.laser), records=len(records)
+                )
             )
         lasers = [read_record(path, robot=robot) for path in options.laser]
         records = [

@@ -3,13 +3,19 @@
 import argparse
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.app.files import json_text
-from rotemina.sim.comparison.comparison import FITTABLE, compare
+from rotemina.sim.comparison.comparison import FITTABLE, Comparison, compare
 from rotemina.sim.comparison.figure import draw_figure, format_of
-from rotemina.sim.comparison.table import table
+from rotemina.sim.comparison.runs import compare_runs
+from rotemina.sim.comparison.table import runs_table, table
+from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
+from rotemina.sim.records.record import Record
+from rotemina.sim.robot.model import Robot
 from rotemina.sim.whole_files import replaced
 
 
@@ -19,9 +25,17 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "compare",
         help="compare the model with a record of the real machine",
         description="Simulate the nominal model over a record's commands and say, for every "
-        "measured tap (u, ref, meas), how far the real machine is from it.",
+        "measured tap (u, ref, meas), how far the real machine is from it. With --with, say how "
+        "far two runs of the machine are apart.",
     )
     parser.add_argument("record", type=Path, metavar="RECORD", help="a record file (.csv, .gz)")
+    parser.add_argument(
+        "--with",
+        type=Path,
+        dest="other",
+        metavar="RECORD",
+        help="compare with this run of the machine instead of the model",
+    )
     add_robot(parser)
     add_columns(parser)
     parser.add_argument(
@@ -40,14 +54,29 @@ def run(options: argparse.Namespace) -> int:
     """Compare, print a table, and write what was asked for."""
     robot = robot_of(options)
     record = read_record(options.record, columns=options.columns, robot=robot)
-    comparison = compare(robot, record, fit=options.fit)
+    comparison, found, text = _compared(options, robot, record)
     # Both files appear together or neither: a failure at one leaves the other's place alone.
     with ExitStack() as files:
         if options.plot is not None:
             picture_format = format_of(options.plot)
             draw_figure(comparison, files.enter_context(replaced(options.plot)), picture_format)
         if options.json not in (None, "-"):
-            text = json_text(comparison.as_json())
-            files.enter_context(replaced(options.json)).write(text.encode("utf-8"))
-    print(json_text(comparison.as_json()) if options.json == "-" else table(comparison))
+            files.enter_context(replaced(options.json)).write(json_text(found).encode("utf-8"))
+    print(json_text(found) if options.json == "-" else text)
     return 0
+
+
+def _compared(
+    options: argparse.Namespace, robot: Robot, record: Record
+) -> tuple[Comparison, dict[str, Any], str]:
+    """Return the comparison, with the model or another run, as JSON and as text too."""
+    if options.other is None:
+        comparison = compare(robot, record, fit=options.fit)
+        return comparison, comparison.as_json(), table(comparison)
+    if options.fit:
+        raise InputError(
+            message("cli", "--fit: it re-fits the model, which --with leaves out; use one of them")
+        )
+    other = read_record(options.other, columns=options.columns, robot=robot)
+    runs = compare_runs(robot, record, other)
+    return runs.comparison, runs.as_json(), runs_table(runs)

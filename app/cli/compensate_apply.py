@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
@@ -38,7 +39,11 @@ def run(options: argparse.Namespace) -> int:
 
     for path in (options.inverse, options.trajectory):
         if options.output.absolute() == path.absolute():
-            raise InputError(f"{path}: it is named twice; give the output a name of its own")
+            raise InputError(
+                message("cli", "{path}: it is named twice; give the output a name of its own").fill(
+                    path=path
+                )
+            )
     robot = robot_of(options)
     inverse = named_inverse(options.inverse, robot)
     trajectory = read_record(options.trajectory, columns=options.columns, robot=robot)

@@ -10,6 +10,7 @@ from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.progress import Progress
+from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 
 
@@ -40,8 +41,11 @@ def run(options: argparse.Namespace) -> int:
     trained, provenance = read_trained(options.inverse)
     if provenance.robot != robot.name:
         raise InputError(
-            f"{options.inverse}: it was trained for robot {provenance.robot!r}, not for "
-            f"{robot.name!r}; name that one by --robot"
+            message(
+                "cli",
+                "{inverse}: it was trained for robot {robot}, not for {name}; name that one by "
+                "--robot",
+            ).fill(inverse=options.inverse, robot=repr(provenance.robot), name=repr(robot.name))
         )
     model = trained.models[trained.chosen]
     records = [read_record(p, columns=options.columns, robot=robot) for p in options.records]
@@ -60,5 +64,5 @@ def run(options: argparse.Namespace) -> int:
         write_text(Path(options.json), figures)
     print(figures if options.json == "-" else table(model, residuals))
     if options.json != "-":
-        print(f"recommended when it was trained: {trained.why}.")
+        print(f"recommended when it was trained: {trained.why}")
     return 0

@@ -15,6 +15,7 @@ from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.progress import Progress
 from rotemina.sim.input_files import open_file
+from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import PiezoAxis, Robot
@@ -103,26 +104,38 @@ def run(options: argparse.Namespace) -> int:
     print(table(trained.models[trained.chosen], trained.residuals))
     for remark in trained.remarks:
         print(f"rotemina: {remark}", file=sys.stderr)
-    print(f"recommended: {trained.why}.\n{options.output}: {len(trained.models)} inverses")
+    print(f"recommended: {trained.why}\n{options.output}: {len(trained.models)} inverses")
     return 0
 
 
 def _check(options: argparse.Namespace) -> None:
     if options.simulate and (options.records or options.held_out):
-        raise InputError("--simulate takes no records; leave out one or the other")
+        raise InputError(message("cli", "--simulate takes no records; leave out one or the other"))
     if not options.simulate and not options.records:
-        raise InputError("no record is named; name one, or let the simulator move: --simulate")
+        raise InputError(
+            message("cli", "no record is named; name one, or let the simulator move: --simulate")
+        )
     if not options.simulate and (options.effects is not None or options.seed is not None):
-        raise InputError("--effects and --seed belong to --simulate; leave them out, or add it")
+        raise InputError(
+            message("cli", "--effects and --seed belong to --simulate; leave them out, or add it")
+        )
     if options.simulate and options.axis is None:
-        raise InputError("--simulate needs --axis NAME")
+        raise InputError(message("cli", "--simulate needs --axis NAME"))
     if options.seed is not None and options.seed < 0:
-        raise InputError(f"--seed {options.seed}: must be 0 or more")
+        raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
     if not options.output.parent.is_dir():  # told before the work, not after it
-        raise InputError(f"{options.output}: there is no folder {options.output.parent}; make it")
+        raise InputError(
+            message("cli", "{output}: there is no folder {parent}; make it").fill(
+                output=options.output, parent=options.output.parent
+            )
+        )
     for path in (*options.records, *options.held_out):
         if path.absolute() == options.output.absolute():
-            raise InputError(f"{path}: it is named twice; give each file a name of its own")
+            raise InputError(
+                message("cli", "{path}: it is named twice; give each file a name of its own").fill(
+                    path=path
+                )
+            )
 
 
 def _recorded(options: argparse.Namespace, robot: Robot) -> tuple[list["Samples"], list["Samples"]]:
@@ -145,7 +158,11 @@ def _is_piezo(robot: Robot, name: str) -> bool:
 def _only(names: Sequence[str], path: Path) -> str:
     if len(names) != 1:
         found = ", ".join(names) or "none"
-        raise InputError(f"{path}: its piezo axes are {found}; name one by --axis")
+        raise InputError(
+            message("cli", "{path}: its piezo axes are {found}; name one by --axis").fill(
+                path=path, found=found
+            )
+        )
     return names[0]
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.app.display import speed_changes
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.resampling import resample
@@ -46,7 +47,11 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 def run(options: argparse.Namespace) -> int:
     """Convert one file, and say what resampling does to the speeds."""
     if options.output.exists() and options.output.samefile(options.source):
-        raise InputError(f"{options.output}: it is the file that is read; name another by -o")
+        raise InputError(
+            message("cli", "{output}: it is the file that is read; name another by -o").fill(
+                output=options.output
+            )
+        )
     record = read_record(options.source, columns=options.columns, robot=robot_of(options))
     if options.resample is not None:
         converted = resample(record, options.resample, options.method)
@@ -67,5 +72,9 @@ def _axis_units(record: Record, names: list[str]) -> dict[str, str]:
     chosen = {quantity(name): canonical(name) for name in names}
     for kind in chosen:
         if kind not in ("m", "rad"):
-            raise InputError(f"--units {chosen[kind]}: a position's unit is a length or an angle")
+            raise InputError(
+                message("cli", "--units {chosen}: a position's unit is a length or an angle").fill(
+                    chosen=chosen[kind]
+                )
+            )
     return {axis: chosen[unit] for axis, unit in record.units.items() if unit in chosen}

@@ -11,6 +11,7 @@ from rotemina.drivers.conformance.suite import checks_named, run_checks
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.registry import discover_drivers, driver_named
 from rotemina.drivers.settings import SettingError, SettingValue
+from rotemina.sim.messages import message
 
 _FAILED = 1
 _SWITCH = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
@@ -117,10 +118,16 @@ def _settings(driver: type[Driver], given: Iterable[str]) -> dict[str, SettingVa
     for text in given:
         name, equals, value = text.partition("=")
         if not equals:
-            raise SettingError(f"--set {text!r}: must be KEY=VALUE")
+            raise SettingError(
+                message("cli", "--set {text}: must be KEY=VALUE").fill(text=repr(text))
+            )
         if name not in driver.default_settings:
             known = ", ".join(driver.default_settings) or "none at all"
-            raise SettingError(f"{driver.name}: unknown setting {name!r}; it knows {known}")
+            raise SettingError(
+                message("cli", "{name}: unknown setting {setting}; it knows {known}").fill(
+                    name=driver.name, setting=repr(name), known=known
+                )
+            )
         settings[name] = _typed(name, value, driver.default_settings[name])
     return settings
 
@@ -132,4 +139,8 @@ def _typed(name: str, value: str, default: SettingValue) -> SettingValue:
         return type(default)(value)
     except (KeyError, ValueError) as error:
         kind = "true or false" if isinstance(default, bool) else type(default).__name__
-        raise SettingError(f"--set {name}={value}: must be {kind}") from error
+        raise SettingError(
+            message("cli", "--set {name}={value}: must be {kind}").fill(
+                name=name, value=value, kind=kind
+            )
+        ) from error

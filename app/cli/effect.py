@@ -9,6 +9,7 @@ from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import Effect, Formulation, Parameter
 from rotemina.sim.effects.registry import all_effects, effect_ids, effect_named
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.simulation.check import Check, Report
 from rotemina.sim.simulation.effect_check import check_effect
@@ -103,7 +104,11 @@ def _check(options: argparse.Namespace) -> int:
     known = effect_ids()
     for effect_id in options.ids:
         if effect_id not in known:
-            raise EffectError(f"there is no effect {effect_id!r}; there are {', '.join(known)}")
+            raise EffectError(
+                message("cli", "there is no effect {effect_id}; there are {names}").fill(
+                    effect_id=repr(effect_id), names=", ".join(known)
+                )
+            )
     failed = 0
     for effect_id in options.ids or known:
         report = check_effect(effect_id, robots, clock=time.perf_counter)

@@ -8,6 +8,7 @@ from pathlib import Path
 from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.sim.excitation.generator import KINDS, Excitation, Kind, excite
 from rotemina.sim.excitation.quantity import ExcitationError, amount_of
+from rotemina.sim.messages import message
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
 
@@ -34,7 +35,11 @@ def _counts(text: str, _axis: str, _unit: str) -> tuple[int, ...]:
 def _choice(*names: str) -> Reader:
     def read(text: str, _axis: str, _unit: str) -> tuple[str]:
         if text not in names:
-            raise ExcitationError(f"{text[:40]!r} is none of {', '.join(names)}")
+            raise ExcitationError(
+                message("cli", "{text} is none of {names}").fill(
+                    text=repr(text[:40]), names=", ".join(names)
+                )
+            )
         return (text,)
 
     return read
@@ -45,14 +50,18 @@ def _number(text: str, unit: str) -> float:
         return float(text.strip().removesuffix(unit))
     except ValueError:
         advice = f"a number of {unit}" if unit else "a number"
-        raise ExcitationError(f"{text[:40]!r} is not {advice}") from None
+        raise ExcitationError(
+            message("cli", "{text} is not {advice}").fill(text=repr(text[:40]), advice=advice)
+        ) from None
 
 
 def _count(text: str) -> int:
     try:
         return int(text)
     except ValueError:
-        raise ExcitationError(f"{text[:40]!r} is no whole number") from None
+        raise ExcitationError(
+            message("cli", "{text} is no whole number").fill(text=repr(text[:40]))
+        ) from None
 
 
 @dataclass(frozen=True)
@@ -71,11 +80,17 @@ class Parameter:
         try:
             found = self.read(text, axis, unit)
         except ExcitationError as error:
-            raise ExcitationError(f"--{self.option}: {error}") from None
+            raise ExcitationError(
+                message("cli", "--{option}: {error}").fill(option=self.option, error=str(error))
+            ) from None
         if self.many:
             return {self.names[0]: found}
         if len(found) != len(self.names):
-            raise ExcitationError(f"--{self.option}: {text[:40]!r}; write it as {self.metavar}")
+            raise ExcitationError(
+                message("cli", "--{option}: {text}; write it as {metavar}").fill(
+                    option=self.option, text=repr(text[:40]), metavar=self.metavar
+                )
+            )
         return dict(zip(self.names, found, strict=True))
 
 
@@ -158,13 +173,18 @@ def run(options: argparse.Namespace) -> int:
 
 def _plan(robot: Robot, options: argparse.Namespace) -> dict[str, Kind]:
     if options.kind not in KINDS:
-        raise ExcitationError(f"unknown kind {options.kind[:40]!r}; use one of {', '.join(KINDS)}")
+        raise ExcitationError(
+            message("cli", "unknown kind {kind}; use one of {names}").fill(
+                kind=repr(options.kind[:40]), names=", ".join(KINDS)
+            )
+        )
     names = list(robot.axes) if options.axes is None else _split(options.axes)
     for name in names:
         if name not in robot.axes:
             raise ExcitationError(
-                f"axis {name!r}: robot {robot.name!r} has no such axis; "
-                f"use one of {', '.join(robot.axes)}"
+                message(
+                    "cli", "axis {name}: robot {robot_name} has no such axis; use one of {names}"
+                ).fill(name=repr(name), robot_name=repr(robot.name), names=", ".join(robot.axes))
             )
     stated = _stated(options, names)
     return {name: _kind(options, stated, name, robot.unit(name) or "m") for name in names}
@@ -181,7 +201,11 @@ def _stated(
     if refused:
         takes = [f"--{each.option}" for each in PARAMETERS if known.issuperset(each.names)]
         takes += [f"--{name}" for name in SWITCHES if name in known]
-        raise ExcitationError(f"{options.kind} has no --{refused[0]}; it takes {' '.join(takes)}")
+        raise ExcitationError(
+            message("cli", "{kind} has no --{refused}; it takes {names}").fill(
+                kind=options.kind, refused=refused[0], names=" ".join(takes)
+            )
+        )
     return [(each, _by_axis(each, getattr(options, each.option), names)) for each in given]
 
 
@@ -191,9 +215,17 @@ def _by_axis(parameter: Parameter, text: str, names: list[str]) -> dict[str | No
         axis, equals, value = part.partition("=")
         key = axis.strip() if equals else None
         if key is not None and key not in names:
-            raise ExcitationError(f"--{parameter.option}: axis {key!r} is none of those that move")
+            raise ExcitationError(
+                message("cli", "--{option}: axis {key} is none of those that move").fill(
+                    option=parameter.option, key=repr(key)
+                )
+            )
         if key in texts:
-            raise ExcitationError(f"--{parameter.option}: {text[:40]!r} has two values for an axis")
+            raise ExcitationError(
+                message("cli", "--{option}: {text} has two values for an axis").fill(
+                    option=parameter.option, text=repr(text[:40])
+                )
+            )
         texts[key] = value.strip() if equals else part
     return texts
 

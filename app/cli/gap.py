@@ -13,6 +13,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.gap.prediction import predict
 from rotemina.sim.gap.reading import read_document
 from rotemina.sim.gap.twin import twin_text, write_twin
+from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
 
@@ -35,7 +36,10 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 def _nothing(_options: argparse.Namespace) -> int:
     raise InputError(
-        "gap: name what to do: diagnose, predict, twin, blind or bench (--help tells more)"
+        message(
+            "cli",
+            "gap: name what to do: diagnose, predict, twin, blind or bench (--help tells more)",
+        )
     )
 
 
@@ -99,12 +103,16 @@ def run_predict(options: argparse.Namespace) -> int:
     output = options.output or _free_name(options.commands)
     for source in (options.document, options.commands, options.after):
         if source is not None and output.exists() and output.samefile(source):
-            raise InputError(f"{output}: it is named twice; give each file a name of its own")
+            raise InputError(
+                message(
+                    "cli", "{output}: it is named twice; give each file a name of its own"
+                ).fill(output=output)
+            )
     after = None
     if options.after is not None:
         after = read_record(options.after, columns=options.columns, robot=robot)
     elif options.pause:
-        raise InputError("--pause: name the motion that went before by --after")
+        raise InputError(message("cli", "--pause: name the motion that went before by --after"))
     record = predict(robot, commands, document.offsets, after=after, pause_s=options.pause)
     write_record(record, output)
     print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
@@ -125,5 +133,7 @@ def _free_name(commands: Path) -> Path:
     stem = commands.name.removesuffix(".gz").rsplit(".", 1)[0]
     output = Path(f"{stem}-predicted.csv")
     if output.exists():
-        raise InputError(f"{output}: it exists already; name the record by -o")
+        raise InputError(
+            message("cli", "{output}: it exists already; name the record by -o").fill(output=output)
+        )
     return output

@@ -18,6 +18,7 @@ from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.intake import check
 from rotemina.sim.gap.suggestion import Suggestion, may_be_suggested, suggestion
 from rotemina.sim.gap.summary import summary
+from rotemina.sim.messages import Wording, message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
@@ -53,18 +54,25 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def run(options: argparse.Namespace) -> int:
     """Diagnose, print a summary, and write what was asked for."""
     if options.seed < 0:
-        raise InputError(f"--seed {options.seed}: must be 0 or more")
+        raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
     document = Path(options.json) if options.json not in (None, "-") else None
     _check_files(options, document)
     robot = robot_of(options)
     records = [read_record(path, columns=options.columns, robot=robot) for path in options.records]
-    _tell(check(robot, records, list(map(str, options.records))), options.records)
+    cautions = check(robot, records, list(map(str, options.records)))
+    _tell(cautions, options.records, options.wording)
     with workers(options.jobs, options.cluster) as jobs, ProgressLine(sys.stderr) as listener:
-        diagnosis = diagnose(robot, records, seed=options.seed, jobs=jobs, listener=listener)
+        diagnosis = diagnose(
+            robot, records, seed=options.seed, jobs=jobs, listener=listener, cautions=cautions
+        )
     suggestions = [] if document is None else _suggestions(diagnosis, records, document)
     text = json_text(as_json(diagnosis, [each.names for each in suggestions]))
-    told = text if options.json == "-" else summary(diagnosis, records)
-    page = None if options.report is None else report(diagnosis, records, options.records)
+    told = text if options.json == "-" else summary(diagnosis, records, options.wording)
+    page = (
+        None
+        if options.report is None
+        else report(diagnosis, records, options.records, options.wording)
+    )
     # All files appear together or none: a failure at one leaves the others' places alone.
     with ExitStack() as files:
         if document is not None:
@@ -84,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _tell(cautions: Sequence[Caution], files: Sequence[Path]) -> None:
+def _tell(cautions: Sequence[Caution], files: Sequence[Path], wording: Wording) -> None:
     """Print cautions on stderr; one that several axes share is told once."""
     axes: dict[tuple[int | None, str], list[str]] = {}
     for one in cautions:
@@ -92,7 +100,7 @@ def _tell(cautions: Sequence[Caution], files: Sequence[Path]) -> None:
     for (record, text), concerned in axes.items():
         file = f"{files[record]}: " if record is not None else ""
         axis = f"{', '.join(concerned)}: " if concerned else ""
-        print(f"rotemina: {file}{axis}{text}", file=sys.stderr)
+        print(f"rotemina: {file}{axis}{wording.shown(text)}", file=sys.stderr)
 
 
 def _suggestions(
@@ -122,19 +130,29 @@ def _check_files(options: argparse.Namespace, document: Path | None) -> None:
             continue
         if not output.parent.is_dir():  # told before the work, not after it
             raise InputError(
-                f"{output}: it cannot be written, there is no folder {output.parent}; make it, or "
-                "choose another"
+                message(
+                    "cli",
+                    "{output}: it cannot be written, there is no folder {parent}; make it, or "
+                    "choose another",
+                ).fill(output=output, parent=output.parent)
             )
         if any(_is_same(output, other) for other in taken):
-            raise InputError(f"{output}: it is named twice; give each file a name of its own")
+            raise InputError(
+                message(
+                    "cli", "{output}: it is named twice; give each file a name of its own"
+                ).fill(output=output)
+            )
         taken.append(output)
     for other in taken:
         if document is None or not _is_same(document.parent, other.parent):
             continue
         if may_be_suggested(other.name, document.stem):
             raise InputError(
-                f"{other}: a suggested experiment of {document} would take its place; "
-                "name another file by --json"
+                message(
+                    "cli",
+                    "{other}: a suggested experiment of {document} would take its place; name "
+                    "another file by --json",
+                ).fill(other=other, document=document)
             )
 
 
@@ -145,17 +163,27 @@ def _is_same(one: Path, other: Path) -> bool:
 
 
 def diagnose(
-    robot: Robot, records: Sequence[Record], *, seed: int, jobs: int, listener: ProgressLine
+    robot: Robot,
+    records: Sequence[Record],
+    *,
+    seed: int,
+    jobs: int,
+    listener: ProgressLine,
+    cautions: Sequence[Caution],
 ) -> Diagnosis:
     """Run the diagnosis."""
     from rotemina.sim.gap import method  # takes its time to import
 
-    return method.diagnose(robot, records, seed=seed, jobs=jobs, listener=listener)
+    return method.diagnose(
+        robot, records, seed=seed, jobs=jobs, listener=listener, cautions=cautions
+    )
 
 
-def report(diagnosis: Diagnosis, records: Sequence[Record], files: Sequence[Path]) -> bytes:
+def report(
+    diagnosis: Diagnosis, records: Sequence[Record], files: Sequence[Path], wording: Wording
+) -> bytes:
     """Return the page of a report."""
     from rotemina.sim.gap.report.page import report_text  # takes its time to import
 
     names = [path.name for path in files]
-    return report_text(diagnosis, records, names).encode("utf-8", "replace")
+    return report_text(diagnosis, records, names, wording).encode("utf-8", "replace")

@@ -30,19 +30,24 @@ from rotemina.app.cli import (
     tune,
     window,
 )
+from rotemina.app.cli.language import wording
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import Wording, message
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
     parser = build_parser()
     options = parser.parse_args(arguments)
+    options.wording = Wording()  # the window speaks for itself
+    if options.run is not window.run:
+        options.wording = wording(options.language)
     try:
         status = int(options.run(options))
         sys.stdout.flush()
         return status
     except InputError as error:
-        print(f"rotemina: {error}", file=sys.stderr)
+        print(f"rotemina: {options.wording.shown(str(error))}", file=sys.stderr)
         return 2
     except BrokenPipeError:  # whoever read our output has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -50,13 +55,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         if error.filename is None:
             raise
-        print(
-            f"rotemina: {error.filename}: {error.strerror}; check its name and folder",
-            file=sys.stderr,
+        said = message("cli", "{file}: {reason}; check its name and folder").fill(
+            file=str(error.filename), reason=str(error.strerror)
         )
+        print(f"rotemina: {options.wording.of(said)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("rotemina: interrupted", file=sys.stderr)
+        said = message("cli", "interrupted")
+        print(f"rotemina: {options.wording.of(said)}", file=sys.stderr)
         return 130
 
 

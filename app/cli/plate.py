@@ -7,6 +7,7 @@ import numpy as np
 
 from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.plate.application import applied
 from rotemina.sim.plate.errors import PlateError
 from rotemina.sim.plate.export import write_vtu
@@ -121,11 +122,14 @@ def _target(options: argparse.Namespace, ranges: np.ndarray) -> np.ndarray:
         return ranges[:, 1]
     target = np.array([0.0 if value is None else 1e-6 * value for value in given])
     if not np.isfinite(target).all():
-        raise InputError("--zn, --thx, --thy: must be finite numbers")
+        raise InputError(message("cli", "--zn, --thx, --thy: must be finite numbers"))
     if np.abs(target).max() > _FARTHEST:
         raise PlateError(
-            f"the pin's bottom cannot go that far: --zn, --thx, --thy must be within "
-            f"± {1e6 * _FARTHEST:g} µm or µrad"
+            message(
+                "cli",
+                "the pin's bottom cannot go that far: --zn, --thx, --thy must be within ± "
+                "{farthest} µm or µrad",
+            ).fill(farthest=1000000.0 * _FARTHEST)
         )
     return target
 

@@ -10,6 +10,7 @@ from rotemina.app.cli.compensate_apply import named_inverse
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.app.motion.player import play_offline
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
@@ -61,7 +62,11 @@ def run(options: argparse.Namespace) -> int:
     trajectory = read_record(options.trajectory, columns=options.columns, robot=robot)
     checked = dry_run(robot, trajectory)
     if not checked.allowed:
-        raise InputError(f"{options.trajectory}: {checked.objections[0]}{_more(checked)}")
+        raise InputError(
+            message("cli", "{trajectory}: {objections}{more}").fill(
+                trajectory=options.trajectory, objections=checked.objections[0], more=_more(checked)
+            )
+        )
     if options.dry_run:
         print(f"{options.trajectory}: {checked.duration_s:.6g} s, {checked.rows} rows, in limits")
         return 0
@@ -99,7 +104,9 @@ def _free_name(trajectory: Path) -> Path:
     stem = trajectory.name.removesuffix(".gz").rsplit(".", 1)[0]
     output = Path(f"{stem}-record.csv")
     if output.exists():
-        raise InputError(f"{output}: it exists already; name the record by -o")
+        raise InputError(
+            message("cli", "{output}: it exists already; name the record by -o").fill(output=output)
+        )
     return output
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 _FAILED = 1
 _KINDS = ("driver", "panel", "effect", "camera", "input")
@@ -91,7 +92,9 @@ def check(options: argparse.Namespace) -> int:
     if not points:
         wanted = options.kind or "plugin"
         raise InputError(
-            f"there is no {wanted} {options.name!r}; `rotemina plugin list` tells which there are"
+            message(
+                "cli", "there is no {wanted} {name}; `rotemina plugin list` tells which there are"
+            ).fill(wanted=wanted, name=repr(options.name))
         )
     said = {Verdict.PASSED: "ok", Verdict.FAILED: "FAILED", Verdict.SKIPPED: "-"}
     robot = robot_of(options)

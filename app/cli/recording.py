@@ -4,8 +4,12 @@ import argparse
 from pathlib import Path
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+
+_TOLD = ("began", "program", "robot", "robot_sha256", "driver", "driver_settings")
+_TOLD_IF_GIVEN = ("model", "effects", "run", "operator", "sample")
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -67,8 +71,11 @@ def info(options: argparse.Namespace) -> int:
         print(about.get("robot_file", ""), end="")
         return 0
     print(f"{options.recording}: {recording.ended_s - recording.began_s:.3f} s")
-    for key in ("began", "program", "robot", "robot_sha256", "driver", "driver_settings"):
+    for key in _TOLD:
         print(f"  {key:16s}{about.get(key, '')}")
+    for key in _TOLD_IF_GIVEN:
+        if about.get(key):
+            print(f"  {key:16s}{about[key]}")
     print(f"  {'samples':16s}{recording.count} of {', '.join(recording.axes)}")
     for name in recording.channels:
         columns = recording.channel(name)
@@ -107,14 +114,22 @@ def export(options: argparse.Namespace) -> int:
 
     if not 0.0 <= options.begin < options.end:
         raise InputError(
-            f"--from {options.begin:g} --to {options.end:g}: must be 0 or more, and in order"
+            message("cli", "--from {begin} --to {end}: must be 0 or more, and in order").fill(
+                begin=options.begin, end=options.end
+            )
         )
     if options.trajectory and options.reference is not None:
-        raise InputError("--trajectory and --reference: choose one of them")
+        raise InputError(message("cli", "--trajectory and --reference: choose one of them"))
     if not options.period > 0.0:
-        raise InputError(f"--period {options.period:g}: must be more than 0 s")
+        raise InputError(
+            message("cli", "--period {period}: must be more than 0 s").fill(period=options.period)
+        )
     if options.output.exists() and options.output.samefile(options.recording):
-        raise InputError(f"{options.output}: it is the file that is read; name another by -o")
+        raise InputError(
+            message("cli", "{output}: it is the file that is read; name another by -o").fill(
+                output=options.output
+            )
+        )
     recording = Recording.open(options.recording)
     begin_s, end_s = (recording.began_s + each for each in (options.begin, options.end))
     if options.trajectory:

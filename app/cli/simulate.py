@@ -14,6 +14,7 @@ from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.sim.effects.attachment import attached_effects
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.plant.assembly import assemble
 from rotemina.sim.plant.loads import RunningLoads
 from rotemina.sim.records.pieces import read_pieces
@@ -62,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
     """Simulate piece by piece, and write the record."""
     _check_files(options)
     if options.seed < 0:
-        raise InputError(f"--seed {options.seed}: must be 0 or more")
+        raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
     robot = _robot(options)
     commands = _commands(options, robot)
     first = next(commands)
@@ -100,7 +101,11 @@ def _check_files(options: argparse.Namespace) -> None:
         if any(output.absolute() == source.absolute() for source in sources) or (
             output.exists() and any(s.exists() and output.samefile(s) for s in sources)
         ):
-            raise InputError(f"{output}: it is named twice; give each file a name of its own")
+            raise InputError(
+                message(
+                    "cli", "{output}: it is named twice; give each file a name of its own"
+                ).fill(output=output)
+            )
         sources.append(output)
 
 
@@ -113,7 +118,11 @@ def _robot(options: argparse.Namespace) -> Robot:
     try:
         attached_effects(robot)
     except EffectError as error:
-        raise InputError(f"{options.effects}: on robot {robot.name!r}: {error}") from error
+        raise InputError(
+            message("cli", "{effects}: on robot {name}: {error}").fill(
+                effects=options.effects, name=repr(robot.name), error=str(error)
+            )
+        ) from error
     return robot
 
 

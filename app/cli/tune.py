@@ -18,6 +18,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.axis_loop import AxisLoop
 from rotemina.sim.feedback.stability import check_stability
 from rotemina.sim.gap.progress import Progress
+from rotemina.sim.messages import message
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.tuning.objectives import SecondObjective
@@ -86,7 +87,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _search(options: argparse.Namespace) -> int:
     if options.axis is None:
-        raise InputError("tune: name the axis by --axis, or a point by --choose")
+        raise InputError(message("cli", "tune: name the axis by --axis, or a point by --choose"))
     _check(options)
     # These take their time to import, which only a search needs.
     from rotemina.sim.tuning.problem import TuningProblem
@@ -143,8 +144,12 @@ def _choose(options: argparse.Namespace) -> int:
     robot = _robot(options)
     if robot.name != tuning.provenance.robot:
         raise InputError(
-            f"{options.output}: tuned for robot {tuning.provenance.robot!r}, and this is "
-            f"{robot.name!r}; name the robot by --robot"
+            message(
+                "cli",
+                "{output}: tuned for robot {robot}, and this is {name}; name the robot by --robot",
+            ).fill(
+                output=options.output, robot=repr(tuning.provenance.robot), name=repr(robot.name)
+            )
         )
     loop = AxisLoop(robot, tuning.axis, tuning.rate_hz, delay=tuning.delay)
     check_stability(loop.sampled, tuning.best.gains, tuning.provenance.peak_sensitivity)
@@ -161,10 +166,18 @@ def _check(options: argparse.Namespace) -> None:
     read = [Path(one) for one in (options.robot, options.effects, options.inverse) if one]
     for number, output in enumerate(written):
         if not output.parent.is_dir():
-            raise InputError(f"{output}: there is no folder {output.parent}; make it first")
+            raise InputError(
+                message("cli", "{output}: there is no folder {parent}; make it first").fill(
+                    output=output, parent=output.parent
+                )
+            )
         others = [*written[:number], *read]
         if any(output.absolute() == other.absolute() for other in others):
-            raise InputError(f"{output}: it is named twice; give each file a name of its own")
+            raise InputError(
+                message(
+                    "cli", "{output}: it is named twice; give each file a name of its own"
+                ).fill(output=output)
+            )
 
 
 def _robot(options: argparse.Namespace) -> Robot:
@@ -176,7 +189,11 @@ def _robot(options: argparse.Namespace) -> Robot:
     try:
         attached_effects(robot)
     except EffectError as error:
-        raise InputError(f"{options.effects}: on robot {robot.name!r}: {error}") from error
+        raise InputError(
+            message("cli", "{effects}: on robot {name}: {error}").fill(
+                effects=options.effects, name=repr(robot.name), error=str(error)
+            )
+        ) from error
     return robot
 
 
@@ -191,8 +208,11 @@ def _inverse(options: argparse.Namespace) -> Any:
     model = trained.models[trained.chosen]
     if model.axis != options.axis:
         raise InputError(
-            f"{options.inverse}: an inverse of axis {model.axis}, and {options.axis} is to be "
-            "tuned; name one that was trained on this axis"
+            message(
+                "cli",
+                "{inverse}: an inverse of axis {axis}, and {options_axis} is to be tuned; name one "
+                "that was trained on this axis",
+            ).fill(inverse=options.inverse, axis=model.axis, options_axis=options.axis)
         )
     return Inverse(model, 1.0 / options.rate, preview=True)
 

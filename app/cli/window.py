@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from rotemina.app.cli.language import ENGLISH, LANGUAGES
 from rotemina.app.cli.options import add_robot
 
 
@@ -35,6 +36,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="where the picture and the report of a run without a display go "
         "(default: rotemina-run)",
     )
+    parser.add_argument(
+        "--language",
+        choices=(ENGLISH, *LANGUAGES),
+        help="what window and messages speak (default: the window's last, else the system's)",
+    )
     parser.set_defaults(run=run)
 
 
@@ -49,4 +55,5 @@ def run(options: argparse.Namespace) -> int:
         assignments=options.assignments,
         offscreen=options.offscreen,
         output=options.output,
+        speaks=options.language,
     )

@@ -9,6 +9,7 @@ from typing import Any
 from uuid import uuid4
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 _CONNECTING_S = 10
 
@@ -38,7 +39,7 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
         If ``jobs`` is not positive, or the cluster cannot be used.
     """
     if jobs is not None and jobs < 1:
-        raise InputError(f"--jobs {jobs}: must be 1 or more")
+        raise InputError(message("cli", "--jobs {jobs}: must be 1 or more").fill(jobs=jobs))
     import joblib  # takes its time to import
 
     if cluster is None:
@@ -48,15 +49,21 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
         from distributed import Client, KilledWorker
     except ImportError as error:
         raise InputError(
-            f"--cluster {cluster}: Dask is not installed; install it by "
-            "pip install 'rotemina[dask]', here and on the cluster's machines"
+            message(
+                "cli",
+                "--cluster {cluster}: Dask is not installed; install it by pip install "
+                "'rotemina[dask]', here and on the cluster's machines",
+            ).fill(cluster=cluster)
         ) from error
     try:
         client = Client(cluster, timeout=_CONNECTING_S)
     except (OSError, ValueError) as error:
         raise InputError(
-            f"--cluster {cluster}: it cannot be reached ({error}); name the address of a running "
-            "Dask scheduler"
+            message(
+                "cli",
+                "--cluster {cluster}: it cannot be reached ({error}); name the address of a "
+                "running Dask scheduler",
+            ).fill(cluster=cluster, error=str(error))
         ) from error
     with client, warnings.catch_warnings():
         # Records are sent with what is to be done to them, whatever Dask thinks of their size.
@@ -65,15 +72,21 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
             client.wait_for_workers(1, timeout=_CONNECTING_S)
         except TimeoutError as error:
             raise InputError(
-                f"--cluster {cluster}: it has no workers; start some by dask worker {cluster}"
+                message(
+                    "cli",
+                    "--cluster {cluster}: it has no workers; start some by dask worker {cluster}",
+                ).fill(cluster=cluster)
             ) from error
         try:
             with joblib.parallel_config(backend=_backend()):
                 yield jobs or sum(client.ncores().values())
         except KilledWorker as error:
             raise InputError(
-                f"--cluster: a worker of it died again and again at the same work ({error}); look "
-                "at its memory and its log"
+                message(
+                    "cli",
+                    "--cluster: a worker of it died again and again at the same work ({error}); "
+                    "look at its memory and its log",
+                ).fill(error=str(error))
             ) from error
 
 
@@ -99,7 +112,13 @@ def _backend() -> Any:
                     sent = self.client.submit(work, tasks=tasks, key=key, **self.submit_kwargs)
                 except Exception as error:  # nobody else would hear of it
                     said = f"{type(error).__name__}: {error}"
-                    told.set_exception(InputError(f"--cluster: work could not be sent: {said}"))
+                    told.set_exception(
+                        InputError(
+                            message("cli", "--cluster: work could not be sent: {said}").fill(
+                                said=said
+                            )
+                        )
+                    )
                     return
                 self._callbacks[sent], self._results[sent] = callback, told
                 self.waiting_futures.add(sent)

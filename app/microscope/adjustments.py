@@ -12,6 +12,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import FocusRun, Search
 from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.runs import Runs
+from rotemina.app.microscope.stack_run import StackRun, places_of
 from rotemina.app.microscope.status import Activity, FocusAxis
 from rotemina.app.microscope.tip_tracker import TipTracker
 from rotemina.app.motion.session import MotionSession
@@ -19,6 +20,8 @@ from rotemina.drivers.cameras.camera import FocusDrive
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.gate import Permit
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact
 
 FOCUS = "focus"  # the microscope's own drive
 AUTOFOCUS = "autofocus"
@@ -57,6 +60,7 @@ class Adjustments:
         #: The present ones, or the latest.
         self.calibrating: CalibrationRun | None = None
         self.focusing: FocusRun | None = None
+        self.stacking: StackRun | None = None
 
     @property
     def focus_axes(self) -> tuple[FocusAxis, ...]:
@@ -99,7 +103,11 @@ class Adjustments:
         """Begin a search between two places, m; raises as :class:`FocusRun`, `Runs.begin`."""
         axis = self._focus_axis(name)
         if axis.position is None:
-            raise MicroscopeError(f"{name}: its place is not known; connect the machine first")
+            raise MicroscopeError(
+                message("engine", "{name}: its place is not known; connect the machine first").fill(
+                    name=name
+                )
+            )
         begin = max(axis.low, axis.position - FOCUSED_M) if low is None else low
         end = min(axis.high, axis.position + FOCUSED_M) if high is None else high
 
@@ -117,6 +125,41 @@ class Adjustments:
 
         self._runs.begin(Activity.AUTOFOCUS, make, lambda: self._focused(name))
 
+    def stack(self, name: str, first: float, last: float, step: float) -> None:
+        """Begin a z-stack, places in m; raises as :class:`StackRun`, :meth:`Runs.begin`."""
+        axis = self._focus_axis(name)
+        if axis.position is None:
+            raise MicroscopeError(
+                message("engine", "{name}: its place is not known; connect the machine first").fill(
+                    name=name
+                )
+            )
+        places, back = places_of(first, last, step), axis.position
+        for place in (places[0], places[-1]):
+            if not axis.low <= place <= axis.high:
+                raise MicroscopeError(
+                    message("engine", "z-stack: {name} at {place}: must be {low} to {high}").fill(
+                        name=name,
+                        place=exact(place, "m"),
+                        low=exact(axis.low, "m"),
+                        high=exact(axis.high, "m"),
+                    )
+                )
+
+        def make() -> StackRun:
+            self.stacking = StackRun(
+                self._session,
+                lambda: self._camera.newest,
+                self.focus_mover(name),
+                name,
+                places,
+                back,
+                now_s=self._clock(),
+            )
+            return self.stacking
+
+        self._runs.begin(Activity.STACK, make)
+
     def focus_mover(self, name: str) -> Callable[[float, Permit | None], None]:
         """Return what goes to a focus place, m, with the permit of a plan.
 
@@ -131,7 +174,9 @@ class Adjustments:
                 {name: place}, AUTOFOCUS, permit=permit
             )
         if not isinstance(camera, FocusDrive):
-            raise MicroscopeError("this microscope has no motor at its focus; use an axis, or turn")
+            raise MicroscopeError(
+                message("engine", "this microscope has no motor at its focus; use an axis, or turn")
+            )
 
         def move(place: float, permit: Permit | None) -> None:
             if permit is not None:
@@ -145,7 +190,11 @@ class Adjustments:
         found = next((one for one in axes if one.name == name), None)
         if found is None:
             known = ", ".join(one.name for one in axes) or "nothing"
-            raise MicroscopeError(f"{name!r} does not focus here; there is: {known}")
+            raise MicroscopeError(
+                message("engine", "{name} does not focus here; there is: {known}").fill(
+                    name=repr(name), known=known
+                )
+            )
         return found
 
     def _sharp_part(self) -> tuple[slice, slice]:
@@ -183,4 +232,4 @@ class Adjustments:
         try:
             keep()
         except InputError as error:  # it is known until the program ends all the same
-            self._told(f"Microscope: {error}")
+            self._told(message("engine", "Microscope: {error}").fill(error=str(error)))

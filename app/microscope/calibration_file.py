@@ -14,6 +14,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
 from rotemina.drivers.cameras.frame import Region
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.vision.calibration import StageFit, StageMap
 
 VERSION = 1
@@ -134,8 +135,11 @@ class MicroscopeCalibration:
         found = self.micro if name == MICRO else self.nano
         if found is None:
             raise MicroscopeError(
-                f"the {name} stage is not calibrated for objective {self.objective!r} on camera "
-                f"{self.camera!r}; calibrate it first"
+                message(
+                    "engine",
+                    "the {name} stage is not calibrated for objective {objective} on camera "
+                    "{camera}; calibrate it first",
+                ).fill(name=name, objective=repr(self.objective), camera=repr(self.camera))
             )
         return found
 
@@ -176,8 +180,18 @@ def load(folder: Path, camera: str, objective: str) -> MicroscopeCalibration | N
     found = FORMAT.load(path)
     if (found.camera, found.objective) != (camera, objective):
         raise MicroscopeError(
-            f"{path}: it is of camera {found.camera!r} with objective {found.objective!r}, not of "
-            f"{camera!r} with {objective!r}; move it away and calibrate anew"
+            message(
+                "engine",
+                "{path}: it is of camera {camera} with objective {objective}, not of "
+                "{other_camera} "
+                "with {other_objective}; move it away and calibrate anew",
+            ).fill(
+                path=path,
+                camera=repr(found.camera),
+                objective=repr(found.objective),
+                other_camera=repr(camera),
+                other_objective=repr(objective),
+            )
         )
     return found
 

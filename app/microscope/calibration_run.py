@@ -23,6 +23,8 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.chain import JOINTS, Chain
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.inverse import solve_nano
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed, rounded
 from rotemina.sim.trajectory.limits import check_target
 from rotemina.sim.vision.calibration import Demands, StageFit, fit_stage
 from rotemina.sim.vision.image import Image
@@ -132,7 +134,9 @@ class CalibrationRun:
         self._chain = Chain.of(session.robot)
         state = session.snapshot()
         if state.locked is not None:
-            raise RefusedError(f"motion is locked: {state.locked}")
+            raise RefusedError(
+                message("engine", "motion is locked: {locked}").fill(locked=state.locked)
+            )
         self._axes = ("x", "y") if stage == MICRO else ("thx", "thy", "zn")
         self._begin = {axis: state.command[axis] for axis in self._axes}
         joints = np.array([state.command[axis] for axis in JOINTS])
@@ -181,7 +185,7 @@ class CalibrationRun:
         """Whether it moves nothing any more."""
         return self._status.phase in (Phase.DONE, Phase.FAILED)
 
-    def abort(self, reason: str = "the calibration was stopped") -> None:
+    def abort(self, reason: str = message("engine", "the calibration was stopped")) -> None:
         """Stop the machine and end; it stays where it is."""
         if not self.ended:
             self._session.stop(reason)
@@ -220,7 +224,12 @@ class CalibrationRun:
             self._looking.check()
             self._session.go_to(self._begin, OWNER, permit=self._looking.permit)
         except InputError as error:
-            self._end(Phase.FAILED, f"{reason or 'calibrated'}; it could not go back: {error}")
+            self._end(
+                Phase.FAILED,
+                message("engine", "{reason}; it could not go back: {error}").fill(
+                    reason=reason or "calibrated", error=str(error)
+                ),
+            )
             return
         self._looking.begin(now_s)
 
@@ -291,9 +300,12 @@ class CalibrationRun:
         drift = float(np.linalg.norm(seen[-1].shift))
         if drift > _MOST_DRIFT_PX:
             raise MicroscopeError(
-                f"the picture drifted by {drift:.1f} px during the calibration, must be at most "
-                f"{_MOST_DRIFT_PX:g} px; let stage and camera settle, see to backlash, and begin "
-                "again"
+                message(
+                    "engine",
+                    "the picture drifted by {drift} px during the calibration, must be "
+                    "at most {most} px; let stage and camera settle, see to backlash, "
+                    "and begin again",
+                ).fill(drift=fixed(drift, 1), most=rounded(_MOST_DRIFT_PX, 6))
             )
         first, tip = self._first
         moves = np.stack([np.zeros(2), *(one.displacement for one in seen)])

@@ -14,6 +14,7 @@ from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.simulator.true_positions import TruePositions
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 SIMULATED = "simulated"
 LOOK_S = 2.0  # between two looks at what is plugged in
@@ -35,6 +36,8 @@ class CameraInUse:
         Make the feed of a camera.
     memory : CameraMemory, optional
         Of the camera that was in use last.
+    refuse_in_use : callable
+        Raise MicroscopeError while something goes by the camera's pictures.
     """
 
     def __init__(
@@ -43,9 +46,11 @@ class CameraInUse:
         driver: Callable[[], Driver | None],
         feed_of: Callable[[Camera], CameraFeed] = CameraFeed,
         memory: CameraMemory | None = None,
+        refuse_in_use: Callable[[], None] = lambda: None,
     ) -> None:
         self._memory = CameraMemory() if memory is None else memory
         self._hub, self._driver, self._feed_of = hub, driver, feed_of
+        self._refuse_in_use = refuse_in_use
         self._lock = threading.Lock()  # guards wish and listeners; never held while anybody waits
         self._wish: Callable[[], None] | None = None
         self._chosen = False
@@ -94,18 +99,30 @@ class CameraInUse:
         Raises
         ------
         MicroscopeError
-            If none is listed by this key.
+            If none is listed by this key, or a run goes by the one in use.
         """
+        self._refuse_in_use()
         found = next((one for one in self.cameras if one.key == key), None)
         if found is None:
             known = ", ".join(one.key for one in self.cameras) or "none"
-            raise MicroscopeError(f"there is no camera {key!r}; there is: {known}")
+            raise MicroscopeError(
+                message("engine", "there is no camera {key}; there is: {known}").fill(
+                    key=repr(key), known=known
+                )
+            )
         self._ask(lambda: self._use(lambda: self._hub.camera(found), settings))
 
     def open_address(
         self, source: str, address: str, settings: CameraSettings | None = None
     ) -> None:
-        """Use what no list shows, such as a file; what is wrong with it is in :attr:`view`."""
+        """Use what no list shows, such as a file; what is wrong with it is in :attr:`view`.
+
+        Raises
+        ------
+        MicroscopeError
+            While a run goes by the one in use.
+        """
+        self._refuse_in_use()
         self._ask(
             lambda: self._use(
                 lambda: self._hub.addressed(source, address), settings, by_address=True
@@ -113,7 +130,8 @@ class CameraInUse:
         )
 
     def let_go(self) -> None:
-        """Use no camera any more, nor at the next start."""
+        """Use no camera any more, nor at the next start; raises as :meth:`open_address`."""
+        self._refuse_in_use()
 
         def forget() -> None:
             self.close()
@@ -127,12 +145,13 @@ class CameraInUse:
         Raises
         ------
         MicroscopeError
-            If there is none.
+            If there is none, or a run goes by it.
         """
+        self._refuse_in_use()
         self._present().configure(settings)
 
     def trigger(self) -> None:
-        """Have one picture taken; raises as :meth:`configure`."""
+        """Have one picture taken; raises MicroscopeError if there is none."""
         self._present().trigger()
 
     def listen(self, tell: Callable[[Frame], None]) -> Callable[[], None]:
@@ -185,7 +204,7 @@ class CameraInUse:
     def _present(self) -> CameraFeed:
         feed = self._feed
         if feed is None:
-            raise MicroscopeError("no camera is open; choose one first")
+            raise MicroscopeError(message("engine", "no camera is open; choose one first"))
         return feed
 
     def _use(
@@ -230,10 +249,11 @@ class CameraInUse:
                 lambda: self._hub.camera(last.identity), last.settings, by_address=last.by_address
             )
         else:
-            self._refused = (
-                f"{last.identity.name} ({last.identity.key}), the camera used last, is not there; "
-                "plug it in, or choose another"
-            )
+            self._refused = message(
+                "engine",
+                "{camera} ({key}), the camera used last, is not there; plug it in, "
+                "or choose another",
+            ).fill(camera=last.identity.name, key=last.identity.key)
 
     def _remember(self) -> None:
         """Keep what is in use, once it has shown a picture: then it is set as it was told."""

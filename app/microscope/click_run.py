@@ -12,6 +12,8 @@ from rotemina.app.microscope.settled_frame import Newest, SettledFrame, SettledF
 from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed, rounded
 from rotemina.sim.vision.image import Image, relative_to
 from rotemina.sim.vision.tip import likeliest, plausible
 from rotemina.sim.vision.tip_fit import fit_tip
@@ -131,14 +133,24 @@ class ClickRun:
             return
         if distance > _MOST_CORRECTION_PX:
             raise MicroscopeError(
-                f"the tip is {distance:.0f} px from where it should be, must be at most "
-                f"{_MOST_CORRECTION_PX:.0f} px after a move; the calibration does not hold: "
-                "calibrate anew"
+                message(
+                    "engine",
+                    "the tip is {distance} px from where it should be, must be at most "
+                    "{most} px after a move; the calibration does not hold: calibrate "
+                    "anew",
+                ).fill(distance=fixed(distance, 0), most=fixed(_MOST_CORRECTION_PX, 0))
             )
         if self.status.corrections >= self._corrections:
             raise MicroscopeError(
-                f"the tip is still {distance:.2f} px off after {self._corrections} corrections, "
-                f"must be at most {self._tolerance_px:g} px; the stage resolves no finer, or drifts"
+                message(
+                    "engine",
+                    "the tip is still {distance} px off after {n} corrections, must be "
+                    "at most {most} px; the stage resolves no finer, or drifts",
+                ).fill(
+                    distance=fixed(distance, 2),
+                    n=self._corrections,
+                    most=rounded(self._tolerance_px, 6),
+                )
             )
         self._ghost = self._goal
         move = self._correction(tip)
@@ -165,8 +177,11 @@ class ClickRun:
         fit = fit_tip(part, track.pipette, place, depth) if score > 0.0 else None
         if fit is None or not plausible(fit):
             raise MicroscopeError(
-                f"the tip is not seen near {self._ghost[0]:.0f}, {self._ghost[1]:.0f} px, where it "
-                "should be; nothing more is moved: look at the picture"
+                message(
+                    "engine",
+                    "the tip is not seen near {column}, {row} px, where it should be; "
+                    "nothing more is moved: look at the picture",
+                ).fill(column=fixed(self._ghost[0], 0), row=fixed(self._ghost[1], 0))
             )
         return np.asarray(fit.pixel + low)
 

@@ -18,8 +18,9 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.chain import JOINTS, Chain
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.inverse import solve_nano
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact, fixed
 from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
-from rotemina.sim.trajectory.wording import readable
 
 OWNER = "click"
 CONFIRM_M = 100e-6  # moves of the tip beyond this are confirmed first
@@ -148,8 +149,10 @@ class ClickToMove:
         """Refuse a move that must be confirmed, with MicroscopeError."""
         if move.confirm:
             raise MicroscopeError(
-                f"the tip would go {readable(move.distance, 'm')}, more than "
-                f"{readable(self.confirm_m, 'm')}; confirm the move first"
+                message(
+                    "engine",
+                    "the tip would go {distance}, more than {confirm_m}; confirm the move first",
+                ).fill(distance=exact(move.distance, "m"), confirm_m=exact(self.confirm_m, "m"))
             )
 
     def go_back(self) -> None:
@@ -159,14 +162,20 @@ class ClickToMove:
     def _calibrated(self) -> MicroscopeCalibration:
         if self.calibration is None:
             raise MicroscopeError(
-                "the camera is not calibrated with this objective; calibrate it before clicking"
+                message(
+                    "engine",
+                    "the camera is not calibrated with this objective; calibrate it before "
+                    "clicking",
+                )
             )
         return self.calibration
 
     def _joints(self) -> FloatArray:
         command = self.session.snapshot().command
         if not command:
-            raise MicroscopeError("no position is known; connect the machine first")
+            raise MicroscopeError(
+                message("engine", "no position is known; connect the machine first")
+            )
         return np.array([command[axis] for axis in JOINTS])
 
     def _planned(self, pixel: FloatArray, stage: str, tip_px: FloatArray | None) -> PlannedMove:
@@ -205,12 +214,32 @@ def _check_click(pixel: FloatArray, view: View, frame: Frame | None) -> None:
     if frame is not None and View.of(frame.region) != view:
         shown = frame.region
         raise MicroscopeError(
-            f"the camera shows {shown.width} × {shown.height} px from {shown.left}, {shown.top}, "
-            f"calibrated is {view.width} × {view.height} px from {view.left}, {view.top}; set the "
-            "camera back, or calibrate anew"
+            message(
+                "engine",
+                "the camera shows {width} × {height} px from {left}, {top}, calibrated is "
+                "{view_width} × {view_height} px from {view_left}, {view_top}; set the camera "
+                "back, or calibrate anew",
+            ).fill(
+                width=shown.width,
+                height=shown.height,
+                left=shown.left,
+                top=shown.top,
+                view_width=view.width,
+                view_height=view.height,
+                view_left=view.left,
+                view_top=view.top,
+            )
         )
     if not (np.isfinite(pixel).all() and view.holds(pixel)):
         raise MicroscopeError(
-            f"the click at {pixel[0]:.0f}, {pixel[1]:.0f} px is outside the calibrated field, "
-            f"0 to {view.width - 1} and 0 to {view.height - 1} px; click inside"
+            message(
+                "engine",
+                "the click at {x}, {y} px is outside the calibrated field, 0 to {width} "
+                "and 0 to {height} px; click inside",
+            ).fill(
+                x=fixed(pixel[0], 0),
+                y=fixed(pixel[1], 0),
+                width=view.width - 1,
+                height=view.height - 1,
+            )
         )

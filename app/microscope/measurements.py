@@ -18,6 +18,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.chain import JOINTS, Chain
 from rotemina.sim.kinematics.forward import tip_from_pivot
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import REFERENCE_NOISE, Record, Tap
 from rotemina.sim.vision.tracking import TipTrack
 
@@ -104,7 +105,11 @@ def axis_reference(chain: Chain, axis: str, tip_m: FloatArray, joints: FloatArra
         If it is no joint, or the tip is farther away than the pin is long.
     """
     if axis not in JOINTS:
-        raise MicroscopeError(f"axis {axis!r} does not move the tip; choose one of {JOINTS}")
+        raise MicroscopeError(
+            message("engine", "axis {axis} does not move the tip; choose one of {joints}").fill(
+                axis=repr(axis), joints=str(JOINTS)
+            )
+        )
     pin = tip_from_pivot(chain, joints[..., 3:])
     index = JOINTS.index(axis)
     if index < 3:
@@ -116,8 +121,11 @@ def axis_reference(chain: Chain, axis: str, tip_m: FloatArray, joints: FloatArra
     sine = -reach[..., 1] / length if axis == "thx" else reach[..., 0] / (length * np.cos(thx))
     if not (np.abs(sine) <= 1.0).all():
         raise MicroscopeError(
-            f"axis {axis}: the tip was seen farther from the pivot than the pin is long; the "
-            "calibration is of another machine or place: calibrate anew"
+            message(
+                "engine",
+                "axis {axis}: the tip was seen farther from the pivot than the pin is long; the "
+                "calibration is of another machine or place: calibrate anew",
+            ).fill(axis=axis)
         )
     return np.asarray(np.arcsin(sine))
 
@@ -148,10 +156,18 @@ def with_reference(
         show the tip while it was taken.
     """
     if axis not in record.axes or record.has(axis, Tap.REF):
-        raise MicroscopeError(
-            f"the record has {'a reference of' if axis in record.axes else 'no'} axis {axis!r}; "
-            f"it needs one of {', '.join(record.axes)} without its ref"
+        said = (
+            message(
+                "engine",
+                "the record has a reference of axis {axis}; it needs one of {names} without its "
+                "ref",
+            )
+            if axis in record.axes
+            else message(
+                "engine", "the record has no axis {axis}; it needs one of {names} without its ref"
+            )
         )
+        raise MicroscopeError(said.fill(axis=repr(axis), names=", ".join(record.axes)))
     seen = np.isfinite(values)
     times, places = np.asarray(time_s)[seen], np.asarray(values)[seen]
     rows = np.zeros(len(record.time_s), dtype=bool)
@@ -159,8 +175,11 @@ def with_reference(
         rows = (record.time_s >= times[0]) & (record.time_s <= times[-1])
     if not rows.any():
         raise MicroscopeError(
-            f"{len(times)} frames show the tip and none of the record's times lies between them; "
-            "record frames and samples together, on one clock"
+            message(
+                "engine",
+                "{count} frames show the tip and none of the record's times lies between them; "
+                "record frames and samples together, on one clock",
+            ).fill(count=len(times))
         )
     kept = {
         (channel.axis, channel.tap): record.values[rows, column]

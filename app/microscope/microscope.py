@@ -17,7 +17,7 @@ from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.picture_jobs import PictureJobs
 from rotemina.app.microscope.runs import Runs
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
-from rotemina.app.microscope.status_builder import build_status
+from rotemina.app.microscope.status_builder import Parts, build_status
 from rotemina.app.microscope.tip_positioning import TipPositioning
 from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
@@ -27,13 +27,12 @@ from rotemina.app.motion.stop_request import PROGRAM
 from rotemina.app.motion.ticker import Ticker
 from rotemina.app.settings import Settings
 from rotemina.drivers.cameras.camera import Camera
-from rotemina.drivers.cameras.frame import Frame
 from rotemina.drivers.cameras.hub import CameraHub
-from rotemina.drivers.cameras.settings import CameraSettings
 from rotemina.drivers.cameras.simulated import SimulatedMicroscope
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import marked, message
 
 FOLDER = "microscope"  # of calibrations, in the user's own
 RUN_S, TRACK_S, KEEP_S = 0.02, 0.008, 0.1
@@ -92,7 +91,9 @@ class Microscope:
         hub = CameraHub.installed({"simulated": simulated}, clock=clock) if hub is None else hub
         made = feed_of or (lambda camera: CameraFeed(camera, clock=clock))
         memory = CameraMemory(settings)
-        self.camera = CameraInUse(hub, lambda: session.driver, made, memory)
+        self.camera = CameraInUse(
+            hub, lambda: session.driver, made, memory, lambda: self._refuse_under_way()
+        )
         self.setup = OpticalSetup(session, folder / FOLDER, lambda: self.camera.camera)
         self.recording = FrameRecording(recorder, lambda: self.setup.calibration)
         self.tracker = TipTracker(
@@ -112,6 +113,15 @@ class Microscope:
         self.adjustments = Adjustments(
             session, self.camera, self.setup, self.tracker, self.runs, clock, told
         )
+        self._parts = Parts(
+            self.camera,
+            self.setup,
+            self.tracker,
+            self.jobs,
+            self.runs,
+            self.positioning,
+            self.adjustments,
+        )
         self.measured: tuple[FloatArray, FloatArray] | None = None
         self._leave = self.camera.listen(self.recording.frame)
         self._tickers = (
@@ -129,7 +139,7 @@ class Microscope:
 
     def close(self) -> None:
         """End what is under way, and let go of the camera."""
-        self.runs.stop("the program is being closed")
+        self.runs.stop(marked("engine", "the program is being closed"))
         for ticker in self._tickers:
             ticker.close()
         self._leave()
@@ -157,39 +167,9 @@ class Microscope:
         Cameras are looked for from the first time on.
         """
         self.camera.watched = True
-        return build_status(self)
+        return build_status(self._parts, self.measured)
 
-    # --- camera -----------------------------------------------------------------------------------
-
-    def open_camera(self, key: str, settings: CameraSettings | None = None) -> None:
-        """Use a listed camera; raises MicroscopeError if none is, or a run is under way."""
-        self._refuse_under_way()
-        self.camera.open(key, settings)
-
-    def open_address(
-        self, source: str, address: str, settings: CameraSettings | None = None
-    ) -> None:
-        """Use a file, stream or configuration; raises MicroscopeError while a run is under way."""
-        self._refuse_under_way()
-        self.camera.open_address(source, address, settings)
-
-    def close_camera(self) -> None:
-        """Use none any more; raises MicroscopeError while a run is under way."""
-        self._refuse_under_way()
-        self.camera.let_go()
-
-    def configure(self, settings: CameraSettings) -> None:
-        """Set the camera; raises MicroscopeError without one, or while a run is under way."""
-        self._refuse_under_way()
-        self.camera.configure(settings)
-
-    def trigger(self) -> None:
-        """Have one picture taken; raises MicroscopeError without a camera."""
-        self.camera.trigger()
-
-    def listen(self, tell: Callable[[Frame], None]) -> Callable[[], None]:
-        """Have every picture told, on the camera's thread, until what is returned is called."""
-        return self.camera.listen(tell)
+    # --- what is looked through -------------------------------------------------------------------
 
     def choose_objective(self, name: str) -> None:
         """Say which objective is in; raises MicroscopeError without a name, or in a run."""
@@ -232,6 +212,16 @@ class Microscope:
         """
         self.adjustments.autofocus(name, low, high)
 
+    def stack(self, name: str, first: float, last: float, step: float) -> None:
+        """Take pictures from ``first`` to ``last`` by ``step``, m, of the drive or an axis.
+
+        Raises
+        ------
+        InputError
+            As :class:`StackRun` and :meth:`Runs.begin`; then nothing has moved.
+        """
+        self.adjustments.stack(name, first, last, step)
+
     def move_focus(self, focus_m: float) -> None:
         """Move the microscope's focus drive, m; raises InputError if it has none, or cannot."""
         self._refuse_under_way()
@@ -272,7 +262,7 @@ class Microscope:
 
     def stop(self, *, by: str = PROGRAM) -> None:
         """Halt the machine, and end what is under way; ``by`` as of :meth:`MotionSession.stop`."""
-        self.runs.stop("it was stopped", by=by)
+        self.runs.stop(message("engine", "it was stopped"), by=by)
         self.session.stop(by=by)
 
     # --- targets ----------------------------------------------------------------------------------
@@ -323,7 +313,9 @@ class Microscope:
         """Measure from one pixel (2,) to another."""
         ends = np.asarray(begin, dtype=np.float64), np.asarray(end, dtype=np.float64)
         if not (np.isfinite(ends[0]).all() and np.isfinite(ends[1]).all()):
-            raise MicroscopeError("measure: a pixel is not a finite number; draw the line again")
+            raise MicroscopeError(
+                message("engine", "measure: a pixel is not a finite number; draw the line again")
+            )
         self.measured = ends
 
     def forget_measure(self) -> None:
@@ -344,7 +336,15 @@ class Microscope:
 
     def _refuse_under_way(self) -> None:
         if self.runs.activity is not Activity.NONE:
-            raise MicroscopeError(f"a {self.runs.activity} is under way; wait, or stop it first")
+            raise MicroscopeError(
+                message("engine", "a {activity} is under way; wait, or stop it first").fill(
+                    activity=self.runs.activity
+                )
+            )
 
     def _failed(self, error: Exception) -> None:
-        self._told(f"The microscope failed: {type(error).__name__}: {error}")
+        self._told(
+            message("engine", "The microscope failed: {name}: {error}").fill(
+                name=type(error).__name__, error=str(error)
+            )
+        )

@@ -25,6 +25,7 @@ from rotemina.drivers.cameras.frame import Region
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.chain import JOINTS, Chain, ChainError
 from rotemina.sim.kinematics.forward import tip_position
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.vision.pipette import Pipette
 
@@ -155,7 +156,9 @@ class OpticalSetup:
         """Say which objective is in; raises MicroscopeError without a name."""
         name = name.strip()
         if not name:
-            raise MicroscopeError('objective: the name is empty; give one, such as "20x"')
+            raise MicroscopeError(
+                message("engine", 'objective: the name is empty; give one, such as "20x"')
+            )
         with self._lock:
             if name != self.objective:
                 self.calibration, self._of, self.objective = None, None, name

@@ -7,6 +7,7 @@ from math import pi
 import numpy as np
 
 from rotemina.app.microscope.errors import MicroscopeError
+from rotemina.sim.messages import message
 from rotemina.sim.microscope.optics import APERTURE as SIMULATED_APERTURE
 from rotemina.sim.microscope.optics import MAGNIFICATION, PIXEL_SIZE_M
 from rotemina.sim.microscope.scene import Pin
@@ -30,8 +31,11 @@ def nominal_pixel_m(robot: Robot, objective: str = "") -> float:
     given = robot.microscope
     if given.pixel_size is None or given.magnification is None:
         raise MicroscopeError(
-            f"robot {robot.name!r}: [microscope] pixel_size and magnification are missing; the "
-            "tip's shape cannot be known without them"
+            message(
+                "engine",
+                "robot {name}: [microscope] pixel_size and magnification are missing; the tip's "
+                "shape cannot be known without them",
+            ).fill(name=repr(robot.name))
         )
     return given.pixel_size / (magnification_of(objective) or given.magnification)
 

@@ -7,6 +7,7 @@ from rotemina.app.microscope.measurements import CHANNEL, axis_reference, with_r
 from rotemina.app.motion.recording.exporting import record_of
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.sim.kinematics.chain import JOINTS, Chain
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record
 
 #: Axes whose motion is across the view. Depth comes from blur, without its zero.
@@ -30,13 +31,18 @@ def recorded_reference(
     """
     if axis not in SEEN:
         raise MicroscopeError(
-            f"axis {axis!r}: the microscope tells the places of {', '.join(SEEN)} only; depth has "
-            "no zero"
+            message(
+                "engine",
+                "axis {axis}: the microscope tells the places of {names} only; depth has no zero",
+            ).fill(axis=repr(axis), names=", ".join(SEEN))
         )
     record, samples = record_of(recording, begin_s, end_s), recording.samples(begin_s, end_s)
     if CHANNEL not in recording.channels:
         raise MicroscopeError(
-            f"{recording.path}: no tip is in it; calibrate, and track the tip while it is recorded"
+            message(
+                "engine",
+                "{path}: no tip is in it; calibrate, and track the tip while it is recorded",
+            ).fill(path=recording.path)
         )
     tips = recording.channel(CHANNEL, samples.host_time_s[0], samples.host_time_s[-1])
     at_s = tips["host_time_s"]
@@ -52,8 +58,11 @@ def recorded_reference(
     seen = np.isfinite(tip_m).all(axis=-1)
     if not seen.any():
         raise MicroscopeError(
-            f"{recording.path}: {len(at_s)} pictures, and none of them tells where the tip is; "
-            "calibrate the tables before recording"
+            message(
+                "engine",
+                "{path}: {count} pictures, and none of them tells where the tip is; calibrate the "
+                "tables before recording",
+            ).fill(path=recording.path, count=len(at_s))
         )
     values = np.full(len(at_s), np.nan)
     values[seen] = axis_reference(chain, axis, tip_m[seen], joints[seen])

@@ -9,6 +9,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.status import Activity
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.sim.messages import message
 
 _BROKEN = (
     FeedState.CLOSED,
@@ -80,10 +81,16 @@ class Runs:
         """
         view = self._feed()
         if view.state in _BROKEN or view.frame is None:
-            raise MicroscopeError(f"{_trouble(view)}; nothing is moved")
+            raise MicroscopeError(
+                message("engine", "{trouble}; nothing is moved").fill(trouble=_trouble(view))
+            )
         with self._lock:
             if self._run is not None:
-                raise MicroscopeError(f"a {self._activity} is under way; wait, or stop it first")
+                raise MicroscopeError(
+                    message("engine", "a {activity} is under way; wait, or stop it first").fill(
+                        activity=self._activity
+                    )
+                )
             self._asked = self.stopped = ""
             self._run, self._after = make(), after
             self._activity = activity
@@ -120,5 +127,7 @@ class Runs:
 
 def _trouble(view: FeedView) -> str:
     if view.state is FeedState.CLOSED or view.frame is None:
-        return "there is no picture; open a camera and wait for the first one"
-    return f"the camera is {view.state}: {view.reason}"
+        return message("engine", "there is no picture; open a camera and wait for the first one")
+    return message("engine", "the camera is {state}: {reason}").fill(
+        state=view.state, reason=view.reason
+    )

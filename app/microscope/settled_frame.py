@@ -17,6 +17,8 @@ from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import fixed
 from rotemina.sim.vision.image import Image, grey
 
 #: Return the newest picture, or None while there is none; never waits.
@@ -109,8 +111,11 @@ class SettledFrameGrabber:
             self._restart()
             if now_s - self._begun_s > REST_PATIENCE_S:
                 raise MicroscopeError(
-                    f"the machine did not come to rest within {REST_PATIENCE_S:g} s; look what "
-                    "drives it, and begin again"
+                    message(
+                        "engine",
+                        "the machine did not come to rest within {rest_patience_s} s; look what "
+                        "drives it, and begin again",
+                    ).fill(rest_patience_s=REST_PATIENCE_S)
                 )
             return None
         if self._rested_s is None:
@@ -120,10 +125,22 @@ class SettledFrameGrabber:
             return self._seen()
         waited_s = now_s - self._rested_s
         if waited_s > self._settle_s + PATIENCE_S:
-            what = "frozen: it gives the same picture again" if self._same else "stalled"
+            what = (
+                marked("engine", "frozen: it gives the same picture again")
+                if self._same
+                else "stalled"
+            )
             raise MicroscopeError(
-                f"the camera is {what}; {len(self._images)} of {self._pictures} new pictures came "
-                f"within {waited_s:.1f} s. Nothing is moved: see to the camera and begin again"
+                message(
+                    "engine",
+                    "the camera is {what}; {count} of {pictures} new pictures came within "
+                    "{waited_s} s. Nothing is moved: see to the camera and begin again",
+                ).fill(
+                    what=what,
+                    count=len(self._images),
+                    pictures=self._pictures,
+                    waited_s=fixed(waited_s, 1),
+                )
             )
         return None
 
@@ -159,13 +176,19 @@ class SettledFrameGrabber:
             return
         if self._region is not None and frame.region != self._region:
             raise MicroscopeError(
-                f"the camera shows {_size(frame.region)} now, and {_size(self._region)} when this "
-                "began; keep its settings and begin again"
+                message(
+                    "engine",
+                    "the camera shows {size} now, and {before} when this began; keep its settings "
+                    "and begin again",
+                ).fill(size=_size(frame.region), before=_size(self._region))
             )
         self._region = frame.region
         if self._watch.judge(frame) is PictureState.BLACK:
             raise MicroscopeError(
-                "the picture is black; look at lamp, shutter and exposure. Nothing is moved"
+                message(
+                    "engine",
+                    "the picture is black; look at lamp, shutter and exposure. Nothing is moved",
+                )
             )
         self._same = before is not None and np.array_equal(before.pixels, frame.pixels)
         if self._same:
@@ -188,13 +211,23 @@ class SettledFrameGrabber:
 
     def _refuse_if_broken(self, state: SessionState) -> None:
         if not self.permit.valid:
-            raise MicroscopeError("somebody stopped the machine; it stays where it is")
+            raise MicroscopeError(
+                message("engine", "somebody stopped the machine; it stays where it is")
+            )
         if state.connection is not Connection.CONNECTED or state.fault is not None:
-            reason = state.fault or state.locked or "it is not connected"
-            raise MicroscopeError(f"the machine does not move any more: {reason}")
+            reason = state.fault or state.locked or message("engine", "it is not connected")
+            raise MicroscopeError(
+                message("engine", "the machine does not move any more: {reason}").fill(
+                    reason=reason
+                )
+            )
         if state.locked is not None:
-            raise MicroscopeError(f"motion is locked: {state.locked}")
+            raise MicroscopeError(
+                message("engine", "motion is locked: {locked}").fill(locked=state.locked)
+            )
 
 
 def _size(region: Region) -> str:
-    return f"{region.width} × {region.height} px from {region.left}, {region.top}"
+    return message("engine", "{width} × {height} px from {left}, {top}").fill(
+        width=region.width, height=region.height, left=region.left, top=region.top
+    )

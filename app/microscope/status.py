@@ -9,6 +9,7 @@ from rotemina.app.microscope.calibration_run import CalibrationStatus
 from rotemina.app.microscope.click_run import VisitStatus
 from rotemina.app.microscope.click_to_move import PlannedMove
 from rotemina.app.microscope.focus_run import FocusStatus
+from rotemina.app.microscope.stack_run import StackStatus
 from rotemina.app.microscope.targets import Target
 from rotemina.drivers.cameras.camera import CameraIdentity
 from rotemina.sim.arrays import FloatArray
@@ -25,6 +26,7 @@ class Activity(StrEnum):
     CLICK = "click"
     TARGETS = "visit of a target"
     AUTOFOCUS = "autofocus"
+    STACK = "z-stack"
 
 
 class TipState(StrEnum):
@@ -184,7 +186,7 @@ class MicroscopeStatus:
         Size of a pixel in the specimen, m, and who says so.
     activity : Activity
         What is under way now.
-    calibrating, visiting, focusing : status or None
+    calibrating, visiting, focusing, stacking : status or None
         Of the latest of each, also after it has ended: with phase, progress, residuals, reasons.
     stopped : str
         Why the latest run was ended from here (camera, lost tip, operator); empty if it was not.
@@ -222,6 +224,7 @@ class MicroscopeStatus:
     calibrating: CalibrationStatus | None = None
     visiting: VisitStatus | None = None
     focusing: FocusStatus | None = None
+    stacking: StackStatus | None = None
     stopped: str = ""
     planned: PlannedMove | None = None
     path: FloatArray | None = None

@@ -1,35 +1,52 @@
 """A moment of the microscope put together for a view."""
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 import numpy as np
 
+from rotemina.app.microscope.adjustments import Adjustments
+from rotemina.app.microscope.camera_in_use import CameraInUse
 from rotemina.app.microscope.measurements import tip_in_plane
+from rotemina.app.microscope.optical_setup import OpticalSetup
+from rotemina.app.microscope.picture_jobs import PictureJobs
+from rotemina.app.microscope.runs import Runs
 from rotemina.app.microscope.status import (
     CellSeen,
     Measured,
     MicroscopeStatus,
     TipSeen,
 )
-from rotemina.app.microscope.tip_tracker import Tracked
+from rotemina.app.microscope.tip_positioning import TipPositioning
+from rotemina.app.microscope.tip_tracker import TipTracker, Tracked
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.vision.cell import membrane_ahead
 from rotemina.sim.vision.tracking import TipTrack
 
-if TYPE_CHECKING:
-    from rotemina.app.microscope.microscope import Microscope
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parts:
+    """What a microscope's status is of."""
+
+    camera: CameraInUse
+    setup: OpticalSetup
+    tracker: TipTracker
+    jobs: PictureJobs
+    runs: Runs
+    positioning: TipPositioning
+    adjustments: Adjustments
 
 
-def build_status(microscope: "Microscope") -> MicroscopeStatus:
-    """Return this moment."""
-    setup, tracked = microscope.setup, microscope.tracker.tracked
-    view, camera = microscope.camera.view, microscope.camera.camera
+def build_status(parts: Parts, ends: tuple[FloatArray, FloatArray] | None) -> MicroscopeStatus:
+    """Return this moment; ``ends`` (2,) px each are those of the measured line, if there is one."""
+    setup, tracked = parts.setup, parts.tracker.tracked
+    view, camera = parts.camera.view, parts.camera.camera
     pixel_m, source = setup.scale
-    positioning, adjustments = microscope.positioning, microscope.adjustments
+    positioning, adjustments = parts.positioning, parts.adjustments
     calibrating, focusing = adjustments.calibrating, adjustments.focusing
-    tip = microscope.tracker.tip
+    tip = parts.tracker.tip
     return MicroscopeStatus(
-        cameras=microscope.camera.cameras,
-        camera_problems=microscope.camera.problems,
+        cameras=parts.camera.cameras,
+        camera_problems=parts.camera.problems,
         camera=None if camera is None else camera.identity,
         feed=view,
         objective=setup.objective,
@@ -38,35 +55,36 @@ def build_status(microscope: "Microscope") -> MicroscopeStatus:
         calibration_problem=setup.problem,
         pixel_m=pixel_m,
         scale_source=source,
-        activity=microscope.runs.activity,
+        activity=parts.runs.activity,
         calibrating=None if calibrating is None else calibrating.status,
         visiting=None if positioning.run is None else positioning.run.status,
         focusing=None if focusing is None else focusing.status,
-        stopped=microscope.runs.stopped,
+        stacking=None if adjustments.stacking is None else adjustments.stacking.status,
+        stopped=parts.runs.stopped,
         planned=positioning.planned,
-        path=microscope.tracker.path,
-        tip=_tip(microscope, tracked),
-        cell=_cell(microscope, tip, pixel_m),
-        measured=_measured(microscope, tip, pixel_m),
+        path=parts.tracker.path,
+        tip=_tip(setup, tracked),
+        cell=_cell(parts.jobs, tip, pixel_m),
+        measured=_measured(ends, tip, pixel_m),
         targets=tuple(positioning.sequence.targets),
         nano_limits=setup.nano_limits(None if tip is None else tip.pixel),
         focus_axes=adjustments.focus_axes,
-        drift=microscope.jobs.drift,
+        drift=parts.jobs.drift,
         background=tracked.ground,
         frames_processed=tracked.processed,
         frames_skipped=tracked.skipped,
-        truth=microscope.camera.truth,
+        truth=parts.camera.truth,
     )
 
 
-def _tip(microscope: "Microscope", tracked: Tracked) -> TipSeen:
+def _tip(setup: OpticalSetup, tracked: Tracked) -> TipSeen:
     track, frame = tracked.track, tracked.frame
     number = None if frame is None else frame.number
     at_s = None if frame is None else frame.host_time_s
     if track is None:
         return TipSeen(tracked.state, reason=tracked.reason, frame_number=number, host_time_s=at_s)
     place = sigma = None
-    kept = microscope.setup.calibration
+    kept = setup.calibration
     if kept is not None and kept.micro is not None:
         place, spread = tip_in_plane(track.pixel, track.covariance, kept.micro)
         sigma = np.sqrt(np.diag(spread))
@@ -85,8 +103,8 @@ def _tip(microscope: "Microscope", tracked: Tracked) -> TipSeen:
     )
 
 
-def _cell(microscope: "Microscope", tip: TipTrack | None, pixel_m: float | None) -> CellSeen:
-    outline, reason = microscope.jobs.cell, microscope.jobs.reason
+def _cell(jobs: PictureJobs, tip: TipTrack | None, pixel_m: float | None) -> CellSeen:
+    outline, reason = jobs.cell, jobs.reason
     if outline is None or tip is None:
         return CellSeen(outline, reason=reason)
     # The way of the tip is out of its body, which leads the other way.
@@ -98,9 +116,8 @@ def _cell(microscope: "Microscope", tip: TipTrack | None, pixel_m: float | None)
 
 
 def _measured(
-    microscope: "Microscope", tip: TipTrack | None, pixel_m: float | None
+    ends: tuple[FloatArray, FloatArray] | None, tip: TipTrack | None, pixel_m: float | None
 ) -> Measured | None:
-    ends = microscope.measured
     if ends is None:
         return None
     way = ends[1] - ends[0]

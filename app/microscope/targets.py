@@ -8,6 +8,7 @@ import numpy as np
 from rotemina.app.microscope.click_run import ClickRun, Visit
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +72,7 @@ class TargetSequence:
                 self._present = index
                 self._note()
                 return self.targets[index]
-        raise MicroscopeError("every target has been visited; mark further ones")
+        raise MicroscopeError(message("engine", "every target has been visited; mark further ones"))
 
     @property
     def ended(self) -> bool:
@@ -93,7 +94,11 @@ class TargetSequence:
         """
         self._refuse_under_way()
         if not 0 <= index < len(self.targets):
-            raise MicroscopeError(f"there is no target {index + 1}; there are {len(self.targets)}")
+            raise MicroscopeError(
+                message("engine", "there is no target {index}; there are {count}").fill(
+                    index=index + 1, count=len(self.targets)
+                )
+            )
         del self.targets[index]
         self._present = self._run = None
 
@@ -119,4 +124,6 @@ class TargetSequence:
 
     def _refuse_under_way(self) -> None:
         if not self.ended:
-            raise MicroscopeError("the tip is on its way to a target; wait, or stop it first")
+            raise MicroscopeError(
+                message("engine", "the tip is on its way to a target; wait, or stop it first")
+            )

@@ -16,6 +16,7 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.chain import ChainError
+from rotemina.sim.messages import message
 from rotemina.sim.vision.image import grey
 
 LOST_S = 1.0  # that a tip may be lost on its way to a click
@@ -73,7 +74,9 @@ class TipPositioning:
         """
         move = self.planned
         if move is None:
-            raise MicroscopeError("no move is planned; click in the picture first")
+            raise MicroscopeError(
+                message("engine", "no move is planned; click in the picture first")
+            )
         self._permit = permit
         self._runs.begin(Activity.CLICK, lambda: self._visit(move, confirmed=confirmed))
         self.planned = None
@@ -107,13 +110,15 @@ class TipPositioning:
             return ""
         if tracked.frame is None or tracked.frame.host_time_s - tracked.lost_since_s < LOST_S:
             return ""
-        return f"the tip is lost: {tracked.reason}"
+        return message("engine", "the tip is lost: {reason}").fill(reason=tracked.reason)
 
     def _clicks(self) -> ClickToMove:
         try:
             return ClickToMove(self._session, self._setup.calibration)
         except ChainError as error:
-            raise MicroscopeError(f"no tip can be moved by a click: {error}") from error
+            raise MicroscopeError(
+                message("engine", "no tip can be moved by a click: {error}").fill(error=str(error))
+            ) from error
 
     def _thought(self, pixel: FloatArray, stage: str | None) -> PlannedMove:
         tip = self._tracker.tip
@@ -127,7 +132,10 @@ class TipPositioning:
         tip, frame = self._tracker.tip, self._tracker.tracked.frame
         if tip is None or frame is None:
             raise MicroscopeError(
-                "the tip is not tracked; switch tracking on, so that the move can be looked at"
+                message(
+                    "engine",
+                    "the tip is not tracked; switch tracking on, so that the move can be looked at",
+                )
             )
         ground = self._tracker.ground_about(move.pixel)
         self.run = ClickRun(

@@ -13,6 +13,7 @@ from rotemina.app.microscope.status import TipState
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.vision.body_fit import BodyPart
 from rotemina.sim.vision.ground import Ground
 from rotemina.sim.vision.image import Image, grey
@@ -167,7 +168,12 @@ class TipTracker:
             before, frame=frame, skipped=passed, processed=before.processed + 1, ground=False
         )
         if view.state not in _TRUSTED:
-            self._tracked = self._lost(state, f"the camera is {view.state}: {view.reason}")
+            self._tracked = self._lost(
+                state,
+                message("engine", "the camera is {state}: {reason}").fill(
+                    state=view.state, reason=view.reason
+                ),
+            )
         elif state.track is None:
             self._tracked = self._found(state, frame)
         else:

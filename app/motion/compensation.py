@@ -1,31 +1,31 @@
 """Compensation in a session: inverses between what is wanted of piezo axes and what they are told.
 
 A device that is a :class:`~rotemina.drivers.model_abilities.Compensator` sends every set-point
-through the inverse at its own ticks: moves, speeds, profiles and trajectories alike. To any other,
-a trajectory is handed over with the inverse's commands in it, and single moves go as they are told.
+through the inverse at its own ticks: moves, speeds, profiles and trajectories alike. Any other is
+told what the inverse makes of them: a trajectory's rows here, and the ends of moves, speeds and
+profiles by :class:`~rotemina.app.motion.held_inverses.HeldInverses`.
 """
 
-from abc import ABC
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
 
-from rotemina.app.motion.device_requests import DeviceRequests
+from rotemina.app.motion.admission import Admission
+from rotemina.app.motion.device_link import DeviceLink
 from rotemina.app.motion.mailbox import Compensate, RefusedError
 from rotemina.app.motion.ownership import OPERATOR
-from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.model_abilities import Compensator
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.compensate.trajectory import compensated, on_ticks
+from rotemina.sim.messages import AxisName, message
+from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import PiezoAxis, Robot
 from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
 from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.wording import readable
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,35 +37,31 @@ class NamedInverse:
     name: str
 
 
-class CompensatedRequests(DeviceRequests, ABC):
-    """Inverses of axes, put on and taken off at rest.
+class Inverses:
+    """Inverses of axes, put on and taken off at rest."""
 
-    Parameters are those of :class:`~rotemina.app.motion.device_session.DeviceSession`.
-    """
-
-    def __init__(self, driver: Driver, **options: Any) -> None:
-        super().__init__(driver, **options)
-        self._inverses: Mapping[str, NamedInverse] = MappingProxyType({})
+    def __init__(self, link: DeviceLink, admission: Admission) -> None:
+        self._link = link
+        self._admission = admission
+        self._known: Mapping[str, NamedInverse] = MappingProxyType({})
 
     @property
-    def compensated(self) -> Mapping[str, NamedInverse]:
+    def applied(self) -> Mapping[str, NamedInverse]:
         """The inverses that are on, by axis; any thread."""
-        known = self._inverses
-        if not self.compensates_all:
-            return known
-        # The device says: a cleared fault or a new connection ends it there.
-        return {axis: known[axis] for axis in self._on_device if axis in known}
+        # A cleared fault or a new connection ends it there.
+        known = self._known
+        return {axis: known[axis] for axis in self._in_use if axis in known}
 
     @property
-    def compensates_all(self) -> bool:
-        """Whether every command goes through the inverse, not only those of trajectories."""
-        return isinstance(self.driver, Compensator)
+    def live(self) -> bool:
+        """Whether the device asks the inverse at each of its ticks, not at ends and rows alone."""
+        return isinstance(self._link.driver, Compensator)
 
-    def beyond_inverse(self, axis: str) -> Exceedance:
+    def exceedance(self, axis: str) -> Exceedance:
         """Return in what an axis has gone beyond its inverse since that was put on."""
-        return self._on_device.get(axis, Exceedance(0))
+        return self._in_use.get(axis, Exceedance(0))
 
-    def compensate(self, inverse: NamedInverse, *, permit: Permit | None = None) -> None:
+    def apply(self, inverse: NamedInverse, *, permit: Permit | None = None) -> None:
         """Put an inverse on its axis, which stays where it is; no way leads back from there.
 
         Its command becomes the position that the inverse takes it to be at; what it went through
@@ -78,89 +74,105 @@ class CompensatedRequests(DeviceRequests, ABC):
         RefusedError
             If the machine is not at rest, or as for any move.
         """
-        permit = self._drawn(permit)
-        check_belongs(self.robot, inverse)
+        permit = self._admission.drawn(permit)
+        check_belongs(self._link.robot, inverse)
         axis = inverse.model.axis
-        with self._lock:
-            self._refuse_unless_at_rest("putting an inverse on")
+        with self._admission.lock:
+            self._admission.refuse_unless_at_rest("putting an inverse on")
             self._change(axis, inverse.model, permit)
-            self._inverses = MappingProxyType({**self._inverses, axis: inverse})
-            self._forget_way_back()
+            self._known = MappingProxyType({**self._known, axis: inverse})
 
-    def uncompensate(self, axis: str, *, permit: Permit | None = None) -> None:
+    def remove(self, axis: str, *, permit: Permit | None = None) -> None:
         """Take the inverse off an axis; it stays where it is, and no way leads back from there.
 
         Raises
         ------
         RefusedError
-            As :meth:`compensate`, or if there is none on.
+            As :meth:`apply`, or if there is none on.
         """
-        permit = self._drawn(permit)
-        if axis not in self.compensated:
-            raise RefusedError(f"axis {axis} has no inverse that could be taken off")
-        with self._lock:
-            self._refuse_unless_at_rest("taking an inverse off")
+        permit = self._admission.drawn(permit)
+        if axis not in self.applied:
+            raise RefusedError(
+                message("engine", "axis {axis} has no inverse that could be taken off").fill(
+                    axis=AxisName(axis)
+                )
+            )
+        with self._admission.lock:
+            self._admission.refuse_unless_at_rest("taking an inverse off")
             self._change(axis, None, permit)
-            self._forget_way_back()
-            if not self.compensates_all:
-                left = {key: one for key, one in self._inverses.items() if key != axis}
-                self._inverses = MappingProxyType(left)
 
-    def use(self, driver: Driver) -> None:
-        """Stop, let go of the device, and connect to another one, without any inverse.
+    def forget(self) -> None:
+        """Have none on: another device is connected."""
+        self._known = MappingProxyType({})
+
+    @property
+    def ends(self) -> Mapping[str, tuple[float, float]]:
+        """Between which positions axes must stay that the device does not keep there by itself."""
+        if self.live:
+            return {}
+        return {axis: one.model.desired_range for axis, one in self.applied.items()}
+
+    def check(self, targets: Mapping[str, float]) -> None:
+        """Refuse targets, m or rad, beyond what the inverse of their axis saw.
 
         Raises
         ------
-        RefusedError
-            If the other driver is for another robot.
+        OutOfLimitsError
+            With the target and the bounds.
         """
-        super().use(driver)
-        self._inverses = MappingProxyType({})
-
-    @property
-    def _on_device(self) -> Mapping[str, Exceedance]:
-        driver = self.driver
-        return driver.compensated if isinstance(driver, Compensator) else {}
-
-    def _change(self, axis: str, model: InverseModel | None, permit: Permit) -> None:
-        if self.compensates_all:
-            with self._worker.ownership.claimed((axis,), OPERATOR):
-                self._mailbox.post(Compensate(axis, model), permit.owned((axis,), OPERATOR))
-
-    def _check_seen(self, targets: Mapping[str, float]) -> None:
-        """Refuse targets beyond what the inverse of their axis saw."""
-        if not self.compensates_all:
-            return
-        for axis, inverse in self.compensated.items():
+        for axis, inverse in self.applied.items():
             low, high = inverse.model.desired_range
             slack = 1e-9 * inverse.model.span
             if axis in targets and not low - slack <= targets[axis] <= high + slack:
                 unit = inverse.model.unit
                 raise OutOfLimitsError(
-                    f"axis {axis}: target {readable(targets[axis], unit)} is beyond "
-                    f"{readable(low, unit)} to {readable(high, unit)}, which its inverse was "
-                    "trained on; stay inside, or switch the compensation off"
+                    message(
+                        "engine",
+                        "axis {axis}: target {target} is beyond {low} to {high}, which its "
+                        "inverse was trained on; stay inside, or switch the compensation off",
+                    ).fill(
+                        axis=AxisName(axis),
+                        target=exact(targets[axis], unit),
+                        low=exact(low, unit),
+                        high=exact(high, unit),
+                    )
                 )
 
-    def _sent(
+    def sent(
         self, trajectory: CheckedTrajectory
     ) -> tuple[CheckedTrajectory | None, dict[str, str]]:
         """Return what is sent in place of a trajectory, if anything, and what inverses are called.
 
         What goes through the inverses is held against every limit too, before anything moves.
+
+        Raises
+        ------
+        CompensationError, OutOfLimitsError
+            As :func:`compensated_trajectory`.
         """
         commanded = trajectory.commands.axes
-        used = {axis: one for axis, one in self.compensated.items() if axis in commanded}
+        used = {axis: one for axis, one in self.applied.items() if axis in commanded}
         names = {axis: one.name for axis, one in used.items()}
         if not used:
             return None, names
-        commands, live = trajectory.commands, self.compensates_all
-        if live:
-            commands = on_ticks(commands, self.setpoint_period_s)
+        commands, period_s = trajectory.commands, self._link.setpoint_period_s
+        if self.live:
+            commands = on_ticks(commands, period_s)
         sent = compensated_trajectory(
-            self.robot, commands, used, self.setpoint_period_s, preview=not live
+            self._link.robot, commands, used, period_s, preview=not self.live
         )
-        return (None if live else sent), names
+        return (None if self.live else sent), names
+
+    @property
+    def _in_use(self) -> Mapping[str, Exceedance]:
+        driver = self._link.driver
+        if isinstance(driver, Compensator):
+            return driver.compensated
+        return self._link.worker.inverses.beyond
+
+    def _change(self, axis: str, model: InverseModel | None, permit: Permit) -> None:
+        self._admission.queue(Compensate(axis, model), permit, (axis,), OPERATOR)
+        self._admission.way_back.forget()
 
 
 def compensated_trajectory(
@@ -184,8 +196,11 @@ def compensated_trajectory(
         return accepted(robot, sent, setpoint_period_s)
     except OutOfLimitsError as error:
         raise OutOfLimitsError(
-            f"compensated trajectory: {error}; what brings the wanted path about is beyond a "
-            "limit: make it slower, smoother, or smaller"
+            message(
+                "engine",
+                "compensated trajectory: {error}; what brings the wanted path about "
+                "is beyond a limit: make it slower, smoother, or smaller",
+            ).fill(error=str(error))
         ) from error
 
 
@@ -200,13 +215,21 @@ def check_belongs(robot: Robot, inverse: NamedInverse) -> None:
     axis = inverse.model.axis
     if inverse.robot != robot.name:
         raise CompensationError(
-            f"{inverse.name}: it was trained for robot {inverse.robot!r}, not for {robot.name!r}; "
-            "train one on this robot"
+            message(
+                "engine",
+                "{name}: it was trained for robot {robot}, not for {this}; train one on this robot",
+            ).fill(name=inverse.name, robot=repr(inverse.robot), this=repr(robot.name))
         )
     described = robot.axes.get(axis)
     if not isinstance(described, PiezoAxis) or described.controller is not None:
         raise CompensationError(
-            f"{inverse.name}: axis {axis} is no piezo in open loop of robot {robot.name!r}"
+            message("engine", "{name}: axis {axis} is no piezo in open loop of robot {this}").fill(
+                name=inverse.name, axis=AxisName(axis), this=repr(robot.name)
+            )
         )
     if not described.range[0] <= inverse.model.command_range[0] < described.range[1]:
-        raise CompensationError(f"{inverse.name}: axis {axis} had another range; train it anew")
+        raise CompensationError(
+            message("engine", "{name}: axis {axis} had another range; train it anew").fill(
+                name=inverse.name, axis=AxisName(axis)
+            )
+        )

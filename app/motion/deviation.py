@@ -9,8 +9,9 @@ import numpy as np
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import AxisName, message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.wording import readable
 
 LASTING_S = 0.02  # an outlier of a sensor is no reason to stop
 
@@ -59,9 +60,15 @@ class DeviationWatch:
     ) -> None:
         for axis, bound in bounds.items():
             if axis not in robot.axes:
-                raise InputError(f"deviation: there is no axis {axis!r}")
+                raise InputError(
+                    message("engine", "deviation: there is no axis {axis}").fill(axis=repr(axis))
+                )
             if not bound > 0.0:
-                raise InputError(f"deviation: axis {axis}: a bound of {bound:g}: must be above 0")
+                raise InputError(
+                    message(
+                        "engine", "deviation: axis {axis}: a bound of {bound}: must be above 0"
+                    ).fill(axis=AxisName(axis), bound=rounded(bound, 6))
+                )
         self._robot = robot
         self._axes = tuple(robot.axes)
         self._bounds = np.array([bounds.get(axis, np.inf) for axis in self._axes])
@@ -115,8 +122,14 @@ class DeviationWatch:
     def _excess(self, column: int, deviation: float) -> Excess:
         axis, bound = self._axes[column], float(self._bounds[column])
         unit = self._robot.unit(axis) or ""
-        text = (
-            f"axis {axis} is {readable(deviation, unit)} from where the model expects it, for more "
-            f"than {self._lasting_s * 1e3:g} ms: at most {readable(bound, unit)}"
+        text = message(
+            "engine",
+            "axis {axis} is {deviation} from where the model expects it, for more than {time} ms: "
+            "at most {bound}",
+        ).fill(
+            axis=AxisName(axis),
+            deviation=exact(deviation, unit),
+            time=1e3 * self._lasting_s,
+            bound=exact(bound, unit),
         )
         return Excess(axis, deviation, bound, text)

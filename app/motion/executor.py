@@ -1,10 +1,11 @@
 """How commands become calls of the driver, on the thread that alone talks to it."""
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 from rotemina.app.motion.guard import PathSegment
+from rotemina.app.motion.held_inverses import HeldInverses
 from rotemina.app.motion.mailbox import (
     Ask,
     ClearFault,
@@ -31,9 +32,11 @@ from rotemina.drivers.abilities import (
 )
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import OvertakenError, Permit, Purpose
 from rotemina.drivers.model_abilities import Compensator, EffectCarrier, Regulator
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.messages import message
 
 _NOWHERE: Mapping[str, float] = MappingProxyType({})
 _NO_DRIVES: Mapping[str, Drive] = MappingProxyType({})
@@ -43,13 +46,20 @@ class Executor:
     """Hands commands to the driver, and the segments of a move one after the other.
 
     ``targets`` is where the device was last sent, of each axis that it has been sent anywhere since
-    it last held; ``drives`` the speeds that axes may still go at. Both are replaced as a whole, so
-    any thread may look at them. What a stop has overtaken is not gone on with, and halted again
-    should a driver have let it slip through.
+    it last held, ``ends`` where it is to be sent after that; ``drives`` the speeds that axes may
+    still go at. All are replaced as a whole, so any thread may look at them. What a stop has
+    overtaken is not gone on with, and halted again should a driver have let it slip through.
     """
 
-    def __init__(self, driver: Driver, clock: Clock, corrections: SensorCorrections) -> None:
-        self.targets = _NOWHERE
+    def __init__(
+        self,
+        driver: Driver,
+        clock: Clock,
+        corrections: SensorCorrections,
+        inverses: HeldInverses,
+        said_of_playback: Callable[[], Mapping[str, str]] = dict,
+    ) -> None:
+        self.targets = self.ends = _NOWHERE
         self.drives: Mapping[str, Drive] = _NO_DRIVES
         self.recorder: PlaybackRecorder | None = None
         #: The axes whose switches were looked for last.
@@ -57,6 +67,8 @@ class Executor:
         self._driver = driver
         self._clock = clock
         self._corrections = corrections
+        self._said_of_playback = said_of_playback
+        self._inverses = inverses
         self._route: deque[PathSegment] = deque()  # what is left of a move
         self._permit: Permit | None = None  # of the command that was handed over last
 
@@ -103,9 +115,9 @@ class Executor:
         try:
             self._next_segment(permit)
         except OvertakenError:
-            self._route.clear()
+            self._leave_route()
         except Exception:
-            self._route.clear()
+            self._leave_route()
             raise
         self._halt_if_overtaken(permit)
 
@@ -116,7 +128,13 @@ class Executor:
     def forget(self) -> None:
         """Forget all motion that was asked for."""
         self._route.clear()
-        self.targets, self.drives = _NOWHERE, _NO_DRIVES
+        self.targets = self.ends = _NOWHERE
+        self.drives = _NO_DRIVES
+
+    def _leave_route(self) -> None:
+        """Go no further than the present segment."""
+        self._route.clear()
+        self.ends = self.targets
 
     def _halt_if_overtaken(self, permit: Permit) -> None:
         """Halt again: a driver that passes no gate must not undo a stop that came meanwhile."""
@@ -127,9 +145,10 @@ class Executor:
     def _hand_over(self, command: Command, permit: Permit) -> None:
         driver = self._driver
         if isinstance(command, Move):
-            self._route.clear()
+            self._leave_route()
             self._route.extend(command.segments)
             self._next_segment(permit)
+            self.ends = MappingProxyType({**self.targets, **command.targets})
         elif isinstance(command, Drive):
             self._drive(command, permit)
         elif isinstance(command, Play):
@@ -145,6 +164,7 @@ class Executor:
             self._change(command, permit)
         elif isinstance(command, ClearFault):
             driver.clear_fault(permit=permit)
+            self._inverses.forget()
             self.forget()
         elif isinstance(command, Ask):
             permit.check()
@@ -160,9 +180,17 @@ class Executor:
         if isinstance(command, Regulate):
             assert isinstance(driver, Regulator), "the session refuses on any other"
             driver.regulate(command.axis, command.regulation, permit=permit)
-        else:
-            assert isinstance(driver, Compensator), "the session refuses on any other"
+        elif isinstance(driver, Compensator):
             driver.compensate(command.axis, command.model, permit=permit)
+        else:
+            if driver.status().state is not DeviceState.IDLE:
+                raise StateError(
+                    message(
+                        "engine", "cannot change a compensation while it moves; stop it or wait"
+                    )
+                )
+            permit.check()
+            self._inverses.change(command.axis, command.model)
         self.forget()  # its command is another now
 
     def _shortly(self, command: LoadProfile | RunProfile | SetVoltage, permit: Permit) -> None:
@@ -170,20 +198,22 @@ class Executor:
         driver = self._driver
         if isinstance(command, SetVoltage):
             assert isinstance(driver, VoltageOutput), "the session refuses on any other"
+            self._inverses.refuse_voltage(command.axis)
             driver.set_voltage(command.axis, command.voltage, permit=permit)
-            self.targets = MappingProxyType({**self.targets, **command.targets})
+            self.targets = self.ends = MappingProxyType({**self.targets, **command.targets})
             return
         assert isinstance(driver, ProfileRunner), "the session refuses on any other"
         if isinstance(command, LoadProfile):
-            driver.upload(command.profile, permit=permit)
+            driver.upload(self._inverses.profile(command.profile), permit=permit)
             return
         driver.trigger(permit=permit)
         self.forget()
-        self.targets = command.targets
+        self.targets = self.ends = command.targets
 
     def _next_segment(self, permit: Permit) -> None:
         segment = self._route.popleft()
-        self._driver.move_to(segment.targets, segment.speeds, permit=permit)
+        targets, speeds = self._inverses.told(segment.targets, segment.speeds)
+        self._driver.move_to(targets, speeds, permit=permit)
         self.targets = MappingProxyType({**self.targets, **segment.targets})
 
     def _drive(self, command: Drive, permit: Permit) -> None:
@@ -192,10 +222,12 @@ class Executor:
         left_s = command.asked_s + command.lease_s - self._clock()
         if left_s <= 0.0:
             return  # nobody vouches for it any more
-        self._route.clear()
-        driver.move_velocity(command.velocities, left_s, permit=permit)
+        self._leave_route()
+        velocities = self._inverses.velocities(command.velocities, command.ways)
+        driver.move_velocity(velocities, left_s, permit=permit)
         axes = command.velocities.keys()
-        self.targets = MappingProxyType({a: t for a, t in self.targets.items() if a not in axes})
+        left = {a: t for a, t in self.targets.items() if a not in axes}
+        self.targets = self.ends = MappingProxyType(left)
         self.drives = MappingProxyType({**self.drives, **dict.fromkeys(axes, command)})
 
     def _play(self, command: Play, permit: Permit) -> None:
@@ -208,8 +240,11 @@ class Executor:
             calibrations=names,
             compensations=command.compensations,
             loops=command.loops,
-            rowwise=command.sent is not None,
         )
+        for key, text in self._said_of_playback().items():
+            recorder.say(key, text)
         driver.play(command.sent or command.trajectory, permit=permit)
+        if command.sent is not None:
+            self._inverses.play(command.trajectory.commands)
         self.forget()
         self.recorder = recorder

@@ -49,7 +49,7 @@ class FrontDisplay:
         try:
             for number, (text, before) in enumerate(zip(rows, known, strict=True)):
                 if text != before:
-                    self._session.show(number, text)
+                    self._session.service.show(number, text)
         except RefusedError:  # the connection has ended meanwhile
             return
         self._shown = list(rows)

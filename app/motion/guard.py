@@ -6,19 +6,29 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.app.motion.ranges import (
+    WHOLE,
+    Range,
+    Ranges,
+    check_within,
+    speed_before,
+    within,
+)
+from rotemina.app.motion.tip_return import nearer, out_text
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, Excess, KeepOutZone
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact
+from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target, commands_of
-from rotemina.sim.trajectory.wording import readable
 
-MOST_THRUST = 1e-4  # m: what is beyond a piezo is no thrust into a cell
+MOST_THRUST = 1e-4  # m: beyond a piezo's way it is no thrust into a cell
 RETURN_SPEED = SLOW_SPEED  # m/s of the tip on its way back into its bounds
 _REACTION_S = 0.05  # between a lease's end and the axis' first braking, at most
 _SCALES = tuple(0.5**halvings for halvings in range(8))
 _LIFTING = ("z", "zn")  # axes that move the tip up and down
-_CLOSER = 1e-9  # m by which each axis has to bring the tip nearer to its bounds
 
 
 class PositionEnvelope(NamedTuple):
@@ -60,6 +70,14 @@ class PathSegment:
         return PathSegment(self.targets, {**self.speeds, **slower})
 
 
+class TipPath(NamedTuple):
+    """A trajectory as the tip goes: from ``now`` (3,) by ``rows`` (n, 3), m, within ``zone``."""
+
+    now: FloatArray
+    rows: FloatArray
+    zone: KeepOutZone
+
+
 class Guard:
     """The limits of one robot, on every path.
 
@@ -79,6 +97,8 @@ class Guard:
         self._axes = tuple(robot.axes)
         self._offset = np.array([axis.offset for axis in robot.axes.values()])
         self._zone = KeepOutZone.of(robot)
+        #: To what ranges of axes were narrowed; replaced as a whole.
+        self.narrowed = WHOLE
 
     @property
     def zone(self) -> KeepOutZone | None:
@@ -94,7 +114,11 @@ class Guard:
             If the robot has no tip, or the height is none that it can have.
         """
         if self._zone is None:
-            raise OutOfLimitsError(f"robot {self._robot.name!r} has no tip that a floor could hold")
+            raise OutOfLimitsError(
+                message("engine", "robot {name} has no tip that a floor could hold").fill(
+                    name=repr(self._robot.name)
+                )
+            )
         self._zone = self._zone.taught(floor)
 
     def envelope(
@@ -129,6 +153,7 @@ class Guard:
         """
         for axis, position in targets.items():
             check_target(self._robot, axis, position)
+        check_within(self._robot, self.narrowed, targets.items())
         zone = self._zone
         if zone is None or not zone.bounded:
             return (PathSegment(targets, {}),)
@@ -158,7 +183,7 @@ class Guard:
 
     def _refuse_if_out(self, zone: KeepOutZone, envelope: PositionEnvelope) -> None:
         if (out := self._out(zone, envelope)) is not None:
-            raise OutOfLimitsError(_out_text(out))
+            raise OutOfLimitsError(out_text(out))
 
     def _back_in(
         self,
@@ -171,12 +196,14 @@ class Guard:
     ) -> PathSegment:
         """Return the way of a tip that is out of its bounds; refuse what leads anywhere else."""
         if not confirmed:
-            raise OutOfLimitsError(_out_text(out))
+            raise OutOfLimitsError(out_text(out))
         end = {self._axes.index(axis): at for axis, at in targets.items()}
         for column, at in end.items():
-            if not _nearer(zone, envelope, column, at, out):
+            if not nearer(zone, envelope, column, at, out):
                 raise OutOfLimitsError(
-                    f"{_out_text(out)}; axis {self._axes[column]} brings it no nearer that way"
+                    message("engine", "{out}; axis {axes} brings it no nearer that way").fill(
+                        out=out_text(out), axes=self._axes[column]
+                    )
                 )
         for bounds, present in zip(envelope.widened(end).seen(), envelope.seen(), strict=True):
             zone.beyond(zone.swept(*present)).check_sweep(*bounds)
@@ -222,6 +249,7 @@ class Guard:
         """
         for end in ends:
             check_target(self._robot, axis, end)
+        check_within(self._robot, self.narrowed, ((axis, end) for end in ends))
         zone = self._zone
         if zone is None or not zone.bounded:
             return
@@ -232,29 +260,53 @@ class Guard:
             return
         if not thrust:
             raise OutOfLimitsError(
-                f"tip: a profile at {readable(speed, 'm')}/s within {readable(SLOW_HEIGHT, 'm')} "
-                f"of its floor: {readable(SLOW_SPEED, 'm')}/s at most; only an armed penetration "
-                "may be faster there"
+                message(
+                    "engine",
+                    "tip: a profile at {speed} within {height} of its floor: "
+                    "{most} at most; only an armed penetration may be faster there",
+                ).fill(
+                    speed=exact(speed, "m/s"),
+                    height=exact(SLOW_HEIGHT, "m"),
+                    most=exact(SLOW_SPEED, "m/s"),
+                )
             )
         if ends[1] - ends[0] > MOST_THRUST * (1.0 + 1e-9):
             raise OutOfLimitsError(
-                f"tip: a thrust of {readable(ends[1] - ends[0], 'm')} within "
-                f"{readable(SLOW_HEIGHT, 'm')} of its floor: {readable(MOST_THRUST, 'm')} at most"
+                message(
+                    "engine",
+                    "tip: a thrust of {way} within {height} of its floor: {most} at most",
+                ).fill(
+                    way=exact(ends[1] - ends[0], "m"),
+                    height=exact(SLOW_HEIGHT, "m"),
+                    most=exact(MOST_THRUST, "m"),
+                )
             )
 
     def velocity(
-        self, envelope: PositionEnvelope, velocities: Mapping[str, float], lease_s: float
+        self,
+        envelope: PositionEnvelope,
+        velocities: Mapping[str, float],
+        lease_s: float,
+        ranges: Ranges = WHOLE,
     ) -> dict[str, float]:
         """Return the velocities, all slower by one factor where the tip's bounds are near.
+
+        At narrowed ends, and at those of ``ranges``, m or rad, no device halts by itself: the
+        closer an axis is to one, the slower it goes there.
 
         Raises
         ------
         OutOfLimitsError
             If even the slowest could leave the bounds within the lease.
         """
+        bounds = within(self.narrowed, ranges)
+        velocities = {
+            axis: self._before(envelope, axis, speed, lease_s, bounds.get(axis))
+            for axis, speed in velocities.items()
+        }
         zone = self._zone
         if zone is None or not zone.bounded:
-            return dict(velocities)
+            return velocities
         self._refuse_if_out(zone, envelope)
         refusal: OutOfLimitsError | None = None
         for scale in _SCALES:
@@ -272,7 +324,9 @@ class Guard:
             if lowest >= zone.low + SLOW_HEIGHT or down <= SLOW_SPEED:
                 return slower
         if refusal is None:
-            raise OutOfLimitsError("tip: too fast so close above its floor; go slower")
+            raise OutOfLimitsError(
+                message("engine", "tip: too fast so close above its floor; go slower")
+            )
         raise refusal
 
     def ways(self, velocities: Mapping[str, float], lease_s: float) -> dict[str, float]:
@@ -287,6 +341,23 @@ class Guard:
         begin = envelope.high[column] if speed > 0.0 else envelope.low[column]
         end = begin + self._way(axis, speed, lease_s)
         return float(np.clip(end, *self._robot.axes[axis].range))
+
+    def _before(
+        self,
+        envelope: PositionEnvelope,
+        axis: str,
+        speed: float,
+        lease_s: float,
+        ends: Range | None,
+    ) -> float:
+        """Return a speed from which an axis rests before an end, lease and braking counted."""
+        if ends is None:
+            return speed
+        column = self._axes.index(axis)
+        left = ends[1] - envelope.high[column] if speed > 0.0 else envelope.low[column] - ends[0]
+        braking = self._robot.axes[axis].max_acceleration
+        most = speed_before(float(left), lease_s + _REACTION_S, braking)
+        return float(np.copysign(min(abs(speed), most), speed))
 
     def _way(self, axis: str, speed: float, lease_s: float) -> float:
         most = self._robot.axes[axis].max_acceleration
@@ -306,47 +377,25 @@ class Guard:
             return
         self._refuse_if_out(zone, envelope)
         commands = trajectory.commands
-        signals = commands_of(self._robot, commands)
-        first = {self._axes.index(axis): float(signal[0]) for axis, signal in signals.items()}
+        positions = self._positions(envelope, commands)
+        columns = map(self._axes.index, commands.axes)
+        first = {column: float(positions[0, column]) for column in columns}
         self._lowest(zone, envelope.widened(first))
-        middle = 0.5 * (envelope.low + envelope.high)
-        positions = np.tile(middle, (len(commands.time_s), 1))
-        for axis, signal in signals.items():
-            positions[:, self._axes.index(axis)] = signal
         zone.check_path(positions, commands.time_s)
         if envelope.deviation.any():
             zone.check_path(positions + envelope.deviation, commands.time_s)
 
+    def tip_path(self, envelope: PositionEnvelope, commands: Record) -> TipPath | None:
+        """Return where the tip would go by commands; None where there is no tip."""
+        if self._zone is None:
+            return None
+        now = 0.5 * (envelope.low + envelope.high)
+        tips = self._zone.tip(np.vstack((now, self._positions(envelope, commands))))
+        return TipPath(tips[0], tips[1:], self._zone)
 
-def _nearer(
-    zone: KeepOutZone, envelope: PositionEnvelope, column: int, at: float, out: Excess
-) -> bool:
-    """Tell whether an axis that goes there alone brings the commanded tip back, all the way."""
-    low, high = envelope.low.copy(), envelope.high.copy()
-    low[column] = high[column] = at
-    before, end, way = (
-        zone.excess(zone.swept(*bounds))
-        for bounds in (
-            (envelope.low, envelope.high),
-            (low, high),
-            envelope.widened({column: at})[:2],
-        )
-    )
-    broken = [number for number, excess in enumerate(out) if excess > 0.0]
-    return all(way[k] <= before[k] + _CLOSER for k in broken) and any(
-        end[k] < before[k] - _CLOSER for k in broken
-    )
-
-
-def _out_text(out: Excess) -> str:
-    """Say by how much the tip is out of its bounds, and what to do."""
-    where = {
-        "below its floor": out.below,
-        "above the objective's height": out.above,
-        "outside its radius": out.aside,
-    }
-    told = ", ".join(f"{readable(much, 'm')} {how}" for how, much in where.items() if much > 0.0)
-    return (
-        f"tip: {told}, as commanded or as read: it only moves back in, slowly and confirmed, by "
-        "axes that each bring it nearer; bring it back, or mend the sensor that reads wrong"
-    )
+    def _positions(self, envelope: PositionEnvelope, commands: Record) -> FloatArray:
+        """Return the axes (n, axes) at each row; those that the commands leave alone stay."""
+        positions = np.tile(0.5 * (envelope.low + envelope.high), (len(commands.time_s), 1))
+        for axis, signal in commands_of(self._robot, commands).items():
+            positions[:, self._axes.index(axis)] = signal
+        return positions

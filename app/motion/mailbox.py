@@ -13,6 +13,7 @@ from rotemina.drivers.profile import Profile
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.regulation import Regulation
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 
@@ -196,8 +197,11 @@ class Mailbox:
                 self._commands.pop()
             if len(self._commands) >= self.capacity:
                 raise RefusedError(
-                    f"{self.capacity} commands are waiting already and the device does not keep "
-                    "up; wait, or stop"
+                    message(
+                        "engine",
+                        "{capacity} commands are waiting already and the device does not "
+                        "keep up; wait, or stop",
+                    ).fill(capacity=self.capacity)
                 )
             self._commands.append(Posted(command, permit))
         self.wake_event.set()

@@ -17,6 +17,7 @@ from rotemina.drivers.driver import Driver
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Trait
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import marked, message
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect, Robot
 from rotemina.sim.robot.writing import robot_text
@@ -66,10 +67,16 @@ class Machine:
     def differs(self, other: "Machine") -> str | None:
         """Return in what another machine differs from this one, or None."""
         if self.robot != other.robot:
-            return "the robot file has changed"
+            return marked("engine", "the robot file has changed")
         if self.driver != other.driver:
-            return f"it was made for driver {self.driver!r}, this is {other.driver!r}"
-        return None if self.boards == other.boards else "the boards' parameters have changed"
+            return message(
+                "engine", "it was made for driver {driver}, this is {other_driver}"
+            ).fill(driver=repr(self.driver), other_driver=repr(other.driver))
+        return (
+            None
+            if self.boards == other.boards
+            else marked("engine", "the boards' parameters have changed")
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,9 +146,12 @@ class ModelInUse:
             before = beyond.effects
         elif examined != machine.robot:
             raise ModelError(
-                f"the diagnosis is of the robot file {diagnosis.robot.name!r} as it was then; the "
-                f"one in use, {driver.robot.name!r}, is another: choose the model in use as the "
-                "model, and diagnose again"
+                message(
+                    "engine",
+                    "the diagnosis is of the robot file {name} as it was then; the one in use, "
+                    "{robot_name}, is another: choose the model in use as the model, and diagnose "
+                    "again",
+                ).fill(name=repr(diagnosis.robot.name), robot_name=repr(driver.robot.name))
             )
         found = cls.found_by(diagnosis, machine)
         return replace(
@@ -169,7 +179,11 @@ class ModelInUse:
         used = tuple(effect for effect in found if foreseen(robot, effect))
         if not used:
             raise ModelError(
-                "the diagnosis found nothing that commands foretell: the nominal model is as good"
+                message(
+                    "engine",
+                    "the diagnosis found nothing that commands foretell: the nominal model is as "
+                    "good",
+                )
             )
         offsets = {
             name: offset.value

@@ -14,19 +14,23 @@ from types import MappingProxyType
 from rotemina.app.calibration.store import CalibrationStore
 from rotemina.app.motion.front_display import FrontDisplay
 from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.penetration.arming import prepared
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.run_log import RunLog
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import unfinished
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.recording.tables import prepare
 from rotemina.app.motion.recording.writer import RecorderNotice
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.teleoperation.input_devices import InputDevices, InputSnapshot
 from rotemina.app.motion.teleoperation.intent import Action, Intent
-from rotemina.app.motion.teleoperation.recentring import plan_recentring
+from rotemina.app.motion.teleoperation.recentring import (
+    Recentring,
+    plan_recentring,
+    plan_with_tip_held,
+)
 from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scales import Scales
 from rotemina.app.motion.teleoperation.teleoperator import Teleoperator
@@ -39,6 +43,7 @@ from rotemina.drivers.inputs.pad import Pad
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.chain import JOINTS, Chain, ChainError
+from rotemina.sim.messages import message
 
 STEP_S, LOOK_S, DISPLAY_S = 0.005, 1.0, 0.5
 #: What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man
@@ -126,7 +131,7 @@ class Operation:
         for ticker in self._tickers:
             ticker.close()
         if self.teleoperator.state.driving:
-            self.session.stop("the input devices are let go of")
+            self.session.stop(message("engine", "the input devices are let go of"))
         self.penetration.close()
         self.devices.close()
         if self._planning is not None:
@@ -188,9 +193,9 @@ class Operation:
         Raises
         ------
         RefusedError
-            If there is none, or as :meth:`MotionSession.switch_tool`.
+            If there is none, or as :meth:`Tool.switch`.
         """
-        self.session.switch_tool(not self.session.tool_on)
+        self.session.tool.switch(not self.session.tool.on)
 
     def recentre(self, joints: tuple[str, ...] = ("zn",)) -> None:
         """Bring nano joints to mid-range while the tip stays; planned on a thread of its own.
@@ -202,28 +207,64 @@ class Operation:
         InputError
             If the robot has no such joints.
         """
+        chain = Chain.of(self.session.robot)
+        self._play_planned(
+            "Re-centring",
+            lambda command, period_s: plan_recentring(chain, command, period_s, joints),
+        )
+
+    def prepare_penetration(self, parameters: PenetrationParameters) -> None:
+        """Move the nano stage back as far as a penetration needs, while the tip stays.
+
+        Planned on a thread of its own. Nothing is armed by that.
+
+        Raises
+        ------
+        RefusedError
+            As :meth:`recentre`.
+        InputError
+            As :func:`rotemina.app.motion.penetration.arming.prepared`.
+        """
+        chain = Chain.of(self.session.robot)
+        targets = prepared(self.session, parameters)
+        self._play_planned(
+            "Preparing",
+            lambda command, period_s: plan_with_tip_held(chain, command, period_s, targets),
+        )
+
+    def _play_planned(
+        self, what: str, planned: Callable[[Mapping[str, float], float], Recentring]
+    ) -> None:
+        """Plan on a thread of its own from where the machine rests, and play that."""
         if self._planning is not None and self._planning.is_alive():
-            raise RefusedError("re-centring is being planned; wait")
+            raise RefusedError(
+                message("engine", "a motion of the nano stage is being planned; wait")
+            )
         permit = self.session.permit()
         state = self.session.snapshot()
         if state.locked is not None:
-            raise RefusedError(f"motion is locked: {state.locked}")
+            raise RefusedError(
+                message("engine", "motion is locked: {locked}").fill(locked=state.locked)
+            )
         if state.activity is not DeviceState.IDLE or state.queued:
-            raise RefusedError("the machine is still moving; let go of the stick first")
-        chain = Chain.of(self.session.robot)
+            raise RefusedError(
+                message("engine", "the machine is still moving; release the stick first")
+            )
         period_s = self.session.setpoint_period_s
 
         def plan() -> None:
             try:
-                planned = plan_recentring(chain, state.command, period_s, joints)
-                now = self.session.snapshot().command
+                way = planned(state.command, period_s)
+                now = {**state.command, **self.session.snapshot().command}
                 if any(now[axis] != state.command[axis] for axis in JOINTS):
-                    raise RefusedError("the machine has moved meanwhile; ask once more")
-                self.session.play(planned.trajectory, permit=permit)
+                    raise RefusedError(
+                        message("engine", "the machine has moved meanwhile; ask once more")
+                    )
+                self.session.play(way.trajectory, permit=permit)
             except InputError as error:
-                self._told(f"Re-centring: {error}")
+                self._told(message("engine", "{what}: {error}").fill(what=what, error=str(error)))
 
-        self._planning = threading.Thread(target=plan, name="re-centring", daemon=True)
+        self._planning = threading.Thread(target=plan, name="nano stage", daemon=True)
         self._planning.start()
 
     def use_scales(self, scales: Scales) -> None:
@@ -251,11 +292,6 @@ class Operation:
         """The folder of recordings."""
         return self.data / "recordings"
 
-    @property
-    def unfinished_recordings(self) -> tuple[Path, ...]:
-        """What a crash has left behind in the folder of recordings."""
-        return unfinished(self.recordings) if self.recordings.is_dir() else ()
-
     def start_recording(self, settings: Mapping[str, object] = MappingProxyType({})) -> Path:
         """Record everything from now on, and return into which file.
 
@@ -268,9 +304,9 @@ class Operation:
         """
         with self._recorder_lock:
             if self._closing:
-                raise RefusedError("the program is being closed")
+                raise RefusedError(message("engine", "the program is being closed"))
             if self._recorder is not None:
-                raise RefusedError("a recording is running; end it first")
+                raise RefusedError(message("engine", "a recording is running; end it first"))
             prepare()  # it takes a while the first time, in which nothing is recorded yet
             began = datetime.now().astimezone()
             path = self.recordings / f"{began:%Y-%m-%d_%H-%M-%S-%f}.arrows"
@@ -278,7 +314,9 @@ class Operation:
                 self.recordings.mkdir(parents=True, exist_ok=True)
             except OSError as error:
                 raise RecordingError(
-                    f"{self.recordings}: the folder cannot be made ({error.strerror or error})"
+                    message("engine", "{folder}: the folder cannot be made ({reason})").fill(
+                        folder=self.recordings, reason=str(error.strerror or str(error))
+                    )
                 ) from error
             recorder = SessionRecorder(
                 self.session,
@@ -305,7 +343,7 @@ class Operation:
         with self._recorder_lock:
             recorder, self._recorder = self._recorder, None
         if recorder is None:
-            raise RefusedError("nothing is being recorded")
+            raise RefusedError(message("engine", "nothing is being recorded"))
         return recorder.close()
 
     # --- inside -----------------------------------------------------------------------------------
@@ -344,23 +382,31 @@ class Operation:
         recorder.record_intent(snapshot.intent)
 
     def _recorder_told(self, notice: RecorderNotice) -> None:
-        self._told(f"Recorder: {notice.message}")
+        self._told(message("engine", "Recorder: {message}").fill(message=notice.message))
 
     def _step_failed(self, error: Exception) -> None:
-        self._told(f"The loop of the input devices failed: {type(error).__name__}: {error}")
+        self._told(
+            message("engine", "The loop of the input devices failed: {name}: {error}").fill(
+                name=type(error).__name__, error=str(error)
+            )
+        )
 
     def _kept_scales(self) -> Scales:
         try:
             return Scales.load(self._scales_file)
         except ScalingError as error:
-            self.problems.append(f"{error}; presets are used")
+            self.problems.append(
+                message("engine", "{error}; presets are used").fill(error=str(error))
+            )
             return Scales()
 
     def _kept_parameters(self) -> PenetrationParameters:
         try:
             return PenetrationParameters.kept(self._penetration_file)
         except PenetrationError as error:
-            self.problems.append(f"{error}; presets are used")
+            self.problems.append(
+                message("engine", "{error}; presets are used").fill(error=str(error))
+            )
             return PenetrationParameters()
 
 

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from types import MappingProxyType
 
 from rotemina.app.motion.mailbox import RefusedError
+from rotemina.sim.messages import AxisName, message
 
 OPERATOR = "operator"  # whoever does not say who it is: the pad of the window
 PLAYBACK = "playback"
@@ -71,7 +72,10 @@ class Ownership:
                 other = self._owners.get(axis, owner)
                 if other != owner:
                     raise RefusedError(
-                        f"axis {axis} is driven by {other}; stop it, or take over first"
+                        message(
+                            "engine",
+                            "axis {axis} is driven by {other}; stop it, or take over first",
+                        ).fill(axis=AxisName(axis), other=other)
                     )
 
     def take_over(self, axes: Iterable[str], owner: str) -> None:

@@ -17,6 +17,7 @@ from rotemina.app.motion.state import Connection, Event, PlaybackFinished, State
 from rotemina.app.motion.stop_request import PROGRAM
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState, Samples
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 
@@ -152,9 +153,9 @@ class Playback:
         """
         with self._lock:
             if self._state.phase is not PlaybackPhase.PLAYING:
-                raise RefusedError("nothing plays that could be paused")
+                raise RefusedError(message("engine", "nothing plays that could be paused"))
             self._pausing = True
-        self._session.stop("the playback is paused", by=by)
+        self._session.stop(message("engine", "the playback is paused"), by=by)
 
     def resume(self, *, speed: float | None = None, permit: Permit | None = None) -> None:
         """Go on from the last row that began, at the speed of before or at another one.
@@ -184,7 +185,9 @@ class Playback:
         row = state.row + rows
         if not 0 <= row < state.rows:
             raise RefusedError(
-                f"playback: row {row}: the trajectory has rows 0 to {state.rows - 1}"
+                message("engine", "playback: row {row}: the trajectory has rows 0 to {rows}").fill(
+                    row=row, rows=state.rows - 1
+                )
             )
         commands = whole.commands
         self._session.go_to(
@@ -205,7 +208,9 @@ class Playback:
         commands = trajectory.commands
         with self._lock:
             if self._state.phase is PlaybackPhase.PLAYING:
-                raise RefusedError("a trajectory is playing; pause or stop it first")
+                raise RefusedError(
+                    message("engine", "a trajectory is playing; pause or stop it first")
+                )
             self._whole, self._watch = trajectory, DeviationWatch(self._session.robot)
             self._state = PlaybackState(
                 PlaybackPhase.PAUSED, rows=len(commands.time_s), duration_s=commands.duration_s
@@ -213,14 +218,16 @@ class Playback:
 
     def end(self, *, by: str = PROGRAM) -> None:
         """Stop, and forget what was paused; ``by`` as of :meth:`MotionSession.stop`."""
-        self._session.stop("the playback is ended", by=by)
+        self._session.stop(message("engine", "the playback is ended"), by=by)
         with self._lock:
             self._state = replace(self._state, phase=PlaybackPhase.IDLE)
 
     def _paused(self, what: str) -> tuple[CheckedTrajectory, DeviationWatch, PlaybackState]:
         with self._lock:
             if self._state.phase is not PlaybackPhase.PAUSED or not (self._whole and self._watch):
-                raise RefusedError(f"nothing is paused that one could {what}")
+                raise RefusedError(
+                    message("engine", "nothing is paused that one could {what}").fill(what=what)
+                )
             return self._whole, self._watch, self._state
 
     def _begin(
@@ -238,7 +245,9 @@ class Playback:
             played = part.trajectory
         with self._lock:
             if self._state.phase is PlaybackPhase.PLAYING:
-                raise RefusedError("a trajectory is playing; pause or stop it first")
+                raise RefusedError(
+                    message("engine", "a trajectory is playing; pause or stop it first")
+                )
             before = (self._whole, self._piece, self._watch, self._state)
             self._whole, self._piece, self._watch = whole, part, watch
             self._state = replace(state, phase=PlaybackPhase.PLAYING)

@@ -13,6 +13,7 @@ from rotemina.drivers.registry import driver_named
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.compensate.trajectory import on_ticks
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.checked import CheckedTrajectory
@@ -80,24 +81,40 @@ def play_offline(
         device.close()
     record = recorder.finish()
     if record is None or not recorder.complete:
-        raise DriverError(f"{device.name}: playback ended early: {status.fault or status.state}")
+        raise DriverError(
+            message("engine", "{name}: playback ended early: {reason}").fill(
+                name=device.name, reason=status.fault or status.state
+            )
+        )
     return record
 
 
 def _compensator(device: TrajectoryPlayer) -> Compensator:
     if not isinstance(device, Compensator):
-        raise InputError(f"driver {device.name!r} cannot compensate; use the simulator")
+        raise InputError(
+            message("engine", "driver {name} cannot compensate; use the simulator").fill(
+                name=repr(device.name)
+            )
+        )
     return device
 
 
 def _regulator(device: TrajectoryPlayer) -> Regulator:
     if not isinstance(device, Regulator):
-        raise InputError(f"driver {device.name!r} closes no loop; use the simulator")
+        raise InputError(
+            message("engine", "driver {name} closes no loop; use the simulator").fill(
+                name=repr(device.name)
+            )
+        )
     return device
 
 
 def _virtual_player(name: str) -> type[TrajectoryPlayer]:
     found = driver_named(name)
     if not (issubclass(found, TrajectoryPlayer) and found.virtual_time):
-        raise InputError(f"driver {name!r} cannot play faster than real time; use the simulator")
+        raise InputError(
+            message(
+                "engine", "driver {name} cannot play faster than real time; use the simulator"
+            ).fill(name=repr(name))
+        )
     return found

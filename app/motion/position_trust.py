@@ -4,9 +4,10 @@ from collections.abc import Iterable
 
 from rotemina.app.motion.position_watch import PositionWatch
 from rotemina.drivers.samples import Samples
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
-LOST = "the connection was lost"
+LOST = message("engine", "the connection was lost")
 
 
 class PositionTrust:

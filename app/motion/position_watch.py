@@ -11,11 +11,15 @@ import numpy as np
 
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.messages import AxisName, message
+from rotemina.sim.quantities import exact
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.wording import readable
 
 LASTING_S = 0.05
 _SURE = 6.0  # standard deviations of a sensor's noise, beside a step of it
+_BEYOND = message("engine", "axis {axis} reads {much} beyond its range")
+_FAR_BEYOND = message("engine", "axis {axis} reads {much} beyond its range, {most} at most")
+_APART = message("engine", "axis {axis} reads {much} from where it was sent, {most} at most")
 
 
 class Judgement(NamedTuple):
@@ -76,16 +80,14 @@ class PositionWatch:
         follows, outside, far = found
         for column in np.flatnonzero(follows | far):
             name, unit = self._named(int(column))
+            said, much = _APART, float(apart[-1, column])
             if far[column]:
-                much = readable(float(beyond[-1, column]), unit)
-                what = f"axis {name} reads {much} beyond its range"
-            else:
-                much = readable(float(apart[-1, column]), unit)
-                what = f"axis {name} reads {much} from where it was sent"
-            most = readable(float(self._following[column]), unit)
-            return Judgement(f"{what}, {most} at most", (), name)
+                said, much = _FAR_BEYOND, float(beyond[-1, column])
+            most = exact(float(self._following[column]), unit)
+            told = said.fill(axis=AxisName(name), much=exact(much, unit), most=most)
+            return Judgement(told, (), name)
         alarms = tuple(
-            f"axis {name} reads {readable(float(beyond[-1, column]), unit)} beyond its range"
+            _BEYOND.fill(axis=AxisName(name), much=exact(float(beyond[-1, column]), unit))
             for column in np.flatnonzero(outside & ~self._alarmed)
             for name, unit in [self._named(int(column))]
         )

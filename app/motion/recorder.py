@@ -1,7 +1,7 @@
 """Cutting the record of a playback out of the samples that a device delivers."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
@@ -9,8 +9,9 @@ import numpy as np
 from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Channel, Record, RecordError, Tap
-from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
+from rotemina.sim.robot.model import Robot, StepperAxis
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 from rotemina.sim.trajectory.dry_run import mode_of
 
@@ -57,9 +58,7 @@ class PlaybackRecorder:
     With ``laser`` it has ``ref`` too, where the device's samples have a reference. ``calibrations``
     names those that were applied to ``meas``, by axis; ``compensations`` the inverses that stood
     between commands and actuators; ``loops`` the feedback that was closed. ``cmd`` is always what
-    the trajectory wanted. ``rowwise`` says that the device was given other commands in its place:
-    then ``cmd`` is that of the latest row, and ``u`` of a piezo what its command asks of the
-    amplifier, where the device does not tell it.
+    the trajectory wanted.
 
     A sample takes 8 bytes a column: 128 with six axes of which three tell a voltage, 460 MB an
     hour at 1 kHz. :meth:`finish` lets go of what it has copied, so the record is not held twice.
@@ -74,14 +73,12 @@ class PlaybackRecorder:
         calibrations: Mapping[str, str] = MappingProxyType({}),
         compensations: Mapping[str, str] = MappingProxyType({}),
         loops: Mapping[str, str] = MappingProxyType({}),
-        rowwise: bool = False,
     ) -> None:
         self._trajectory = trajectory
         self._metadata = _metadata(trajectory, driver)
         self._metadata |= {f"calibration {axis}": name for axis, name in calibrations.items()}
         self._metadata |= {f"compensation {axis}": name for axis, name in compensations.items()}
         self._metadata |= {f"feedback {axis}": name for axis, name in loops.items()}
-        self._rowwise = rowwise
         self._channels = tuple(_channels(trajectory.robot, trajectory.commands.axes, laser=laser))
         self._told = np.ones(len(self._channels), dtype=np.bool_)
         self._samples = _Samples(1 + len(self._channels))
@@ -116,7 +113,6 @@ class PlaybackRecorder:
             If the device names rows that do not follow one another.
         """
         began = np.flatnonzero(samples.playback_row >= 0)
-        before = self._row
         if self.complete and not len(began):
             return
         self._check_rows(samples, began)
@@ -126,7 +122,7 @@ class PlaybackRecorder:
         if len(began):
             self._rows = len(self._samples) + int(began[-1]) + 1 - first
             self._row = int(samples.playback_row[began[-1]])
-        self._samples.append(self._table(samples, first, before))
+        self._samples.append(self._table(samples, first))
         if answers is not None:
             self._add_answers(answers, first)
             self._memory = memory
@@ -172,15 +168,16 @@ class PlaybackRecorder:
         if len(wrong) or rows[-1] > last:
             at = int(wrong[0]) if len(wrong) else len(rows) - 2
             raise RecordError(
-                f"playback: the device went from row {rows[at]} to row {rows[at + 1]} of a "
-                f"trajectory whose rows are 0 to {last}"
+                message(
+                    "engine",
+                    "playback: the device went from row {from_row} to row {to_row} of a trajectory "
+                    "whose rows are 0 to {last}",
+                ).fill(from_row=rows[at], to_row=rows[at + 1], last=last)
             )
 
-    def _table(self, samples: Samples, first: int, before: int) -> FloatArray:
-        """Return time and channels (n, 1 + c) from one sample on; before it acts row ``before``."""
+    def _table(self, samples: Samples, first: int) -> FloatArray:
+        """Return time and channels (n, 1 + c) from one sample on."""
         order = tuple(self._trajectory.robot.axes)
-        if self._rowwise:
-            samples = self._as_wanted(samples, before)
         taps = {Tap.CMD: samples.command, Tap.U: samples.inputs, Tap.MEAS: samples.measured}
         unseen = np.full_like(samples.measured, np.nan)
         taps[Tap.REF] = samples.reference if samples.reference is not None else unseen
@@ -190,19 +187,6 @@ class PlaybackRecorder:
             table[:, 1 + column] = taps[tap][first:, order.index(axis)]
         self._told &= np.isfinite(table[:, 1:]).all(axis=0)
         return table
-
-    def _as_wanted(self, samples: Samples, before: int) -> Samples:
-        """Return samples with the trajectory's own commands, and voltages of those that acted."""
-        robot, commands = self._trajectory.robot, self._trajectory.commands
-        order = tuple(robot.axes)
-        row = np.maximum(np.maximum.accumulate(np.maximum(samples.playback_row, before)), 0)
-        wanted, inputs = samples.command.copy(), samples.inputs.copy()
-        for name in commands.axes:
-            column, axis = order.index(name), robot.axes[name]
-            if isinstance(axis, PiezoAxis) and np.isnan(inputs[:, column]).all():
-                inputs[:, column] = samples.command[:, column] / axis.gain
-            wanted[:, column] = commands.signal(name, Tap.CMD)[row]
-        return replace(samples, command=wanted, inputs=inputs)
 
 
 class _Samples:

@@ -4,20 +4,20 @@ Only a device that is a :class:`~rotemina.drivers.model_abilities.Regulator` can
 samples hundreds of times sooner than a line to a board brings them.
 """
 
-from abc import ABC
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from rotemina.app.motion.compensation import CompensatedRequests
+from rotemina.app.motion.admission import Admission
+from rotemina.app.motion.device_link import DeviceLink
 from rotemina.app.motion.mailbox import RefusedError, Regulate
 from rotemina.app.motion.ownership import OPERATOR
-from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.model_abilities import Regulator
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.regulation import Regulation
+from rotemina.sim.messages import AxisName, message
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
 if TYPE_CHECKING:  # a search and what it needs take their time to import
@@ -32,40 +32,40 @@ class NamedRegulation:
     name: str
 
 
-class RegulatedRequests(CompensatedRequests, ABC):
-    """Loops around axes.
+class Loops:
+    """Loops around axes."""
 
-    Parameters are those of :class:`~rotemina.app.motion.device_session.DeviceSession`.
-    """
-
-    def __init__(self, driver: Driver, **options: Any) -> None:
-        super().__init__(driver, **options)
-        self._regulations: Mapping[str, NamedRegulation] = MappingProxyType({})
+    def __init__(self, link: DeviceLink, admission: Admission) -> None:
+        self._link = link
+        self._admission = admission
+        self._known: Mapping[str, NamedRegulation] = MappingProxyType({})
 
     @property
-    def regulated(self) -> Mapping[str, NamedRegulation]:
+    def applied(self) -> Mapping[str, NamedRegulation]:
         """The loops that are closed, by axis; any thread."""
-        driver, known = self.driver, self._regulations
+        driver, known = self._link.driver, self._known
         closed = driver.regulated if isinstance(driver, Regulator) else {}
         return {axis: known[axis] for axis in closed if axis in known}
 
     @property
-    def regulation_limited(self) -> tuple[str, ...]:
+    def limited(self) -> tuple[str, ...]:
         """The axes whose loop asks for more than a limit allows just now; any thread."""
-        driver = self.driver
+        driver = self._link.driver
         return driver.regulation_limited if isinstance(driver, Regulator) else ()
 
     @property
-    def no_regulation(self) -> str | None:
+    def unavailable(self) -> str | None:
         """Why the device closes no loop; None if it does."""
-        if isinstance(self.driver, Regulator):
+        driver = self._link.driver
+        if isinstance(driver, Regulator):
             return None
-        return (
-            f"driver {self.driver.name!r} closes no loop: its samples come too seldom and too late "
-            "for one; use feed-forward, or the simulator"
-        )
+        return message(
+            "engine",
+            "driver {name} closes no loop: its samples come too seldom and too late for one; use "
+            "feed-forward, or the simulator",
+        ).fill(name=repr(driver.name))
 
-    def regulate(self, loop: NamedRegulation, *, permit: Permit | None = None) -> None:
+    def apply(self, loop: NamedRegulation, *, permit: Permit | None = None) -> None:
         """Close a loop around its axis, which stays where it is; no way leads back from there.
 
         Its command becomes the position that its sensor tells. An inverse that is on goes over
@@ -76,45 +76,41 @@ class RegulatedRequests(CompensatedRequests, ABC):
         RefusedError
             If the device cannot, the machine is not at rest, or as for any move.
         """
-        permit = self._drawn(permit)
-        if self.no_regulation is not None:
-            raise RefusedError(self.no_regulation)
+        permit = self._admission.drawn(permit)
+        if self.unavailable is not None:
+            raise RefusedError(self.unavailable)
         axis = loop.regulation.axis
-        with self._lock:
-            self._refuse_unless_at_rest("closing a loop")
-            with self._worker.ownership.claimed((axis,), OPERATOR):
-                command = Regulate(axis, loop.regulation)
-                self._mailbox.post(command, permit.owned((axis,), OPERATOR))
-            self._regulations = MappingProxyType({**self._regulations, axis: loop})
-            self._forget_way_back()
+        with self._admission.lock:
+            self._admission.refuse_unless_at_rest("closing a loop")
+            self._change(axis, loop.regulation, permit)
+            self._known = MappingProxyType({**self._known, axis: loop})
 
-    def unregulate(self, axis: str, *, permit: Permit | None = None) -> None:
+    def remove(self, axis: str, *, permit: Permit | None = None) -> None:
         """Open the loop of an axis, which stays where it is; no way leads back from there.
 
         Raises
         ------
         RefusedError
-            As :meth:`regulate`, or if there is none.
+            As :meth:`apply`, or if there is none.
         """
-        permit = self._drawn(permit)
-        if axis not in self.regulated:
-            raise RefusedError(f"axis {axis} is under no loop that could be taken off")
-        with self._lock:
-            self._refuse_unless_at_rest("opening a loop")
-            with self._worker.ownership.claimed((axis,), OPERATOR):
-                self._mailbox.post(Regulate(axis, None), permit.owned((axis,), OPERATOR))
-            self._forget_way_back()
+        permit = self._admission.drawn(permit)
+        if axis not in self.applied:
+            raise RefusedError(
+                message("engine", "axis {axis} is under no loop that could be taken off").fill(
+                    axis=AxisName(axis)
+                )
+            )
+        with self._admission.lock:
+            self._admission.refuse_unless_at_rest("opening a loop")
+            self._change(axis, None, permit)
 
-    def use(self, driver: Driver) -> None:
-        """Stop, let go of the device, and connect to another one, without any loop.
+    def forget(self) -> None:
+        """Have none closed: another device is connected."""
+        self._known = MappingProxyType({})
 
-        Raises
-        ------
-        RefusedError
-            If the other driver is for another robot.
-        """
-        super().use(driver)
-        self._regulations = MappingProxyType({})
+    def _change(self, axis: str, regulation: Regulation | None, permit: Permit) -> None:
+        self._admission.queue(Regulate(axis, regulation), permit, (axis,), OPERATOR)
+        self._admission.way_back.forget()
 
 
 def regulation_of(robot: Robot, tuning: "Tuning", name: str) -> NamedRegulation:
@@ -131,18 +127,26 @@ def regulation_of(robot: Robot, tuning: "Tuning", name: str) -> NamedRegulation:
     axis, source = tuning.axis, tuning.provenance
     if source.robot != robot.name:
         raise FeedbackError(
-            f"{name}: tuned for robot {source.robot!r}, not for {robot.name!r}; tune on this robot"
+            message(
+                "engine", "{name}: tuned for robot {robot}, not for {this}; tune on this robot"
+            ).fill(name=name, robot=repr(source.robot), this=repr(robot.name))
         )
     described = robot.axes.get(axis)
     if not isinstance(described, PiezoAxis) or described.controller is not None:
         raise FeedbackError(
-            f"{name}: axis {axis} is no piezo in open loop of robot {robot.name!r}; a loop is for "
-            "one that is"
+            message(
+                "engine",
+                "{name}: axis {axis} is no piezo in open loop of robot {this}; a "
+                "loop is for one that is",
+            ).fill(name=name, axis=AxisName(axis), this=repr(robot.name))
         )
     if tuning.delay:
         raise FeedbackError(
-            f"{name}: tuned for outputs that come {tuning.delay} intervals late, and a device's "
-            "loop puts them out at once; tune with a delay of 0"
+            message(
+                "engine",
+                "{name}: tuned for outputs that come {delay} intervals late, and a "
+                "device's loop puts them out at once; tune with a delay of 0",
+            ).fill(name=name, delay=tuning.delay)
         )
     number = f"{name}, point {tuning.chosen}"
     try:
@@ -155,5 +159,7 @@ def regulation_of(robot: Robot, tuning: "Tuning", name: str) -> NamedRegulation:
             spread=source.spread,
         )
     except FeedbackError as error:
-        raise type(error)(f"{number}: {error}") from error
+        raise type(error)(
+            message("engine", "{number}: {error}").fill(number=number, error=str(error))
+        ) from error
     return NamedRegulation(regulation, number)

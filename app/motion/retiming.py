@@ -6,6 +6,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record
 
 SLOWEST, FASTEST = 0.01, 10.0
@@ -43,8 +45,13 @@ def check_speed(speed: float) -> float:
     """
     if not SLOWEST <= speed <= FASTEST:
         raise InputError(
-            f"playback: a speed of {speed:g}: must be {SLOWEST:g} to {FASTEST:g} times that of the "
-            "trajectory"
+            message(
+                "engine",
+                "playback: a speed of {speed}: must be {slowest} to {fastest} times "
+                "that of the trajectory",
+            ).fill(
+                speed=rounded(speed, 6), slowest=rounded(SLOWEST, 6), fastest=rounded(FASTEST, 6)
+            )
         )
     return speed
 
@@ -66,7 +73,11 @@ def piece(
     check_speed(speed)
     rows = len(trajectory.time_s)
     if not 0 <= row < rows:
-        raise InputError(f"playback: row {row}: the trajectory has rows 0 to {rows - 1}")
+        raise InputError(
+            message("engine", "playback: row {row}: the trajectory has rows 0 to {rows}").fill(
+                row=row, rows=rows - 1
+            )
+        )
     path_s = trajectory.time_s - trajectory.time_s[0]
     rest = trajectory.part(slice(row, None))
     path_s = path_s[row:]

@@ -16,6 +16,7 @@ from rotemina.sim.comparison.comparison import Comparison, compare
 from rotemina.sim.comparison.gap import GapFigure, gap_figure, moving
 from rotemina.sim.plant.response import Response, nominal_response
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import Robot
 
 _REPLACED = ("compensation ", "feedback ")  # metadata: what was sent is not what the record says
 
@@ -66,6 +67,22 @@ class Run:
             )
             for axis, tap in places
         }
+
+
+def worst(
+    gaps: Mapping[tuple[str, Tap], GapFigure | None], robot: Robot
+) -> tuple[str, GapFigure] | None:
+    """Return the axis whose reading departs most, in noise floors of its sensor, with its gap.
+
+    None where nothing moved, or nothing was read.
+    """
+    found = []
+    for (axis, tap), figure in gaps.items():
+        if tap is Tap.MEAS and figure is not None:
+            described = robot.axes.get(axis)
+            floor = described.sensor.noise_floor if described and described.sensor else 0.0
+            found.append((figure.rms / (floor or 1.0), axis, figure))
+    return max(found, key=lambda one: one[0])[1:] if found else None
 
 
 def compared(

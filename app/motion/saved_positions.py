@@ -11,11 +11,14 @@ from pydantic.dataclasses import dataclass
 
 from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
 
 FOLDER = "positions"
 MOST, LONGEST_NAME = 200, 40
+#: Names of places that have buttons of their own.
+HOME, LOAD, WORK = "home", "load", "work"
 
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=LONGEST_NAME)]
 AxisPositions = Mapping[Text, Annotated[float, Field(strict=True, allow_inf_nan=False)]]
@@ -76,8 +79,9 @@ class SavedPositions:
         found = _FORMAT.load(self.path)
         if found.robot != self._robot.name:
             raise SavedPositionError(
-                f"{self.path}: positions of robot {found.robot!r}, not of {self._robot.name!r}; "
-                "put the file away"
+                message(
+                    "engine", "{path}: positions of robot {robot}, not of {name}; put the file away"
+                ).fill(path=self.path, robot=repr(found.robot), name=repr(self._robot.name))
             )
         for name, place in found.positions.items():
             self._check(name, place, f"{self.path}: ")
@@ -96,7 +100,11 @@ class SavedPositions:
         self._check(name, place, "")
         self.read()
         if name not in self._kept and len(self._kept) >= MOST:
-            raise SavedPositionError(f"there are {MOST} positions, no more are kept; delete some")
+            raise SavedPositionError(
+                message("engine", "there are {most} positions, no more are kept; delete some").fill(
+                    most=MOST
+                )
+            )
         self._write({**self._kept, name: MappingProxyType(dict(place))})
 
     def delete(self, name: str) -> None:
@@ -111,7 +119,9 @@ class SavedPositions:
         """
         self.read()
         if name not in self._kept:
-            raise SavedPositionError(f"there is no position {name!r}")
+            raise SavedPositionError(
+                message("engine", "there is no position {name}").fill(name=repr(name))
+            )
         self._write({other: place for other, place in self._kept.items() if other != name})
 
     def _write(self, kept: dict[str, Mapping[str, float]]) -> None:
@@ -123,18 +133,31 @@ class SavedPositions:
         """Refuse a name nobody could read, and a place that is not one of this robot."""
         if not 0 < len(name) <= LONGEST_NAME or not name.isprintable() or name != name.strip():
             raise SavedPositionError(
-                f"{where}{name!r} is no name for a position; use 1 to {LONGEST_NAME} letters "
-                "without blanks at the ends"
+                message(
+                    "engine",
+                    "{where}{name} is no name for a position; use 1 to {longest} "
+                    "letters without blanks at the ends",
+                ).fill(where=where, name=repr(name), longest=LONGEST_NAME)
             )
         axes = set(self._robot.axes)
         if set(place) != axes:
             missing, other = sorted(axes - set(place)), sorted(set(place) - axes)
-            what = f"axis {missing[0]} is missing" if missing else f"there is no axis {other[0]!r}"
+            what = (
+                message("engine", "axis {missing} is missing").fill(missing=missing[0])
+                if missing
+                else message("engine", "there is no axis {other}").fill(other=repr(other[0]))
+            )
             raise SavedPositionError(
-                f"{where}position {name!r}: {what}; it needs {', '.join(self._robot.axes)}"
+                message("engine", "{where}position {name}: {what}; it needs {axes}").fill(
+                    where=where, name=repr(name), what=what, axes=", ".join(self._robot.axes)
+                )
             )
         for axis, at in place.items():
             try:
                 check_target(self._robot, axis, at)
             except OutOfLimitsError as error:
-                raise SavedPositionError(f"{where}position {name!r}: {error}") from error
+                raise SavedPositionError(
+                    message("engine", "{where}position {name}: {error}").fill(
+                        where=where, name=repr(name), error=str(error)
+                    )
+                ) from error

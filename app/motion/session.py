@@ -1,416 +1,397 @@
 """A motion session: the one place through which a program moves a machine."""
 
-from collections.abc import Container, Mapping, Sequence
+import threading
+import time
+from collections.abc import Callable
 from dataclasses import replace
-from types import MappingProxyType
-from typing import Any
+from datetime import datetime
 
-import numpy as np
-
-from rotemina.app.motion.guard import PathSegment, PositionEnvelope
-from rotemina.app.motion.mailbox import (
-    Drive,
-    Home,
-    Move,
-    Play,
-    RefusedError,
-)
-from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
-from rotemina.app.motion.regulation import RegulatedRequests
-from rotemina.app.motion.safe_path import safe_path
-from rotemina.app.motion.state import (
-    SessionState,
-)
+from rotemina.app.motion.admission import Admission
+from rotemina.app.motion.backlash import Backlash
+from rotemina.app.motion.captures import Captures
+from rotemina.app.motion.command_memory import CommandMemory
+from rotemina.app.motion.compensation import Inverses
+from rotemina.app.motion.device_link import DeviceLink
+from rotemina.app.motion.guard import Guard
+from rotemina.app.motion.heartbeat import Heartbeat
+from rotemina.app.motion.history import LiveHistory
+from rotemina.app.motion.live_models import PreparedModel
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.app.motion.moves import Moves
+from rotemina.app.motion.profiles import Profiles
+from rotemina.app.motion.ranges import NarrowedRanges
+from rotemina.app.motion.regulation import Loops
+from rotemina.app.motion.reservations import Reservations
+from rotemina.app.motion.routing import Routing
+from rotemina.app.motion.run_labels import RunLabels
+from rotemina.app.motion.sensor_corrections import SensorCorrections
+from rotemina.app.motion.service import Service
+from rotemina.app.motion.state import Connection, SessionState
+from rotemina.app.motion.stop_request import LOCKED, PROGRAM, StopRequest
+from rotemina.app.motion.subscribers import Subscribers
+from rotemina.app.motion.tip_bounds import TipBounds
+from rotemina.app.motion.tool import Tool
 from rotemina.app.motion.undo import Undo
-from rotemina.drivers.abilities import (
-    Homer,
-    TrajectoryPlayer,
-    VelocityMover,
-)
+from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
-from rotemina.drivers.gate import Permit, Purpose
+from rotemina.drivers.gate import Epoch, Permit, Purpose
 from rotemina.drivers.samples import DeviceState
-from rotemina.sim.kinematics.keep_out import KeepOutZone
-from rotemina.sim.records.record import Record
-from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
-from rotemina.sim.trajectory.limits import OutOfLimitsError, check_speeds, check_target
+from rotemina.sim.messages import message
 
-LEASE_S = 0.15  # of a speed that nobody renews
+_MOVES = (DeviceState.MOVING, DeviceState.PLAYING, DeviceState.HOMING)
 
 
-class MotionSession(RegulatedRequests):
-    """Every motion passes through here: ranges, the tip's bounds and owners hold on every path.
+class MotionSession:
+    """Owns a driver: one worker thread talks to it, and only a stop goes past that.
 
-    A request is checked on the caller's thread and refused at once with the reason
-    (:class:`rotemina.sim.errors.InputError`), or queued for the worker.
+    Every motion passes through here: ranges, the tip's bounds and owners hold on every path. A
+    request is checked on the caller's thread and refused at once with the reason
+    (:class:`rotemina.sim.errors.InputError`), or queued for the worker. What the device does is
+    seen in :meth:`snapshot`, ``history`` and events. After a failure nothing moves until
+    :meth:`reconnect`.
 
-    Parameters are those of :class:`rotemina.app.motion.device_session.DeviceSession`.
+    The session connects, stops and tells; what else it does, its parts do. Those of :class:`Moves`
+    and :class:`Subscribers` are called so often that they are the session's own methods: ``go_to``,
+    ``jog``, ``move_velocity``, ``go_safely``, ``home``, ``undo``, ``play``, ``check_play``,
+    ``tip_path``, ``set_voltage``, ``subscribe`` and ``tap``.
+
+    Parameters
+    ----------
+    driver : Driver
+    history : LiveHistory, optional
+        Where samples go; a minute's worth by default.
+    clock : callable, optional
+        The host's time, s; the driver's by default.
+    period_s : float, optional
+        How often the worker reads the device when nothing else calls it; as the driver wishes.
+    queue_size : int
+        How many commands may wait.
+    stale_after_s : float
+        Motion is refused when the latest sample is older.
+    local_time : callable
+        The time of day, for what is told to people.
+
+    Attributes
+    ----------
+    inverses : Inverses
+        Of piezo axes, on and off.
+    loops : Loops
+        Around axes, closed and opened.
+    bounds : TipBounds
+        The keep-out zone and the floor that is taught.
+    backlash : Backlash
+        One-sided approaches of stepper axes.
+    ranges : NarrowedRanges
+        Of axes, inside those of the robot file.
+    reservations : Reservations
+        Owners that keep every axis.
+    profiles : Profiles
+        That the device runs by itself.
+    captures : Captures
+        Samples at a high rate.
+    tool : Tool
+    service : Service
+        Parameters, display, faults, effects.
     """
 
-    def __init__(self, driver: Driver, **options: Any) -> None:
-        super().__init__(driver, **options)
-        self._undo = Undo(self.robot)
-
-    # --- motion -----------------------------------------------------------------------------------
-
-    def go_to(
+    def __init__(
         self,
-        targets: Mapping[str, float],
-        owner: str = OPERATOR,
-        speeds: Mapping[str, float] = MappingProxyType({}),
+        driver: Driver,
         *,
-        confirmed: bool = False,
-        permit: Permit | None = None,
+        history: LiveHistory | None = None,
+        clock: Clock | None = None,
+        period_s: float | None = None,
+        queue_size: int = 16,
+        stale_after_s: float = 1.0,
+        local_time: Callable[[], datetime] = datetime.now,
     ) -> None:
-        """Send axes to positions, m or rad; also in mid-move.
+        clock = clock if clock is not None else driver.clock
+        self.robot = driver.robot
+        self.history = history if history is not None else LiveHistory(driver.axes)
+        subscribers = Subscribers()
+        link = DeviceLink(
+            driver,
+            self.history,
+            subscribers,
+            clock=clock,
+            queue_size=queue_size,
+            stale_after_s=stale_after_s,
+        )
+        guard = Guard(driver.robot)
+        admission = Admission(link, guard, Undo(driver.robot))
+        self.inverses = Inverses(link, admission)
+        self.loops = Loops(link, admission)
+        self.bounds = TipBounds(link, admission, guard)
+        self.ranges = NarrowedRanges(link, admission, guard)
+        self.reservations = Reservations(link, admission)
+        self.profiles = Profiles(link, admission, guard, self.inverses, self.reservations)
+        self.captures = Captures(link)
+        self.tool = Tool(link, admission)
+        self.service = Service(link)
+        self.backlash = Backlash(link, admission, self.ranges)
+        routing = Routing(link, admission, guard, self.backlash)
+        moves = Moves(link, admission, guard, self.inverses, self.loops, routing)
+        self.go_to, self.jog, self.move_velocity = moves.go_to, moves.jog, moves.move_velocity
+        self.go_safely, self.home, self.undo = moves.go_safely, moves.home, moves.undo
+        self.play, self.set_voltage = moves.play, moves.set_voltage
+        self.check_play, self.tip_path = moves.check_play, moves.tip_path
+        self.subscribe, self.tap = subscribers.subscribe, subscribers.tap
+        self._link, self._admission, self._moves = link, admission, moves
+        self._subscribers = subscribers
+        self._period_s = period_s if period_s is not None else driver.service_period_s
+        self._local_time = local_time
+        self._thread: threading.Thread | None = None
+        self._closing = threading.Event()
+        #: Of the thread that shows this to an operator; once it beats, nothing moves without it.
+        self.screen = Heartbeat(clock)
+        #: Of the worker.
+        self.pulse = Heartbeat(clock)
 
-        Each goes as fast as it may, or as ``speeds`` (m/s or rad/s) says, where that is slower.
-        Close above the tip's floor the move slows down by itself. A ``permit`` is that of the plan
-        that this is a part of: a stop since then ends it. A tip that is out of its bounds moves
-        only if somebody has ``confirmed`` that, slowly, by axes that each bring it back.
-
-        Raises
-        ------
-        OutOfLimitsError
-            If any target is beyond a limit, or the tip might leave its bounds; then no axis moves.
-        RefusedError
-            If no motion is possible now: not connected, a fault, a playback, a full queue, an axis
-            that another owner drives.
-        """
-        permit = self._drawn(permit)
-        with self._lock:
-            self._post_move(dict(targets), owner, speeds, permit, confirmed=confirmed)
-
-    def move_velocity(
-        self,
-        velocities: Mapping[str, float],
-        lease_s: float = LEASE_S,
-        owner: str = OPERATOR,
-        *,
-        permit: Permit | None = None,
-    ) -> dict[str, float]:
-        """Let axes go at speeds, m/s or rad/s, until the lease runs out; renew it to go on.
-
-        Returns the speeds that are used: close to the tip's bounds they are lower. A speed of 0
-        halts an axis.
-
-        Raises
-        ------
-        OutOfLimitsError
-            If there is no such axis, or the tip might leave its bounds within the lease.
-        RefusedError
-            If the device cannot, or as :meth:`go_to`.
-        """
-        permit = self._drawn(permit)
-        driver = self.driver
-        if not isinstance(driver, VelocityMover):
-            raise RefusedError(f"driver {driver.name!r} cannot move at a speed; send targets")
-        driver.check_velocity(velocities, lease_s)
-        with self._lock:
-            self._refuse_if_locked()
-            guard = self._guard
-            used = guard.velocity(self._envelope(velocities), velocities, lease_s)
-            ways, braking = guard.ways(used, lease_s), guard.ways(used, 0.0)
-            with self._worker.ownership.claimed(velocities, owner):
-                self._note_rest()
-                asked_s = self._clock()
-                self._mailbox.post(
-                    Drive(used, lease_s, asked_s, ways, braking),
-                    permit.owned(velocities, owner).until(asked_s + lease_s),
-                )
-        return used
-
-    def home(self, axes: Sequence[str] | None = None) -> None:
-        """Find the limit switches of axes, or of all that have some.
-
-        Raises
-        ------
-        RefusedError
-            If the device has none, or is not at rest.
-        """
-        permit = self.permit(Purpose.HOMING)
-        driver = self.driver
-        if not isinstance(driver, Homer):
-            raise RefusedError(f"driver {driver.name!r} has no switches to be found")
-        wanted = driver.homing_axes if axes is None else tuple(axes)
-        with self._lock:
-            state = self.snapshot()
-            why = self._unready(state)
-            if why is not None:
-                raise RefusedError(f"motion is locked: {why}")
-            if state.activity is not DeviceState.IDLE or len(self._mailbox):
-                raise RefusedError("the machine is still moving; stop it or wait before homing")
-            with self._worker.ownership.claimed(wanted, HOMING):
-                self._mailbox.post(Home(wanted), permit.owned(wanted, HOMING))
-            self._undo.forget()
-
-    def undo(self, *, permit: Permit | None = None) -> None:
-        """Go back to where the axes rested before the latest move: up, across, down.
-
-        Raises
-        ------
-        OutOfLimitsError, RefusedError
-            As :meth:`go_to`, or if there is no move to take back.
-        """
-        permit = self._drawn(permit)
-        with self._lock:
-            self._refuse_if_locked()
-            self._refuse_in_motion("going back")
-            segments = self._segments(self._undo.back(dict(self._worker.state.command)))
-            with self._worker.ownership.claimed(_axes(segments), OPERATOR):
-                self._mailbox.post(Move(segments), permit.owned(_axes(segments), OPERATOR))
-
-    def go_safely(
-        self,
-        goal: Mapping[str, float],
-        speeds: Mapping[str, float] = MappingProxyType({}),
-        *,
-        permit: Permit | None = None,
-    ) -> None:
-        """Send axes to a place by a safe way: up, across, down; ``speeds`` as in :meth:`go_to`.
-
-        Raises
-        ------
-        OutOfLimitsError, RefusedError
-            As :meth:`go_to`, or if the machine is not at rest; then no axis moves.
-        """
-        permit = self._drawn(permit)
-        with self._lock:
-            self._refuse_if_locked()
-            self._refuse_in_motion("going there")
-            for axis, position in goal.items():
-                check_target(self.robot, axis, position)
-            self._check_seen(goal)
-            ways = safe_path(self.robot, dict(self._worker.state.command), goal)
-            segments = tuple(segment.no_faster(speeds) for segment in self._segments(ways))
-            with self._worker.ownership.claimed(_axes(segments), OPERATOR):
-                self._note_rest()
-                self._mailbox.post(Move(segments), permit.owned(_axes(segments), OPERATOR))
+    # --- connection -------------------------------------------------------------------------------
 
     @property
-    def undoable(self) -> bool:
-        """Whether there is a move to take back."""
-        with self._lock:
-            return self._undo.leads_from(dict(self._worker.state.command))
+    def driver(self) -> Driver:
+        """The driver in use."""
+        return self._link.driver
+
+    @property
+    def setpoint_period_s(self) -> float:
+        """How often the device applies set-points, s; what a dry run for it is to be told."""
+        return self._link.setpoint_period_s
+
+    def start(self) -> None:
+        """Connect to the device and keep talking to it, on a thread of its own.
+
+        Raises
+        ------
+        RefusedError
+            If the session was started before.
+        """
+        if self._thread is not None:
+            raise RefusedError(
+                message("engine", "the session was started before; make another one")
+            )
+        self._link.connect()
+        self._thread = threading.Thread(target=self._run, name="motion session", daemon=True)
+        self._thread.start()
+
+    def close(self, timeout_s: float = 5.0) -> bool:
+        """Stop, let go of the device and end the worker; safe to call twice.
+
+        Returns whether the worker ended in time; one that hangs in a device is left behind.
+        """
+        self._closing.set()
+        self._link.mailbox.wake_event.set()
+        thread = self._thread
+        if thread is None:
+            self._link.worker.shut_down()
+            return True
+        if thread is not threading.current_thread():
+            thread.join(timeout_s)
+        return not thread.is_alive()
+
+    def connect(self) -> None:
+        """Ask the worker to connect; for a program that steps :meth:`run_once` itself."""
+        self._link.connect()
+
+    def reconnect(self) -> None:
+        """Connect again after a failure; never happens by itself.
+
+        Raises
+        ------
+        RefusedError
+            If the session is connected.
+        """
+        if self._link.worker.state.connection in (Connection.CONNECTED, Connection.CONNECTING):
+            raise RefusedError(message("engine", "the device is connected"))
+        self._link.connect()
+
+    def disconnect(self) -> None:
+        """Stop, and let go of the device; it holds."""
+        self.stop(message("engine", "the device is let go of"))
+        self._link.disconnect()
 
     def use(self, driver: Driver) -> None:
-        """Stop, let go of the device, and connect to another one; no way leads back to the first.
+        """Stop, let go of the device, and connect to another one.
+
+        It has neither inverses nor loops, and no way leads back to where the first one was.
 
         Raises
         ------
         RefusedError
             If the other driver is for another robot.
         """
-        super().use(driver)
-        with self._lock:
-            self._undo.forget()
-
-    def take_over(self, axes: Sequence[str], owner: str) -> None:
-        """Make axes an owner's that another one drives; they go on until told otherwise."""
-        self._worker.ownership.take_over(axes, owner)
-
-    def jog(
-        self,
-        axis: str,
-        distance: float,
-        owner: str = OPERATOR,
-        speeds: Mapping[str, float] = MappingProxyType({}),
-        *,
-        confirmed: bool = False,
-        permit: Permit | None = None,
-    ) -> None:
-        """Move one axis by a distance (m or rad) from where it was last sent.
-
-        ``speeds`` and ``confirmed`` as in :meth:`go_to`.
-
-        Raises
-        ------
-        OutOfLimitsError, RefusedError
-            As :meth:`go_to`.
-        """
-        permit = self._drawn(permit)
-        if axis not in self.robot.axes:
-            check_target(self.robot, axis, 0.0)
-        with self._lock:
-            self._refuse_if_locked()
-            target = self._target_of(axis) + distance
-            self._post_move({axis: target}, owner, speeds, permit, confirmed=confirmed)
-
-    def play(self, trajectory: Record | CheckedTrajectory, *, permit: Permit | None = None) -> None:
-        """Play a trajectory; events tell how it ends, with the record.
-
-        A bare record is checked on the caller's thread, which takes half a second for a million
-        rows; what a dry run allowed (``dry_run(…).require()``) is not checked again. The tip's path
-        is checked on that thread too, seconds long where it is bounded: a window asks from another.
-
-        Raises
-        ------
-        OutOfLimitsError, TrajectoryError
-            If it exceeds a limit or is not one for this robot.
-        RefusedError
-            If the device cannot play or is not at rest, or as :meth:`go_to`.
-        """
-        permit = self._drawn(permit)
-        if not isinstance(self.driver, TrajectoryPlayer):
-            raise RefusedError(f"driver {self.driver.name!r} cannot play trajectories")
-        checked = accepted(self.robot, trajectory, self.setpoint_period_s)
-        sent, compensations = self._sent(checked)
-        with self._lock:
-            self._refuse_if_locked()
-            self._refuse_in_motion("playing")
-            envelope, checked_for = self._envelope(), self._standing()
-        # Neither a stop nor a request waits for a check of the path: no lock is held.
-        self._guard.play(envelope, checked)
-        if sent is not None:
-            self._guard.play(envelope, sent)
-        with self._lock:
-            self._refuse_if_locked()
-            self._refuse_in_motion("playing")
-            if self._standing() != checked_for:
-                raise RefusedError("the machine or the tip's bounds have changed; play once more")
-            with self._worker.ownership.claimed(self.driver.axes, PLAYBACK):
-                self._note_rest()
-                loops = {axis: one.name for axis, one in self.regulated.items()}
-                self._mailbox.post(
-                    Play(checked, sent, compensations, loops),
-                    permit.owned(self.driver.axes, PLAYBACK),
+        if tuple(driver.axes) != tuple(self.driver.axes):
+            raise RefusedError(
+                message(
+                    "engine",
+                    "driver {name} is for a robot with axes {axes}; this one has "
+                    "{these}; start the program with that robot",
+                ).fill(
+                    name=repr(driver.name),
+                    axes=", ".join(driver.axes),
+                    these=", ".join(self.driver.axes),
                 )
+            )
+        self.stop(message("engine", "another device is connected"))
+        self._period_s = driver.service_period_s
+        self._link.exchange(driver)
+        self.inverses.forget()
+        self.loops.forget()
+        self.backlash.forget()
+        with self._admission.lock:
+            self._admission.way_back.forget()
 
-    # --- bounds and parameters --------------------------------------------------------------------
+    def run_once(self) -> None:
+        """Do one cycle of the worker's, where no thread was started.
+
+        What an operator began moves on only as long as he can see it.
+        """
+        self.pulse.beat()
+        state = self._link.worker.state
+        moves = state.activity in _MOVES and not state.stopping
+        if moves and self.screen.silent:
+            self.stop(message("engine", "the window does not answer"))
+        self._link.worker.run_once()
+
+    def confirm_position(self) -> None:
+        """Trust the position again after a lost connection: somebody has looked.
+
+        A stop that comes before the worker hears of it withdraws that.
+
+        Raises
+        ------
+        RefusedError
+            If the session is not connected.
+        """
+
+        def confirm(_: Driver, permit: Permit) -> None:
+            if permit.epoch == self._link.gate.epoch:
+                self._link.worker.confirm_position()
+
+        self._link.ask(confirm)
+
+    # --- stop -------------------------------------------------------------------------------------
+
+    def stop(self, why: str = "", *, by: str = PROGRAM) -> None:
+        """Halt every axis now; any thread, any time. Never waits and never raises.
+
+        Queued commands are dropped. The device is told from this very thread. ``by`` is
+        ``ownership.OPERATOR`` only where a person asked for it.
+        """
+        self._link.halt(StopRequest(by, why, self._local_time()))
+
+    def emergency_stop(self, why: str = LOCKED, *, by: str = PROGRAM) -> None:
+        """Stop, and let nothing move until :meth:`release`; any thread, never waits or raises."""
+        self._link.halt(StopRequest(by, why, self._local_time()), latch=why)
+
+    def release(self) -> None:
+        """Let the machine move again after an emergency stop; it stands until it is told to."""
+        self._link.gate.release()
+
+    def bar(self, reason: str | None) -> None:
+        """Accept no motion for this reason, on any path, until None is said; what moves goes on."""
+        self._link.barred = reason
 
     @property
-    def keep_out(self) -> KeepOutZone | None:
-        """The tip's bounds; None where the robot has no tip."""
-        return self._guard.zone
+    def stop_asked_s(self) -> float | None:
+        """Host time of the latest stop, whoever asked for it; None before the first."""
+        return self._link.stop_asked_s
 
-    def teach_floor(self, clearance: float = 0.0) -> float:
-        """Put the tip's floor where the tip is now, or that much lower; return its height, m.
+    @property
+    def epoch(self) -> Epoch:
+        """How many stops, connections and releases there have been; any thread."""
+        return self._link.gate.epoch
 
-        Raises
-        ------
-        OutOfLimitsError
-            If the robot has no tip, or the height is none that the tip can have.
-        RefusedError
-            If the machine is not at rest, or motion is locked.
+    def permit(self, purpose: Purpose = Purpose.MOTION) -> Permit:
+        """Return a permit of now, for a plan whose requests are to end with the next stop.
+
+        Requests take it as ``permit``; those without one draw their own before their first check.
         """
-        zone = self._guard.zone
-        if zone is None:
-            raise OutOfLimitsError(f"robot {self.robot.name!r} has no tip that a floor could hold")
-        if not 0.0 <= clearance < float("inf"):
-            raise OutOfLimitsError(
-                f"tip: a floor {clearance:g} m below the tip: must be a finite number, 0 or more"
-            )
-        with self._lock:
-            self._refuse_unless_at_rest("teaching the floor")
-            command = self._worker.state.command
-            tip = zone.tip(np.array([command[axis] for axis in self.driver.axes]))
-            floor = float(tip[2]) - clearance
-            self._guard.teach_floor(floor)
-        return floor
+        return self._link.gate.permit(purpose)
 
-    def clear_floor(self) -> None:
-        """Take the tip's floor away; the objective stays a bound.
-
-        Raises
-        ------
-        OutOfLimitsError
-            If the robot has no tip.
-        RefusedError
-            If the machine is not at rest, or motion is locked.
-        """
-        with self._lock:
-            self._refuse_unless_at_rest("removing the floor")
-            self._guard.teach_floor(None)
+    # --- state ------------------------------------------------------------------------------------
 
     def snapshot(self) -> SessionState:
         """Return the present state; any thread."""
-        state = super().snapshot()
-        return replace(state, tip=self._tip(state))
+        state = self._link.snapshot()
+        return replace(state, tip=self.bounds.tip(state))
 
-    def _post_move(
-        self,
-        targets: dict[str, float],
-        owner: str,
-        speeds: Mapping[str, float],
-        permit: Permit,
-        *,
-        confirmed: bool,
-    ) -> None:
-        self._refuse_if_locked()
-        self._check_seen(targets)
-        check_speeds(targets, speeds)
-        ways = self._guard.move(self._envelope(), targets, confirmed=confirmed)
-        segments = tuple(segment.no_faster(speeds) for segment in ways)
-        with self._worker.ownership.claimed(targets, owner):
-            self._note_rest()
-            self._mailbox.post(Move(segments), permit.owned(targets, owner))
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing moves, waits, or was handed over since the device was looked at last."""
+        return self._link.worker.at_rest
 
-    def _envelope(self, driven: Container[str] = ()) -> PositionEnvelope:
-        """Return where the axes may be by what they have been told and said last.
+    @property
+    def undoable(self) -> bool:
+        """Whether there is a move to take back."""
+        return self._moves.undoable
 
-        The axes ``driven`` are told a speed anew: their lease from before does not count.
+    @property
+    def standing(self) -> tuple[object, ...]:
+        """What a check of a path rests on; it is equal as long as that holds."""
+        return self._moves.standing
+
+    # --- readings and their model -----------------------------------------------------------------
+
+    @property
+    def corrections(self) -> SensorCorrections:
+        """The calibrations that are applied to the axes' readings; any thread."""
+        return self._link.worker.corrections
+
+    @property
+    def labels(self) -> RunLabels:
+        """Run, operator and sample, which every playback and recording names; any thread."""
+        return self._link.worker.labels
+
+    @labels.setter
+    def labels(self, labels: RunLabels) -> None:
+        self._link.worker.labels = labels
+
+    @property
+    def model(self) -> ModelInUse:
+        """The model that predictions are made with; any thread."""
+        return self._link.worker.models.model
+
+    @property
+    def memory(self) -> CommandMemory:
+        """What the machine was commanded since it was connected; any thread."""
+        return self._link.worker.models.memory
+
+    def use_model(self, model: ModelInUse) -> None:
+        """Make predictions with another model from now on; what is sent stays as it is.
+
+        What it remembers is carried on from what the machine was commanded since it was connected,
+        which takes a second or so: a window asks from another thread. An event tells when it is
+        in use.
+
+        Raises
+        ------
+        RefusedError
+            If the machine is not at rest or not connected.
+        EffectError
+            If an effect of the model cannot be used.
         """
-        worker = self._worker
-        command = worker.state.command
-        ends = [command, worker.targets, *self._mailbox.pending()]
-        given = [*worker.drives.items(), *((a, d) for d in self._mailbox.drives() for a in d.ways)]
-        for axis, drive in given:
-            way = (drive.braking if axis in driven else drive.ways).get(axis, 0.0)
-            if axis in command:
-                ends.append({axis: command[axis] + way})
-        return self._guard.envelope(worker.deviation.now, *ends)
+        if not self.at_rest:
+            raise RefusedError(
+                message("engine", "the machine is still moving; change the model at rest")
+            )
+        prepared = PreparedModel.of(model, self.memory)
+        self._link.ask(lambda _, __: self._link.worker.use_model(prepared))
 
-    def _segments(self, ways: Sequence[Mapping[str, float]]) -> tuple[PathSegment, ...]:
-        """Return how places are gone to, one after the other, from where the machine rests."""
-        envelope, reached = self._envelope(), dict(self._worker.state.command)
-        segments: list[PathSegment] = []
-        for targets in ways:
-            segments += self._guard.move(envelope, targets)
-            reached |= targets
-            envelope = self._guard.envelope(envelope.deviation, reached)
-        return tuple(segments)
+    def note_contact(self, what: str) -> None:
+        """Note a contact: what is learned from the motion under way may come from it."""
+        self._link.worker.note(what)
 
-    def _standing(self) -> tuple[object, ...]:
-        """Return what a check of a path rests on, while the machine rests."""
-        return dict(self._worker.state.command), self._guard.zone, dict(self.compensated)
-
-    def _refuse_in_motion(self, before: str) -> None:
-        if not self._worker.at_rest:
-            raise RefusedError(f"the machine is still moving; stop it or wait before {before}")
-
-    def _note_rest(self) -> None:
-        """Keep where the machine rests, to come back to, before it begins to move."""
-        if self._worker.state.activity is DeviceState.IDLE and not len(self._mailbox):
-            self._undo.note(self._worker.state.command)
-
-    def _forget_way_back(self) -> None:
-        self._undo.forget()
-
-    def _tip(self, state: SessionState) -> tuple[float, float, float] | None:
-        zone = self._guard.zone
-        if zone is None or not state.command:
-            return None
-        x, y, z = zone.tip(np.array([state.command[axis] for axis in self.driver.axes])).tolist()
-        return x, y, z
-
-    def _target_of(self, axis: str) -> float:
-        """Return where an axis was last sent by a command that nobody refused, or stands."""
-        target = self._mailbox.target_of(axis)
-        if target is None:
-            target = self._worker.targets.get(axis)
-        if target is None:
-            target = self._worker.state.command.get(axis, float("nan"))
-        return target
-
-    def _refuse_if_locked(self) -> None:
-        state = self.snapshot()
-        if state.locked is not None:
-            raise RefusedError(f"motion is locked: {state.locked}")
-        if state.activity is DeviceState.HOMING:
-            raise RefusedError("the machine looks for its switches; wait, or stop it first")
-        if state.activity is DeviceState.PLAYING or self._mailbox.holds_play():
-            raise RefusedError("a trajectory is playing and owns every axis; stop it first")
-
-
-def _axes(segments: Sequence[PathSegment]) -> set[str]:
-    return {axis for segment in segments for axis in segment.targets}
+    def _run(self) -> None:
+        mailbox = self._link.mailbox
+        next_s = time.monotonic()
+        while not self._closing.is_set():
+            self.run_once()
+            # By the clock, not after the work: what is late once is not late for ever.
+            next_s = max(next_s + self._period_s, time.monotonic())
+            mailbox.wake_event.wait(next_s - time.monotonic())
+            mailbox.wake_event.clear()
+        self.pulse.end()
+        self._link.worker.shut_down()

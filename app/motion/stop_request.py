@@ -3,7 +3,10 @@
 from dataclasses import dataclass
 from datetime import datetime
 
+from rotemina.sim.messages import message
+
 PROGRAM = "program"  # whatever stops without being asked by a person
+LOCKED = message("engine", "stop and lock")  # why, where that button or key was pressed
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,5 +29,9 @@ class StopRequest:
 
     def __str__(self) -> str:
         """Return it in a sentence."""
-        told = f"Stopped by the {self.by} at {self.at:%H:%M:%S}"
-        return f"{told}: {self.why}" if self.why else told
+        when = f"{self.at:%H:%M:%S}"
+        if self.why:
+            return message("engine", "Stopped by the {who} at {time}: {why}").fill(
+                who=self.by, time=when, why=self.why
+            )
+        return message("engine", "Stopped by the {who} at {time}").fill(who=self.by, time=when)

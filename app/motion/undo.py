@@ -5,6 +5,7 @@ from collections.abc import Mapping
 
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.safe_path import safe_path
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
 _KEPT = 50
@@ -48,6 +49,6 @@ class Undo:
         while self._places and self._places[-1] == now:
             self._places.pop()
         if not self._places:
-            raise RefusedError("there is no move to take back")
+            raise RefusedError(message("engine", "there is no move to undo"))
         goal = self._places.pop()
         return safe_path(self._robot, now, goal)

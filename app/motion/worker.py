@@ -8,9 +8,11 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from datetime import datetime
 from types import MappingProxyType
 
 from rotemina.app.motion.executor import Executor
+from rotemina.app.motion.held_inverses import HeldInverses
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_models import LiveModels, ModelOutputs, PreparedModel
 from rotemina.app.motion.lock_reasons import NOT_CONNECTED, lock_reason
@@ -29,6 +31,7 @@ from rotemina.app.motion.model_in_use import NOTED, Machine, ModelInUse
 from rotemina.app.motion.ownership import Ownership
 from rotemina.app.motion.position_trust import LOST, PositionTrust
 from rotemina.app.motion.reading_deviation import ReadingDeviation
+from rotemina.app.motion.run_labels import RunLabels
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
     Alarmed,
@@ -50,9 +53,11 @@ from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import DriverError, StateError
 from rotemina.drivers.gate import Gate
 from rotemina.drivers.link import LinkQuality
+from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import marked, message
 
 #: Called with samples and what the models say of them.
 Tap = Callable[[Samples, ModelOutputs], None]
@@ -94,7 +99,11 @@ class Worker:
         self._trust = PositionTrust(driver.robot)
         #: What the tip's bounds are judged on beside commands.
         self.deviation = ReadingDeviation(driver.robot)
-        self._executor = Executor(driver, clock, self.corrections)
+        #: What the operator says of all that is played; replaced as a whole by any thread.
+        self.labels = RunLabels()
+        #: Of axes that the device does not compensate by itself.
+        self.inverses = HeldInverses(driver.robot)
+        self._executor = self._executor_of(driver)
         self._next = self.state
         self._unread: list[Samples] = []
         self._worked_up_s = float("-inf")
@@ -117,6 +126,16 @@ class Worker:
     def targets(self) -> Mapping[str, float]:
         """Where the device was last sent, m or rad, of each axis that was sent anywhere."""
         return self._executor.targets
+
+    @property
+    def between_segments(self) -> bool:
+        """Whether a part of a move is still to come."""
+        return self._executor.between_segments
+
+    @property
+    def ends(self) -> Mapping[str, float]:
+        """Where each of these axes ends: that of the last segment of its move."""
+        return self._executor.ends
 
     @property
     def drives(self) -> Mapping[str, Drive]:
@@ -157,10 +176,16 @@ class Worker:
             If the machine moves, or is another than the model's.
         """
         if self.driver.status().state is not DeviceState.IDLE or self._executor.recorder:
-            raise RefusedError("the machine is still moving; change the model at rest")
+            raise RefusedError(
+                message("engine", "the machine is still moving; change the model at rest")
+            )
         why = prepared.model.machine.differs(Machine.of(self.driver))
         if why is not None:
-            raise RefusedError(f"the model is not of this machine: {why}; diagnose this one")
+            raise RefusedError(
+                message(
+                    "engine", "the model is not of this machine: {why}; diagnose this one"
+                ).fill(why=why)
+            )
         self.models.use(prepared)
         self._note_model()
 
@@ -204,7 +229,7 @@ class Worker:
     def _use(self, driver: Driver) -> None:
         if driver is not self.driver:
             self.driver = driver
-            self._executor = Executor(driver, self._clock, self.corrections)
+            self._executor = self._executor_of(driver)
             self._trust.confirm()  # another device vouches for itself
 
     def _cycle(self) -> None:
@@ -226,7 +251,9 @@ class Worker:
     def _connect(self) -> None:
         if self._next.connection is Connection.CONNECTED:
             return
-        self._next = SessionState(connection=Connection.CONNECTING, locked="connecting; wait")
+        self._next = SessionState(
+            connection=Connection.CONNECTING, locked=message("engine", "connecting; wait")
+        )
         self._publish()
         self._mailbox.clear()
         self._stop_failure = None
@@ -264,7 +291,8 @@ class Worker:
             self._emit(CommandRefused(str(error)))
 
     def _take_samples(self) -> None:
-        samples = self.corrections.corrected(self.driver.read())
+        read = self.corrections.corrected(self.driver.read())
+        samples = self.inverses.wanted(read, self.driver.status)
         now_s = self._clock()
         if len(samples):
             self._unread.append(samples)
@@ -321,7 +349,9 @@ class Worker:
             self._mailbox.clear()
             self._executor.forget()
             self.driver.halt()
-            found.append(Faulted(f"stopped: {lock}"))
+            found.append(Faulted(message("engine", "stopped: {lock}").fill(lock=lock)))
+            if off := self.inverses.forget():
+                found.append(Alarmed(_TAKEN_OFF.fill(axes=", ".join(off))))
         return found
 
     def _note_rest(self, status: DeviceStatus) -> None:
@@ -338,7 +368,7 @@ class Worker:
     ) -> SessionState:
         fault = self._next.fault
         if status.state is DeviceState.FAULT:
-            fault = status.fault or "the device reports a fault"
+            fault = status.fault or marked("engine", "the device reports a fault")
         if self._next.activity is DeviceState.HOMING and status.state is DeviceState.IDLE:
             self._trust.homed(self._executor.sought - set(status.unhomed))
         between_segments = self._executor.between_segments and status.state is DeviceState.IDLE
@@ -405,6 +435,22 @@ class Worker:
             standstill_s = self._clock() - asked_s
             self._next = replace(self._next, standstill_s=standstill_s, stopping=False)
 
+    def _executor_of(self, driver: Driver) -> Executor:
+        return Executor(
+            driver, self._clock, self.corrections, self.inverses, self._said_of_playback
+        )
+
+    def _said_of_playback(self) -> dict[str, str]:
+        """Return what the metadata of a playback that begins now are to say, beside its motion."""
+        driver = self.driver
+        effects = driver.effects_text if isinstance(driver, EffectCarrier) else ""
+        return {
+            "began": datetime.now().astimezone().isoformat(timespec="milliseconds"),
+            "robot_sha256": self.models.model.machine.robot,
+            **({"effects": effects} if effects else {}),
+            **self.labels.metadata,
+        }
+
     def _end_recording(self, *, completed: bool) -> None:
         recorder, self._executor.recorder = self._executor.recorder, None
         if recorder is None:
@@ -433,6 +479,7 @@ class Worker:
         self._emit(Faulted(message))
 
     def _set_disconnected(self, connection: Connection, fault: str | None) -> None:
+        self.inverses.restart()
         self._next = replace(
             self._next,
             connection=connection,
@@ -450,6 +497,9 @@ class Worker:
             self._emit(StateChanged(self.state))
 
 
+_TAKEN_OFF = message(
+    "engine", "the inverse of axis {axes} is off: where the axis is sent is what it is told"
+)
 _STIRRING = (Move, Drive, Play, Home, RunProfile, SetVoltage)
 _PORTION_S = 0.016  # between two times that samples are worked up
 _LATEST_S = 0.019
@@ -468,4 +518,6 @@ def _by_axis(axes: tuple[str, ...], values: FloatArray) -> MappingProxyType[str,
 def _described(error: Exception) -> str:
     if isinstance(error, DriverError | InputError):
         return str(error)
-    return f"unexpected {type(error).__name__} from the driver: {error}"
+    return message("engine", "unexpected {name} from the driver: {error}").fill(
+        name=type(error).__name__, error=str(error)
+    )

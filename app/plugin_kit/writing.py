@@ -12,6 +12,7 @@ from jinja2 import BaseLoader, Environment, StrictUndefined, TemplateNotFound
 
 from rotemina.app.plugin_kit.kinds import Kind
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 _NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 _LONGEST = 30
@@ -56,11 +57,19 @@ def new_plugin(kind: Kind, name: str, folder: Path) -> Path:
     """
     check_name(kind, name)
     if not folder.is_dir():
-        raise PluginWriteError(f"{folder}: there is no such folder; make it, or name another one")
+        raise PluginWriteError(
+            message(
+                "engine", "{folder}: there is no such folder; make it, or name another one"
+            ).fill(folder=folder)
+        )
     place = folder / f"rotemina-{name.replace('_', '-')}"
     if place.exists() or place.is_symlink():
         raise PluginWriteError(
-            f"{place}: it is there already and is not overwritten; choose another name or folder"
+            message(
+                "engine",
+                "{place}: it is there already and is not overwritten; choose another name or "
+                "folder",
+            ).fill(place=place)
         )
     draft = folder / f".{place.name}.{uuid4().hex}.part"
     try:
@@ -71,8 +80,10 @@ def new_plugin(kind: Kind, name: str, folder: Path) -> Path:
         draft.rename(place)  # fails where anything but an empty folder has come meanwhile
     except OSError as error:
         raise PluginWriteError(
-            f"{place}: it cannot be written ({error.strerror or error}); choose another folder or "
-            "make room"
+            message(
+                "engine",
+                "{place}: it cannot be written ({reason}); choose another folder or make room",
+            ).fill(place=place, reason=str(error.strerror or error))
         ) from error
     finally:
         rmtree(draft, ignore_errors=True)
@@ -83,12 +94,20 @@ def check_name(kind: Kind, name: str) -> None:
     """Refuse what cannot be the name of a new plugin, with :class:`PluginNameError`."""
     if not _NAME.fullmatch(name) or len(name) > _LONGEST:
         raise PluginNameError(
-            f"{name!r} cannot be the name of a plugin: it must be small letters, digits and single "
-            f"underscores, a letter first, at most {_LONGEST} signs, such as 'glass_stage'"
+            message(
+                "engine",
+                "{name} cannot be the name of a plugin: it must be small letters, digits and "
+                "single underscores, a letter first, at most {longest} signs, such as "
+                "'glass_stage'",
+            ).fill(name=repr(name), longest=_LONGEST)
         )
     for point in entry_points(group=kind.group, name=name):
         package = f" (of the package {point.dist.name})" if point.dist else ""
-        raise PluginNameError(f"the {kind} {name!r} is there already{package}; choose another name")
+        raise PluginNameError(
+            message(
+                "engine", "the {kind} {name} is there already{package}; choose another name"
+            ).fill(kind=kind, name=repr(name), package=package)
+        )
 
 
 def rendered(kind: Kind, name: str) -> Mapping[str, str]:

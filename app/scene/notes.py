@@ -29,8 +29,8 @@ class Words:
     enlarged: str = (
         "thx, thy, zn drawn {factor:g} × too large from mid-range; the tip is not where it is drawn"
     )
-    silent: str = "The program does not answer: what is drawn is old."
-    quiet: str = "No news from the program: what is drawn is old."
+    silent: str = "The program does not answer: the drawing is out of date."
+    quiet: str = "No news from the program: the drawing is out of date."
 
 
 class Old:

@@ -5,6 +5,7 @@ from functools import cache
 from importlib import resources
 
 from rotemina.app.scene.errors import ViewerError
+from rotemina.sim.messages import message
 
 _OWN = {
     "": ("viewer.html", "text/html; charset=utf-8"),
@@ -38,6 +39,9 @@ def page_files() -> dict[str, PageFile]:
         return {name: PageFile(file.read_bytes(), kind) for name, (file, kind) in sources.items()}
     except OSError as error:
         raise ViewerError(
-            f"{error.filename}: this file of the 3-D view cannot be read: {error.strerror}; "
-            "install RoTeMiNa again"
+            message(
+                "engine",
+                "{filename}: this file of the 3-D view cannot be read: {strerror}; install "
+                "RoTeMiNa again",
+            ).fill(filename=error.filename, strerror=str(error.strerror))
         ) from error

@@ -16,6 +16,7 @@ from rotemina.app.scene.handlers import FileHandler, SceneSocket
 from rotemina.app.scene.page import page_files
 from rotemina.app.scene.scene import Scene
 from rotemina.app.scene.viewers import Viewers
+from rotemina.sim.messages import message
 
 _LOG = logging.getLogger(__name__)
 
@@ -73,8 +74,11 @@ class ViewServer:
             self._sockets = bind_sockets(0, HOST, family=socket.AF_INET)
         except OSError as error:
             raise ViewerError(
-                f"the 3-D view cannot listen on {HOST}: {error.strerror}; a firewall or a limit "
-                "of open files may forbid it"
+                message(
+                    "engine",
+                    "the 3-D view cannot listen on {host}: {strerror}; a firewall or a limit of "
+                    "open files may forbid it",
+                ).fill(host=HOST, strerror=str(error.strerror))
             ) from error
         application = Application(
             [

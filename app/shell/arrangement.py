@@ -1,26 +1,38 @@
 """How the window looks: layouts, theme and size of text, all of them kept between starts."""
 
-from typing import TYPE_CHECKING
-
 from PySide6.QtCore import QByteArray, QObject, QTimer
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow
 
 from rotemina.app.panel import Area
 from rotemina.app.shell import layouts
 from rotemina.app.shell import theme as themes
+from rotemina.app.shell.folded_panels import NARROW_BELOW, FoldedPanels
+from rotemina.app.shell.host import Panels
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.workbench import Level
-
-if TYPE_CHECKING:
-    from rotemina.app.shell.main_window import MainWindow
+from rotemina.app.shell.layout_menu import LayoutRow
+from rotemina.app.shell.workbench import Level, Workbench
 
 _THEME, _SCALE, _AUTOMATIC = "window.theme", "window.scale", 0.0
+
+
+class ArrangedWindow(QMainWindow):
+    """What an arrangement knows of its window."""
+
+    workbench: Workbench
+    panels: Panels
+    docks: dict[str, QDockWidget]
+    folded: FoldedPanels
+    layout_row: LayoutRow
+
+    def bring_up(self, name: str) -> None:
+        """Show a panel, in front of those beside it."""
+        raise NotImplementedError
 
 
 class Arrangement(QObject):
     """Arranges and dresses a window; made when its docks stand where they stand at first."""
 
-    def __init__(self, window: "MainWindow") -> None:
+    def __init__(self, window: ArrangedWindow) -> None:
         super().__init__(window)
         self._window, self._bench = window, window.workbench
         self._settings = window.workbench.settings
@@ -28,7 +40,9 @@ class Arrangement(QObject):
         self.kept = layouts.KeptLayouts(self._settings)
         # After Qt has laid out: only then is it seen which tabs belong to nothing.
         self._tidy = QTimer(self, singleShot=True, interval=0)
-        self._tidy.timeout.connect(lambda: layouts.hide_forgotten_tabs(window))
+        self._tidy.timeout.connect(self._tidy_up)
+        self._narrow = False
+        self._arranged: layouts.Layout | None = None  # the latest
         for dock in window.docks.values():
             dock.visibilityChanged.connect(lambda _: self._tidy.start())
             dock.topLevelChanged.connect(lambda _: self._tidy.start())
@@ -43,7 +57,60 @@ class Arrangement(QObject):
         layouts.arrange(window, docks, layout, self.text_scale)
         for name in layout.places.get(Area.CENTRE, ()):
             window.bring_up(name)
+        if layout is layouts.OPERATE and self._bench.microscope.camera.camera is not None:
+            window.bring_up("microscope")
+        self._arranged = layout
+        self._fold(layout)
+        window.layout_row.mark(self.in_use)
         self._tidy.start()
+
+    def fit(self, width: int) -> None:
+        """Fold panels away in a narrow window, and bring them back in a wide one."""
+        narrow = width < NARROW_BELOW * self.text_scale
+        if narrow is self._narrow:
+            return
+        layout, self._narrow = self.in_use, narrow
+        if layout is not None:
+            self._fold(layout)
+        self._tidy.start()
+
+    def _fold(self, layout: layouts.Layout) -> None:
+        for name, dock in self._window.folded.docks.items():
+            if name in layout.docks:
+                dock.setVisible(not self._narrow)
+
+    def _show_folded(self) -> None:
+        """Show the buttons in a narrow window, where the layout has a panel for them."""
+        layout = self._arranged or self.in_use
+        wanted = layout is not None and self._window.folded.docks.keys() & layout.docks.keys()
+        self._window.folded.setVisible(self._narrow and bool(wanted))
+
+    @property
+    def in_use(self) -> layouts.Layout | None:
+        """The built-in layout that shows; None: the user has changed it, or it is one of theirs."""
+        found = (self._arranged, *layouts.BUILT_IN)
+        return next((one for one in found if one is not None and self._is_shown(one)), None)
+
+    def _is_shown(self, layout: layouts.Layout) -> bool:
+        """Whether the docks that are open are those of a layout, where it wants them."""
+        window = self._window
+        aside = window.folded.docks.keys() if self._narrow else ()
+        wanted = {
+            name: layouts.DOCK_AREAS[area]
+            for name, area in layout.docks.items()
+            if name in window.docks and name not in aside
+        }
+        shown = {
+            name: None if dock.isFloating() else window.dockWidgetArea(dock)
+            for name, dock in window.docks.items()
+            if not dock.isHidden() and name not in aside
+        }
+        return shown == wanted
+
+    def _tidy_up(self) -> None:
+        layouts.hide_forgotten_tabs(self._window)
+        self._window.layout_row.mark(self.in_use)
+        self._show_folded()
 
     def reset(self) -> None:
         """Bring every dock back to where it was at first."""
@@ -91,6 +158,8 @@ class Arrangement(QObject):
 
     def _use(self, state: QByteArray) -> bool:
         done = self._window.restoreState(state, layouts.VERSION)
+        if done:
+            self._arranged = None
         self._tidy.start()
         return done
 

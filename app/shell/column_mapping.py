@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.sim.errors import InputError
@@ -45,7 +46,7 @@ def ask_columns(
 
     workbench.work(
         "preview",
-        translate("shell", "Looking at {name} …").format(name=path.name),
+        translate("shell", "Inspecting {name} …").format(name=path.name),
         lambda: preview(path),
         seen,
     )
@@ -133,7 +134,7 @@ class ColumnMappingDialog(QDialog):
         try:
             parse_columns(self.columns, "columns", self._robot)
         except InputError as error:
-            self._complaint.setText(str(error))
+            self._complaint.setText(error_text(error))
         else:
             self._complaint.setText("")
         self._buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(

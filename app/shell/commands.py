@@ -1,22 +1,42 @@
 """The commands of the window's menus, as a table."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, Protocol
 
 from rotemina.app.motion.state import Connection
+from rotemina.app.shell.about import show_about
+from rotemina.app.shell.arrangement import Arrangement
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.layouts import BUILT_IN
 from rotemina.app.shell.theme import THEMES
 from rotemina.app.shell.workbench import Workbench
-
-if TYPE_CHECKING:
-    from rotemina.app.shell.main_window import MainWindow
 
 _THEME_TEXTS = {
     "dark": marked("shell", "&Dark theme"),
     "light": marked("shell", "&Light theme"),
     "contrast": marked("shell", "&High contrast"),
 }
+
+
+class _Window(Protocol):
+    workbench: Workbench
+    arrangement: Arrangement
+
+    def ask_trajectory(self) -> None: ...
+    def ask_trajectory_of_record(self) -> None: ...
+    def ask_record(self) -> None: ...
+    def ask_save(self) -> None: ...
+    def ask_layout_name(self) -> None: ...
+    def reset_layout(self) -> None: ...
+    def toggle_palette(self) -> None: ...
+    def help_here(self) -> None: ...
+    def show_help(self) -> None: ...
+    def show_keys(self) -> None: ...
+    def show_log(self) -> None: ...
+    def show_support(self) -> None: ...
+    def bring_up(self, name: str) -> None: ...
+    def use_theme(self, name: str) -> None: ...
+    def close(self) -> bool: ...
 
 
 def always() -> str | None:
@@ -35,12 +55,12 @@ class Command(NamedTuple):
     why_not: Callable[[], str | None] = always
 
 
-def commands(window: "MainWindow") -> list[Command]:
+def commands(window: _Window) -> list[Command]:
     """Return every command of the menus but the kept layouts, in their order."""
-    return [*_file(window), *_motion(window.workbench), *_view(window), *_help(window)]
+    return [*_file(window), *_motion(window), *_view(window), *_help(window)]
 
 
-def _file(window: "MainWindow") -> list[Command]:
+def _file(window: _Window) -> list[Command]:
     bench = window.workbench
 
     def no_record() -> str | None:
@@ -57,6 +77,13 @@ def _file(window: "MainWindow") -> list[Command]:
             "Ctrl+T",
             window.ask_trajectory,
             translate("shell", "Load and dry-run"),
+        ),
+        Command(
+            translate("shell", "&File"),
+            translate("shell", "Trajectory from &record …"),
+            "",
+            window.ask_trajectory_of_record,
+            translate("shell", "Take the commands of a record of the library in hand"),
         ),
         Command(
             translate("shell", "&File"),
@@ -83,7 +110,8 @@ def _file(window: "MainWindow") -> list[Command]:
     ]
 
 
-def _motion(bench: Workbench) -> list[Command]:
+def _motion(window: _Window) -> list[Command]:
+    bench = window.workbench
     state = bench.session.snapshot
 
     def no_play() -> str | None:
@@ -94,12 +122,10 @@ def _motion(bench: Workbench) -> list[Command]:
         )
 
     def no_release() -> str | None:
-        return None if state().latched else translate("shell", "the emergency stop is not latched")
+        return None if state().latched else translate("shell", "the machine is not locked")
 
     def no_way_back() -> str | None:
-        return (
-            None if bench.session.undoable else translate("shell", "there is no move to take back")
-        )
+        return None if bench.session.undoable else translate("shell", "there is no move to undo")
 
     def no_device() -> str | None:
         return (
@@ -137,14 +163,14 @@ def _motion(bench: Workbench) -> list[Command]:
         ),
         Command(
             menu,
-            translate("shell", "&Emergency stop"),
+            translate("shell", "Stop and loc&k"),
             "",
             bench.emergency_stop,
             translate("shell", "Latched (Shift+Esc)"),
         ),
         Command(
             menu,
-            translate("shell", "Re&lease the emergency stop"),
+            translate("shell", "Re&lease the lock"),
             "",
             bench.release,
             translate("shell", "Let axes move"),
@@ -176,6 +202,13 @@ def _motion(bench: Workbench) -> list[Command]:
         ),
         Command(
             menu,
+            translate("shell", "C&onnect …"),
+            "",
+            lambda: window.bring_up("connection"),
+            translate("shell", "Choose a machine or the simulator"),
+        ),
+        Command(
+            menu,
             translate("shell", "&Reconnect"),
             "",
             bench.reconnect,
@@ -187,13 +220,13 @@ def _motion(bench: Workbench) -> list[Command]:
             translate("shell", "&Disconnect"),
             "",
             bench.let_go,
-            translate("shell", "Stop, and let go of it"),
+            translate("shell", "Stop and disconnect"),
             no_device,
         ),
     ]
 
 
-def _view(window: "MainWindow") -> list[Command]:
+def _view(window: _Window) -> list[Command]:
     looks = window.arrangement
     layouts = [
         Command(
@@ -212,14 +245,14 @@ def _view(window: "MainWindow") -> list[Command]:
             translate("shell", "Save la&yout …"),
             "",
             window.ask_layout_name,
-            translate("shell", "Keep it under a name"),
+            translate("shell", "Save it under a name"),
         ),
         Command(
             translate("shell", "&View"),
             translate("shell", "&Restore the layout"),
             "Ctrl+Shift+0",
             window.reset_layout,
-            translate("shell", "All docks back"),
+            translate("shell", "Put all docks back"),
         ),
         *(
             Command(
@@ -255,7 +288,7 @@ def _view(window: "MainWindow") -> list[Command]:
     ]
 
 
-def _help(window: "MainWindow") -> list[Command]:
+def _help(window: _Window) -> list[Command]:
     return [
         Command(
             translate("shell", "&Help"),
@@ -269,7 +302,7 @@ def _help(window: "MainWindow") -> list[Command]:
             translate("shell", "Help on this &panel"),
             "F1",
             window.help_here,
-            translate("shell", "The one with the focus"),
+            translate("shell", "The panel that has the focus"),
         ),
         Command(
             translate("shell", "&Help"),
@@ -290,7 +323,7 @@ def _help(window: "MainWindow") -> list[Command]:
             translate("shell", "&Log"),
             "Ctrl+L",
             window.show_log,
-            translate("shell", "All that the program told"),
+            translate("shell", "All messages of the program"),
         ),
         Command(
             translate("shell", "&Help"),
@@ -298,5 +331,12 @@ def _help(window: "MainWindow") -> list[Command]:
             "",
             window.show_support,
             translate("shell", "Log, settings, versions and record for those who help"),
+        ),
+        Command(
+            translate("shell", "&Help"),
+            translate("shell", "A&bout RoTeMiNa"),
+            "",
+            lambda: show_about(window, window.workbench),
+            translate("shell", "Version, licence and folders"),
         ),
     ]

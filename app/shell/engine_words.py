@@ -1,88 +1,183 @@
-"""What the engine says in fixed words, for the window's language: why nothing moves, who drives.
+"""What the engine says, in the language of the window.
 
-The engine speaks English. What it says once, such as a refusal or a fault, is shown as it is; what
-stands in the window for long is among these.
+Sentences come as messages, which know their template and their fields; single words, as a phase or
+the state of a camera, are among :data:`WORDS`. What is neither, as the text of a plugin or of the
+operating system, is shown as it is.
 """
 
-import re
-from collections.abc import Callable, Collection
-
+from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
+from rotemina.sim.messages import Wording
+from rotemina.sim.quantities import decimal_sign
 
-# Whole sayings of the engine, with what changes in them as ``{fields}``.
-SAYINGS = (
-    marked("shell", "not connected; connect first"),
-    marked("shell", "connecting; wait"),
-    marked("shell", "the device failed ({fault}); reconnect, then check where it stands"),
-    marked("shell", "the device reports a fault ({fault}); clear it first"),
-    marked("shell", "the device does not answer; wait until it does"),
-    marked(
-        "shell",
-        "the device's parameters are not those of the robot file ({difference}); "
-        "write or accept them first",
-    ),
-    marked("shell", "the position of {axes} is not known; home first"),
-    marked("shell", "the position is not known yet"),
-    marked("shell", "{reason}: the position may be wrong; home, or confirm it"),
-    marked("shell", "the device has sent nothing for {seconds} s; wait, or reconnect"),
-    marked("shell", "{stop} is latched; release it first"),
-    marked("shell", "this is a replay; nothing moves"),
-    marked("shell", "motion is locked: {reason}"),
-    marked("shell", "operator"),
-    marked("shell", "playback"),
-    marked("shell", "homing"),
-    marked("shell", "joystick"),
-    marked("shell", "penetration"),
-    marked("shell", "emergency stop"),
-    marked("shell", "the joystick's emergency stop"),
-    marked("shell", "the connection was lost"),
-    # why somebody stopped
-    marked("shell", "the joystick's stop"),
-    marked("shell", "the window does not answer"),
-    marked("shell", "the device is let go of"),
-    marked("shell", "another device is connected"),
-    marked("shell", "the input devices are let go of"),
-    marked("shell", "the playback is paused"),
-    marked("shell", "the playback is ended"),
-    marked("shell", "the calibration is given up"),
-    marked("shell", "it was stopped"),
+CONTEXT = "engine"
+# Words of enumerations, which are shown alone or stand in a sentence's fields.
+WORDS = (
+    # quantities that a limit is for
+    marked("engine", "position"),
+    marked("engine", "voltage"),
+    marked("engine", "speed"),
+    marked("engine", "acceleration"),
+    marked("engine", "predicted motion"),
+    # what the machine must be at rest for
+    marked("engine", "closing a loop"),
+    marked("engine", "opening a loop"),
+    marked("engine", "putting an inverse on"),
+    marked("engine", "taking an inverse off"),
+    marked("engine", "teaching the floor"),
+    marked("engine", "removing the floor"),
+    marked("engine", "reserving the axes"),
+    marked("engine", "changing how an axis comes to its targets"),
+    marked("engine", "narrowing a range"),
+    marked("engine", "restoring a range"),
+    marked("engine", "a profile"),
+    marked("engine", "putting out a voltage"),
+    # what a driver cannot do now
+    marked("engine", "accept its parameters"),
+    marked("engine", "capture"),
+    marked("engine", "change a compensation"),
+    marked("engine", "change a loop"),
+    marked("engine", "change its effects"),
+    marked("engine", "clear a fault"),
+    marked("engine", "home"),
+    marked("engine", "play"),
+    marked("engine", "put out a voltage"),
+    marked("engine", "read"),
+    marked("engine", "run a profile"),
+    marked("engine", "show a text"),
+    marked("engine", "switch the tool off"),
+    marked("engine", "switch the tool on"),
+    marked("engine", "take a profile"),
+    marked("engine", "write its parameters"),
+    marked("engine", "go on with"),
+    marked("engine", "step through"),
+    # who drives
+    marked("engine", "operator"),
+    marked("engine", "playback"),
+    marked("engine", "homing"),
+    marked("engine", "joystick"),
+    marked("engine", "penetration"),
+    # how a camera does, and what the microscope is about
+    marked("engine", "closed"),
+    marked("engine", "opening"),
+    marked("engine", "live"),
+    marked("engine", "stalled"),
+    marked("engine", "frozen"),
+    marked("engine", "black"),
+    marked("engine", "lost"),
+    marked("engine", "calibration"),
+    marked("engine", "click"),
+    marked("engine", "visit of a target"),
+    marked("engine", "autofocus"),
+    marked("engine", "z-stack"),
+    # the tip in the picture, and visits of places
+    marked("engine", "off"),
+    marked("engine", "searched"),
+    marked("engine", "tracked"),
+    marked("engine", "under way"),
+    marked("engine", "arrived"),
+    marked("engine", "failed"),
+    # stages, pixels, triggers, colours
+    marked("engine", "micro"),
+    marked("engine", "nano"),
+    marked("engine", "mono8"),
+    marked("engine", "mono16"),
+    marked("engine", "colour"),
+    marked("engine", "free-running"),
+    marked("engine", "software"),
+    marked("engine", "grey"),
+    marked("engine", "grey, inverted"),
+    marked("engine", "viridis"),
+    marked("engine", "grey, saturated red"),
+    # what lies over the picture, and what a click does
+    marked("engine", "crosshair"),
+    marked("engine", "tip"),
+    marked("engine", "targets"),
+    marked("engine", "path"),
+    marked("engine", "range of the nano stage"),
+    marked("engine", "cell"),
+    marked("engine", "measure"),
+    marked("engine", "pan"),
+    marked("engine", "move"),
+    marked("engine", "mark"),
+    # phases of a penetration, and how a run ended
+    marked("engine", "disarmed"),
+    marked("engine", "armed"),
+    marked("engine", "approach"),
+    marked("engine", "contact"),
+    marked("engine", "thrust"),
+    marked("engine", "hold"),
+    marked("engine", "inject"),
+    marked("engine", "hold after"),
+    marked("engine", "retract"),
+    marked("engine", "aborted"),
+    marked("engine", "held"),
+    marked("engine", "no contact"),
+    # its parameters that are no numbers, and how a phase is lit
+    marked("engine", "axis"),
+    marked("engine", "direction"),
+    marked("engine", "shape"),
+    marked("engine", "shaping"),
+    marked("engine", "table"),
+    marked("engine", "down"),
+    marked("engine", "up"),
+    marked("engine", "passed"),
+    marked("engine", "present"),
+    # steering
+    marked("engine", "fine"),
+    marked("engine", "coarse"),
+    marked("engine", "playing"),
+    marked("engine", "Automatic"),
+    marked("engine", "move the axis now"),
+    # what the operating system says of files
+    marked("engine", "Permission denied"),
+    marked("engine", "No such file or directory"),
+    marked("engine", "File exists"),
+    marked("engine", "Is a directory"),
+    marked("engine", "Not a directory"),
+    marked("engine", "No space left on device"),
+    marked("engine", "Read-only file system"),
+    marked("engine", "Input/output error"),
+    # what the nano stage is moved for
+    marked("engine", "Re-centring"),
+    marked("engine", "Preparing"),
 )
-_FIELD = re.compile(r"\\\{(\w+)\\\}")
 
 
-def speaker(
-    context: str, sayings: Collection[str], others: Callable[[str], str] = str
-) -> Callable[[str], str]:
-    """Return a function that says in the window's language what the engine says.
+class TranslatedWording(Wording):
+    """Messages in the language of the window, with the names that axes have in files."""
 
-    Parameters
-    ----------
-    context : str
-        In which the sayings are translated.
-    sayings : collection of str
-        Whole ones, marked, with what changes in them as ``{fields}``; those are said likewise.
-    others : callable, optional
-        Says what is none of them; by default that stays as it is.
-    """
-    fixed = frozenset(saying for saying in sayings if "{" not in saying)
-    patterns = tuple(
-        (re.compile(_FIELD.sub(r"(?P<\1>.+)", re.escape(saying)), re.DOTALL), saying)
-        for saying in sayings
-        if saying not in fixed
-    )
+    @property
+    def decimal_sign(self) -> str:
+        """The sign of the language."""
+        return decimal_sign()
 
-    def say(text: str) -> str:
-        if text in fixed:
-            return translate(context, text)
-        for pattern, saying in patterns:
-            found = pattern.fullmatch(text)
-            if found is not None:
-                fields = {name: say(value) for name, value in found.groupdict().items()}
-                return translate(context, saying).format(**fields)
-        return others(text)
+    def text(self, context: str, template: str) -> str:
+        """Return a template in the language of the window."""
+        return translate(context, template)
 
-    return say
+    def word(self, text: str) -> str:
+        """Return a word of the engine; another text as it is."""
+        return translate(CONTEXT, text) if text else text
+
+    def conjunction(self, *, one_of_them: bool) -> str:
+        """Return what stands before the last one of several."""
+        return translate("engine", "or") if one_of_them else translate("engine", "and")
 
 
-# Says the sayings above; what is not known here is unchanged.
-spoken = speaker("shell", SAYINGS)
+class WindowWording(TranslatedWording):
+    """Messages in the language of the window, with its names of axes."""
+
+    def axis(self, name: str) -> str:
+        """Return what the window calls an axis."""
+        return label(name)
+
+
+def spoken(text: str) -> str:
+    """Return a message or a word of the engine in the language of the window."""
+    return WindowWording().shown(text)
+
+
+def error_text(error: BaseException) -> str:
+    """Return what an error says, in the language of the window."""
+    return spoken(str(error))

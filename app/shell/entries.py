@@ -15,9 +15,9 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.panel import Panel
 from rotemina.app.shell.commands import Command
-from rotemina.app.shell.controls import why_not
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import why_not
 
 _SIGNS = "✕…▾▴●■± "  # what ends or begins the text of a button without being a word
 

@@ -3,7 +3,8 @@
 from rotemina.app.display import label
 from rotemina.app.motion.run import Run
 from rotemina.app.shell.language import marked, translate
-from rotemina.sim.comparison.gap import NONE, GapFigure, gap_text
+from rotemina.sim.comparison.gap import GapFigure, gap_text
+from rotemina.sim.quantities import NOTHING
 from rotemina.sim.records.record import Tap
 
 LIVE = marked("shell", "Gap, last 10 s")
@@ -23,7 +24,7 @@ def run_gap(figure: GapFigure | None, unit: str) -> str:
 
 def size(figure: GapFigure | None, unit: str) -> str:
     """Return a gap alone, with its unit."""
-    return NONE if figure is None else gap_text(figure.rms, unit)
+    return NOTHING if figure is None else gap_text(figure.rms, unit)
 
 
 def small_print(figure: GapFigure | None, unit: str) -> str:

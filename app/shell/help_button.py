@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping
 from PySide6.QtCore import QEvent, QObject
 from PySide6.QtWidgets import QAbstractButton, QDockWidget, QTabWidget, QToolButton, QWidget
 
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import plain_tip
 
 _GAP = 2  # px between the buttons of a title bar
 _OWN_BUTTONS = ("qt_dockwidget_floatbutton", "qt_dockwidget_closebutton")

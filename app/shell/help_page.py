@@ -22,9 +22,9 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell import help_pages
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.help_pages import Page
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import allow
 
 MOST_BACK = 100  # pages that Back goes over
 _MARGIN = 14.0  # px around text

@@ -2,6 +2,8 @@
 
 from PySide6.QtCore import QObject
 
+from rotemina.app.shell.engine_words import error_text
+
 _LIMITS = "motion.md#limits"
 _FAULTS = "faults.md#what-a-message-means"
 
@@ -28,6 +30,7 @@ PAGES = {
     "rotemina.app.motion.teleoperation.calibration": "input-mapping.md#calibration-files",
     "rotemina.app.motion.teleoperation.profile": "input-mapping.md#profiles-by-hand",
     "rotemina.app.plugin_kit": "plugins.md",
+    "rotemina.app.records": "recording.md#the-library",
     "rotemina.app.scene": "view3d.md",
     "rotemina.app.shell": "window.md",
     "rotemina.app.shell.host": "plugins.md#what-a-bad-plugin-can-do",
@@ -89,8 +92,8 @@ class Explained(str):
 
 
 def explained(error: BaseException) -> Explained:
-    """Return what an error says, with the page on errors of its kind."""
-    return Explained(str(error), page_for(error))
+    """Return what an error says, in the language of the window, with the page on such errors."""
+    return Explained(error_text(error), page_for(error))
 
 
 def page_of(text: str) -> str:

@@ -14,7 +14,7 @@ ANYWHERE = (
     ("Esc", marked("shell", "Stop all axes and hold; a stop by software")),
     (
         "Shift+Esc",
-        marked("shell", "Emergency stop: latched until it is released; a stop by software"),
+        marked("shell", "Stop and lock: nothing moves until it is released; a stop by software"),
     ),
 )
 

@@ -5,20 +5,27 @@ the folder it stands in, and itself. A text that is kept in a table is marked th
 where it is shown: a table is made when its module is imported, before a language is in use. Texts
 with values are templates and are filled later: ``translate("gap", "{n} records").format(n=3)``.
 
-What the engines below the window say (refusals, reports, files) is English in every language.
+What is below the window says it in messages (:mod:`rotemina.sim.messages`), whose templates are
+translated where they are shown (:mod:`rotemina.app.shell.engine_words`). Numbers have the decimal
+sign of the language. Logs and files are English.
 """
 
 import logging
 from importlib import resources
 from importlib.resources.abc import Traversable
+from string import Formatter
+from typing import Any
 
+import numpy as np
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
+from rotemina.app.settings import LANGUAGE as SETTING
 from rotemina.app.settings import Settings
+from rotemina.sim.messages import marked as marked  # which the engines use for theirs
+from rotemina.sim.quantities import formatted, use_decimal_sign
 
 logger = logging.getLogger(__name__)
 
-SETTING = "window.language"
 SYSTEM = ""  # the system's language, where it is among these
 ENGLISH = "en"
 #: Each language by what it calls itself.
@@ -27,19 +34,36 @@ _PACKAGE = "rotemina.resources.languages"
 _IN_USE = "language"  # property of the application
 
 
-def translate(context: str, text: str) -> str:
+class Template(str):
+    """A text with fields, in which numbers are written as the language in use writes them."""
+
+    __slots__ = ()
+
+    def format(self, *values: object, **fields: object) -> str:
+        """Return it with something in each of its fields."""
+        return _FORMATTER.vformat(self, values, fields)
+
+
+class _LocalFormatter(Formatter):
+    """Writes numbers with the decimal sign in use."""
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if format_spec and isinstance(value, float | np.ndarray | np.number):
+            return formatted(float(value), format_spec)
+        return format(value, format_spec)
+
+
+_FORMATTER = _LocalFormatter()
+
+
+def translate(context: str, text: str) -> Template:
     """Return ``text`` in the language in use, itself where it has no translation."""
-    return QCoreApplication.translate(context, text)
+    return Template(QCoreApplication.translate(context, text))
 
 
-def marked(context: str, text: str) -> str:
-    """Return ``text`` as it is: it is found for translation here, and translated where shown."""
-    return text
-
-
-def chosen(settings: Settings) -> str:
-    """Return which language the window shall speak: as set, else the system's, else English."""
-    asked = settings.get(SETTING, SYSTEM)
+def chosen(settings: Settings, asked: str | None = None) -> str:
+    """Return which language the window speaks: that asked for, else as set, else the system's."""
+    asked = asked or settings.get(SETTING, SYSTEM)
     if asked in LANGUAGES:
         return asked
     if asked != SYSTEM:
@@ -56,6 +80,7 @@ def chosen(settings: Settings) -> str:
 def use(application: QCoreApplication, language: str) -> None:
     """Let all that is made from now on speak a language; texts that are missing are English."""
     application.setProperty(_IN_USE, language)
+    _write_numbers_as(QLocale(language))
     for old in application.findChildren(QTranslator):
         application.removeTranslator(old)
         old.deleteLater()
@@ -66,6 +91,14 @@ def use(application: QCoreApplication, language: str) -> None:
     if dialogs.load(f"qtbase_{language}", folder):
         application.installTranslator(dialogs)
     install(application, resources.files(_PACKAGE), language)
+
+
+def _write_numbers_as(locale: QLocale) -> None:
+    """Let texts and fields write numbers as a locale does, but without separators of thousands."""
+    options = QLocale.NumberOption
+    locale.setNumberOptions(options.OmitGroupSeparator | options.RejectGroupSeparator)
+    QLocale.setDefault(locale)
+    use_decimal_sign(locale.decimalPoint())
 
 
 def in_use(application: QCoreApplication | None) -> str:

@@ -32,7 +32,7 @@ def choose(workbench: Workbench, asked: str) -> None:
 
 def offered() -> Iterator[tuple[str, str]]:
     """Yield each setting with its name: the system's, then languages as they call themselves."""
-    yield SYSTEM, translate("shell", "As the system speaks")
+    yield SYSTEM, translate("shell", "System language")
     yield from LANGUAGES.items()
 
 

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 from PySide6.QtWidgets import QHBoxLayout, QInputDialog, QMenu, QToolButton, QWidget
 
-from rotemina.app.shell.controls import native_keys, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.layouts import BUILT_IN, LONGEST_NAME, KeptLayouts, Layout
+from rotemina.app.widgets.controls import native_keys, plain_tip
 
 
 class LayoutRow(QWidget):
@@ -14,7 +14,7 @@ class LayoutRow(QWidget):
 
     def __init__(self, use: Callable[[Layout], object]) -> None:
         super().__init__()
-        row = QHBoxLayout(self)
+        self._row = row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 6, 0)
         row.setSpacing(2)
         self.buttons: dict[str, QToolButton] = {}
@@ -27,7 +27,17 @@ class LayoutRow(QWidget):
             )
             button.setAccessibleName(translate("shell", "Layout: {name}").format(name=layout.shown))
             button.clicked.connect(lambda _=False, layout=layout: use(layout))
+            button.setCheckable(True)
             row.addWidget(button)
+
+    def stand_behind(self, other: QWidget) -> None:
+        """Put another widget before the buttons."""
+        self._row.insertWidget(0, other)
+
+    def mark(self, layout: Layout | None) -> None:
+        """Mark the layout that is in use; None: it is one of the user's own."""
+        for word, button in self.buttons.items():
+            button.setChecked(layout is not None and word == layout.word)
 
 
 class KeptLayoutMenu(QMenu):

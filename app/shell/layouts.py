@@ -36,6 +36,7 @@ class Layout:
     title, shortcut, tip : as in the menu
     places : area -> panels by name, the first in front
     bottom : share of the window's height that the docks at the bottom take
+    stacked : areas whose panels stand one below another, not one behind another
     """
 
     title: str
@@ -43,6 +44,17 @@ class Layout:
     tip: str
     places: Mapping[Area, tuple[str, ...]]
     bottom: float
+    stacked: tuple[Area, ...] = ()
+
+    @property
+    def docks(self) -> dict[str, Area]:
+        """Where its docks stand, by panel."""
+        return {
+            name: area
+            for area, names in self.places.items()
+            if area in DOCK_AREAS
+            for name in names
+        }
 
     @property
     def word(self) -> str:
@@ -58,14 +70,15 @@ class Layout:
 OPERATE = Layout(
     marked("shell", "&Operate"),
     "Ctrl+1",
-    marked("shell", "Drive the machine: control, devices, trajectory, penetration, recorder"),
+    marked("shell", "Drive the machine: control, job, events, trajectory, penetration, recorder"),
     {
         Area.CENTRE: ("plots",),
         Area.LEFT: ("control",),
-        Area.RIGHT: ("connection", "teleoperation", "inputs"),
+        Area.RIGHT: ("job", "events"),
         Area.BOTTOM: ("trajectory", "comparison", "penetration", "recorder", "view3d"),
     },
     0.33,
+    stacked=(Area.RIGHT,),
 )
 TUNE = Layout(
     marked("shell", "T&une"),
@@ -87,9 +100,24 @@ DIAGNOSE = Layout(
         Area.CENTRE: ("plots",),
         Area.BOTTOM: ("gap", "comparison", "trajectory", "effects", "faults", "recorder"),
     },
-    0.48,
+    0.9,  # all but a strip of plots
 )
-BUILT_IN = (OPERATE, TUNE, DIAGNOSE)
+SET_UP = Layout(
+    marked("shell", "&Set up"),
+    "Ctrl+4",
+    marked(
+        "shell",
+        "Prepare the machine: connection, devices, camera, calibration, holding plate",
+    ),
+    {
+        Area.CENTRE: ("microscope",),
+        Area.LEFT: ("control",),
+        Area.RIGHT: ("connection", "inputs", "teleoperation"),
+        Area.BOTTOM: ("calibration", "plate", "faults"),
+    },
+    0.33,
+)
+BUILT_IN = (OPERATE, TUNE, DIAGNOSE, SET_UP)
 
 
 def arrange(
@@ -102,24 +130,23 @@ def arrange(
     for _, dock in docks.values():
         dock.setFloating(False)
         window.removeDockWidget(dock)
-    named = {
-        name: area
-        for area, names in layout.places.items()
-        for name in names
-        if name in docks and area in DOCK_AREAS
-    }
+    named = {name: area for name, area in layout.docks.items() if name in docks}
     rest = {name: area for name, (area, _) in docks.items() if name not in named}
     first: dict[Area, QDockWidget] = {}
     for name, area in {**named, **rest}.items():
         dock = docks[name][1]
         window.addDockWidget(DOCK_AREAS[area], dock)
-        if first.setdefault(area, dock) is not dock:
+        below = area in layout.stacked and name in named
+        if first.setdefault(area, dock) is not dock and not below:
             window.tabifyDockWidget(first[area], dock)
         dock.setVisible(name in named)
     for area in layout.places:
         if area in first:
             first[area].raise_()
     _size(window, first, layout.bottom, text_scale)
+    for area in layout.stacked:
+        column = [docks[name][1] for name in layout.places[area] if name in docks]
+        window.resizeDocks(column, [1000] * len(column), Qt.Orientation.Vertical)
 
 
 def hide_forgotten_tabs(window: QMainWindow) -> None:

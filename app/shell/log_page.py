@@ -23,12 +23,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.loop_watch import LoopWatch
 from rotemina.app.shell.message_log import Message, MessageLog, chosen
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level
+from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.sim.quantities import fixed
 
 REFRESH_MS = 300
 _HEADINGS = (
@@ -127,8 +128,8 @@ class LogPage(QDialog):
         for least, text in _LEAST.items():
             self.level.addItem(translate("shell", text), least)
         self.level.setAccessibleName(translate("shell", "Which messages"))
-        self.words.setPlaceholderText(translate("shell", "words to look for"))
-        self.words.setAccessibleName(translate("shell", "Words to look for in messages"))
+        self.words.setPlaceholderText(translate("shell", "search words"))
+        self.words.setAccessibleName(translate("shell", "Words to search the messages for"))
         self.words.setClearButtonEnabled(True)
         self.table = self._make_table()
         self.count = QLabel()
@@ -198,7 +199,7 @@ class LogPage(QDialog):
         self.lateness.setText(
             translate(
                 "shell", "Window late by {usual} ms at most in 99 %, worst {worst} ms"
-            ).format(usual=f"{1e3 * late.usual_s:.0f}", worst=f"{1e3 * late.worst_s:.0f}")
+            ).format(usual=fixed(1e3 * late.usual_s, 0), worst=fixed(1e3 * late.worst_s, 0))
         )
 
     def _page(self) -> str:

@@ -4,27 +4,29 @@ import logging
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShowEvent
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
     QDialog,
     QDockWidget,
-    QFileDialog,
-    QMainWindow,
+    QFrame,
     QMenu,
-    QMessageBox,
     QTabWidget,
     QVBoxLayout,
     QWidget,
 )
 
+from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell import commands, key_help, layout_menu, layouts
-from rotemina.app.shell.arrangement import Arrangement
+from rotemina.app.shell.arrangement import ArrangedWindow, Arrangement
 from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.entries import Entry, command_entries, panel_entries
+from rotemina.app.shell.file_dialog import ask_file, ask_where
+from rotemina.app.shell.first_steps import FirstSteps
+from rotemina.app.shell.folded_panels import FoldedPanels
 from rotemina.app.shell.help_button import DockHelp, TabHelp
 from rotemina.app.shell.help_page import HelpPage
 from rotemina.app.shell.help_topics import page_at
@@ -32,36 +34,39 @@ from rotemina.app.shell.host import find_panels
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.language_menu import LanguageMenu, language_entries
 from rotemina.app.shell.late_panels import LatePanels
+from rotemina.app.shell.leaving import may_lose_record, may_stop, moves
 from rotemina.app.shell.log_page import LogPage
 from rotemina.app.shell.loop_watch import LoopWatch
+from rotemina.app.shell.machine_badge import Machine, window_title
 from rotemina.app.shell.message_log import MessageLog
-from rotemina.app.shell.motion_bar import MotionBar, StopWatch
+from rotemina.app.shell.motion_bar import MotionBar
 from rotemina.app.shell.notices import NoticeBar
 from rotemina.app.shell.palette import Palette
 from rotemina.app.shell.progress import ProgressLine
-from rotemina.app.shell.recording_sign import RecordingSign
+from rotemina.app.shell.recent_files import RecentFiles
+from rotemina.app.shell.record_chooser import ask_records
 from rotemina.app.shell.replay_bar import ReplayBar
 from rotemina.app.shell.status import StatusText
+from rotemina.app.shell.stops import StopWatch
 from rotemina.app.shell.support_page import SupportPage
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.drivers.samples import DeviceState
+from rotemina.app.shell.workbench import FRAME_MS, Level, Workbench
 from rotemina.sim.records.record import Record
 
-LEAST_HEIGHT = 300  # px of the central panels: notices must not make the window grow
+TOP_LINE = 4  # px: white where a real machine is driven
+LEAST_HEIGHT = 120  # px of the central panels: a strip of plots
 FILES = marked("shell", "Records and trajectories (*.csv *.txt *.dat *.gz);;All files (*)")
 # Wide tables and long forms: one behind the other, not side by side or one below the other.
 TABBED = (Area.BOTTOM, Area.RIGHT)
 
 
-class MainWindow(QMainWindow):
+class MainWindow(ArrangedWindow):
     """The operator's window around a workbench."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self.workbench = workbench
         workbench.setParent(self)  # so that Qt ends it with the window, on this thread
-        self.setWindowTitle(f"RoTeMiNa – {workbench.robot.name}")
-        self.notices = NoticeBar()
+        self.notices = NoticeBar(self)
         self.replay_bar = ReplayBar(workbench)
         self.panels, found_broken = find_panels(workbench)
         broken = dict(found_broken)
@@ -77,12 +82,11 @@ class MainWindow(QMainWindow):
         logging.getLogger().addHandler(self.log)
         workbench.closing.connect(lambda: logging.getLogger().removeHandler(self.log))
         workbench.noticed.connect(self.log.notice)
-        self._bar = MotionBar(workbench)
-        self.stop_button, self.emergency_button = self._bar.stop, self._bar.emergency
-        self.addToolBar(self._bar)
+        self._make_header()
         self._make_docks()
         self.panels.placed = self._place
         self.late_panels = LatePanels(self.panels, self.docks, workbench)
+        self.folded = FoldedPanels(self.docks)
         self.arrangement = Arrangement(self)
         self._make_menus()
         self._make_status_bar()
@@ -93,12 +97,14 @@ class MainWindow(QMainWindow):
         self.palette_page = Palette(self._entries, self)
         self.arrangement.restore()
         self.arrangement.dress()
-        application = QApplication.instance()
-        assert application is not None
         self._stop_watch = StopWatch(workbench, self.stop_button, self.emergency_button, self)
-        application.installEventFilter(self._stop_watch)
+        self._stop_watch.start()
+        workbench.closing.connect(self._stop_watch.close)
+        self.panels.making_one = self._stop_watch.of_windows_alone
         workbench.noticed.connect(self.notices.show_notice)
         self.notices.asked.connect(self.help_page.open_page)
+        self.notices.more_asked.connect(self.show_log)
+        workbench.acted.connect(self.notices.act)
         self.log_page.asked.connect(self.help_page.open_page)
         workbench.refreshed.connect(self._refresh)
         workbench.plan_changed.connect(
@@ -112,13 +118,25 @@ class MainWindow(QMainWindow):
 
     # --- parts ------------------------------------------------------------------------------------
 
+    def _make_header(self) -> None:
+        self._bar = MotionBar(self.workbench)
+        self.stop_button, self.emergency_button = self._bar.stop, self._bar.emergency
+        self.addToolBar(self._bar)
+        self._top_line = QFrame(self)
+        self._top_line.setObjectName("machineLine")
+        self._bar.events_asked.connect(self.show_log)
+        self._bar.machine_changed.connect(self._name_machine)
+        self._name_machine()
+
     def _make_docks(self) -> None:
         centre = QWidget()
         centre.setMinimumHeight(LEAST_HEIGHT)
         column = QVBoxLayout(centre)
         column.setContentsMargins(6, 6, 6, 6)
+        self.first_steps = FirstSteps(self.workbench)
+        self.first_steps.asked.connect(self.bring_up)
         column.addWidget(self.replay_bar)
-        column.addWidget(self.notices)
+        column.addWidget(self.first_steps)
         column.addWidget(self._central_panels(), 1)
         self.setCentralWidget(centre)
         for area in TABBED:
@@ -186,6 +204,13 @@ class MainWindow(QMainWindow):
             action.setStatusTip(command.tip)
             action.triggered.connect(lambda _=False, run=command.run: run())
             menu.addAction(action)
+        kinds = {
+            "trajectory": (translate("shell", "trajectory"), self.load_trajectory),
+            "record": (translate("shell", "record"), self.open_record),
+        }
+        file = self._menu(translate("shell", "&File"))
+        self.recent_files = RecentFiles(self.workbench.settings, kinds, file)
+        file.insertMenu(file.actions()[3], self.recent_files)
         view = self._menu(translate("shell", "&View"))
         view.addSeparator()
         arrangement = self.arrangement
@@ -197,6 +222,7 @@ class MainWindow(QMainWindow):
         for dock in self.docks.values():
             view.addAction(dock.toggleViewAction())
         self.layout_row = layout_menu.LayoutRow(arrangement.arrange)
+        self.layout_row.stand_behind(self.folded)
         self.menuBar().setCornerWidget(self.layout_row)
 
     def commands(self) -> list[commands.Command]:
@@ -214,25 +240,60 @@ class MainWindow(QMainWindow):
         self.statusBar().addWidget(self._status, 1)
         self.progress_line = ProgressLine()
         self.statusBar().addPermanentWidget(self.progress_line)
-        self.recording_sign = RecordingSign(self.workbench)
-        self.statusBar().addPermanentWidget(self.recording_sign)
         self.statusBar().setSizeGripEnabled(False)
+
+    def _name_machine(self) -> None:
+        """Say in the title, and by a white line across the top, which machine is driven."""
+        badge = self._bar.badge
+        self.setWindowTitle(window_title(badge, self.workbench.robot.name))
+        self._top_line.setVisible(badge.machine is Machine.MACHINE)
+        self._top_line.raise_()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Keep the line across the whole top, and what fits the width at the side."""
+        super().resizeEvent(event)
+        self._top_line.setGeometry(0, 0, self.width(), TOP_LINE)
+        self.arrangement.fit(self.width())
 
     # --- files ------------------------------------------------------------------------------------
 
     def ask_trajectory(self) -> None:
         """Ask for a trajectory file and load it."""
-        self._ask_and(translate("shell", "Load trajectory"), self.workbench.load_trajectory)
+        self._ask_and(translate("shell", "Load trajectory"), self.load_trajectory)
 
     def ask_record(self) -> None:
-        """Ask for a record file and compare it with the model."""
-        self._ask_and(translate("shell", "Open record"), self.workbench.open_record)
+        """Ask for a record of the library, or a file, and compare it with the model."""
+        title = translate("shell", "Open record")
+        ask_records(
+            self,
+            self.workbench,
+            title,
+            lambda chosen: self.workbench.open_entry(chosen[0]),
+            lambda: self._ask_and(title, self.open_record),
+        )
 
-    def _ask_and(self, title: str, use: Callable[[Path, str | None], None]) -> None:
-        dialog = self._file_dialog(title, translate("shell", FILES))
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.fileSelected.connect(lambda name: self.use_file(Path(name), use))
-        dialog.show()
+    def ask_trajectory_of_record(self) -> None:
+        """Ask for a record of the library, or a file, and take its commands in hand."""
+        ask_records(
+            self,
+            self.workbench,
+            translate("shell", "Trajectory from record"),
+            lambda chosen: self.workbench.load_entry(chosen[0]),
+            self.ask_trajectory,
+        )
+
+    def load_trajectory(self, path: Path) -> None:
+        """Load a trajectory file, and keep it among the recent ones."""
+        self.recent_files.add("trajectory", path)
+        self.use_file(path, self.workbench.load_trajectory)
+
+    def open_record(self, path: Path) -> None:
+        """Open a record file, and keep it among the recent ones."""
+        self.recent_files.add("record", path)
+        self.use_file(path, self.workbench.open_record)
+
+    def _ask_and(self, title: str, use: Callable[[Path], None]) -> None:
+        ask_file(self, self.workbench, title, translate("shell", FILES), use)
 
     def use_file(self, path: Path, use: Callable[[Path, str | None], None]) -> None:
         """Hand a file on, with its columns named first where it has no header."""
@@ -244,24 +305,11 @@ class MainWindow(QMainWindow):
             text = translate("shell", "There is no record to save: play or open one.")
             self.workbench.notify(Level.WARNING, text, about="comparison.md")
             return
-        dialog = self._file_dialog(
-            translate("shell", "Save record"), translate("shell", "Records (*.csv *.csv.gz)")
+        title, kinds = (
+            translate("shell", "Save record"),
+            translate("shell", "Records (*.csv *.csv.gz)"),
         )
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.selectFile("record.csv")
-        dialog.fileSelected.connect(lambda name: self.workbench.save_record(Path(name)))
-        dialog.show()
-
-    def _file_dialog(self, title: str, filters: str) -> QFileDialog:
-        """Return a dialog beside which the window, and its stop button, can still be used."""
-        settings = self.workbench.settings
-        dialog = QFileDialog(self, title, settings.get("files.folder", ""), filters)
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(
-            lambda name: settings.set("files.folder", str(Path(name).parent))
-        )
-        return dialog
+        ask_where(self, self.workbench, title, kinds, "record.csv", self.workbench.save_record)
 
     # --- layout and theme -------------------------------------------------------------------------
 
@@ -350,18 +398,31 @@ class MainWindow(QMainWindow):
         self.late_panels.start()
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Stop first; then ask where a record would be lost, and wait for what is being written.
+        """Ask before what moves is stopped; wait until it rests, and for what is being written.
 
-        To close it once more leaves at once: what was recorded stays to be recovered.
+        To close it once more then leaves at once: what was recorded stays to be recovered. What a
+        stop has been asked for is not asked about again.
         """
-        self.workbench.stop()
-        if not self._leaving and self._would_lose_a_record() and not self._may_discard():
+        bench = self.workbench
+        state = bench.session.snapshot()
+        if moves(state) and not may_stop(self, state):
             event.ignore()
             return
-        waiting = self.workbench.operation.recording is not None or self.workbench.busy
-        if waiting and not self._leaving:
+        if not state.stopping:
+            bench.stop()
+        ends = bench.playback.state.phase is PlaybackPhase.PLAYING
+        # In this order: what has just ended is counted before the playback says that it has.
+        if not self._leaving and (ends or bench.session.snapshot().stopping or bench.untold):
+            event.ignore()
+            QTimer.singleShot(FRAME_MS, self, self.close)
+            return
+        if not self._leaving and (bench.operation.recording is not None or bench.busy):
             event.ignore()
             self._leave_later()
+            return
+        if bench.unsaved is not None and not may_lose_record(self):
+            self._leaving = False
+            event.ignore()
             return
         self._leaving = True
         self.arrangement.remember()
@@ -383,23 +444,6 @@ class MainWindow(QMainWindow):
 
     def _stay(self) -> None:
         self._leaving = False
-
-    def _would_lose_a_record(self) -> bool:
-        playing = self.workbench.session.snapshot().activity is DeviceState.PLAYING
-        return playing or self.workbench.unsaved is not None
-
-    def _may_discard(self) -> bool:
-        button = QMessageBox.StandardButton
-        answer = QMessageBox.question(
-            self,
-            translate("shell", "Quit"),
-            translate(
-                "shell", "The last played record is not kept in any file yet. Quit and lose it?"
-            ),
-            button.Yes | button.No,
-            button.No,
-        )
-        return answer == button.Yes
 
 
 def _come_up(page: QDialog) -> None:

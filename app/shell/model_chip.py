@@ -1,15 +1,15 @@
 """The chip in the header that says which model predictions are made with."""
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QFont, QFontMetrics
 from PySide6.QtWidgets import QMenu, QToolButton
 
 from rotemina.app.display import label
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.sim.gap.report.words import effect_title
 
 _MOST_EFFECTS = 2  # that are named
@@ -35,6 +35,12 @@ class ModelChip(QToolButton):
         self.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._show(workbench.session.model, ())
 
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Take the width of the text in another size."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
+            self.setFixedWidth(self._width_of(self.text()))
+
     def refresh(self, state: SessionState) -> None:
         """Show which model is in use, and of which axes it does not know the past."""
         model = self._workbench.session.model
@@ -47,9 +53,7 @@ class ModelChip(QToolButton):
     def _show(self, model: ModelInUse, unsettled: tuple[str, ...]) -> None:
         self._told = model.id, unsettled
         self.setText(model_name(model) + (" ≈" if unsettled else ""))
-        self.setProperty("corrected", model.corrected)
-        self.style().unpolish(self)
-        self.style().polish(self)
+        set_property(self, "corrected", model.corrected)
         self.setFixedWidth(self._width_of(self.text()))
         lines = [
             translate("shell", "The model that plots, comparison, dry run and 3-D view use."),

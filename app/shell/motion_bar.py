@@ -1,168 +1,172 @@
-"""The tool bar of motion: phase, what the robot does, emergency stop and stop, always in sight."""
+"""The header: which machine, how it stands and what helps, chips, and the stops."""
 
-import time
-from collections.abc import Callable
+from typing import NamedTuple
 
-from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QKeyEvent, QMouseEvent
-from PySide6.QtWidgets import QLabel, QPushButton, QToolBar
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolBar, QToolButton, QVBoxLayout, QWidget
 
-from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.shell.controls import ElidedLabel, plain_tip
-from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.helping_button import HelpingButton
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.machine_badge import MachineBadge
 from rotemina.app.shell.model_chip import ModelChip
-from rotemina.app.shell.phase import PhaseLabel, doing
-from rotemina.app.shell.requests import Requests
-from rotemina.app.shell.workbench import Workbench
-from rotemina.drivers.clock import Clock
+from rotemina.app.shell.owner_chip import OwnerChip
+from rotemina.app.shell.phase import PhaseLabel, doing, headword, set_tone, tone
+from rotemina.app.shell.recording_sign import RecordingSign
+from rotemina.app.shell.stops import EmergencyButton, StopButton
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import ElidedLabel
 
-RELEASE_AFTER_S = 1.0  # a second press in alarm must not release what the first one latched
-_SOFTWARE = marked("shell", "This is a stop by software, not the machine's emergency switch.")
-
-
-class StopWatch(QObject):
-    """Stops all motion on Esc and on the stop buttons, whatever else is open or has the focus.
-
-    Shift+Esc latches, and so does the emergency button; only that releases what it latched. The
-    event goes on to where it was meant for, so that Esc closes a dialog too.
-    """
-
-    def __init__(
-        self, requests: Requests, stop: QPushButton, emergency: QPushButton, parent: QObject
-    ) -> None:
-        super().__init__(parent)
-        self._requests = requests
-        self._stops = ((stop, requests.stop), (emergency, requests.emergency_stop))
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Stop, and let the event pass."""
-        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
-            self._press(event)
-        elif isinstance(event, QMouseEvent) and event.type() == QEvent.Type.MouseButtonPress:
-            self._click(event)
-        return False
-
-    def _click(self, event: QMouseEvent) -> None:
-        """Stop where a button was pressed although a menu that is open takes the click."""
-        at = event.globalPosition().toPoint()
-        for button, stop in self._stops:
-            over = button.isVisible() and button.rect().contains(button.mapFromGlobal(at))
-            if over and not button.isChecked():
-                stop()
-
-    def _press(self, event: QKeyEvent) -> None:
-        if event.key() != Qt.Key.Key_Escape:
-            return
-        if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
-            self._requests.emergency_stop()
-        else:
-            self._requests.stop()
+_TEXT = 13.0  # px, of normal text
 
 
-class EmergencyButton(QPushButton):
-    """Latches the emergency stop, shows that it is latched, and releases it by another press."""
+class Sizes(NamedTuple):
+    """The header's height and the sizes of its parts, px at normal text."""
 
-    def __init__(self, requests: Requests, clock: Clock = time.monotonic) -> None:
-        super().__init__(translate("shell", "E-STOP"))
-        self.setObjectName("emergency")
-        self.setCheckable(True)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # no space bar may release it
-        self.setAccessibleName(translate("shell", "Emergency stop"))
-        self._requests, self._clock = requests, clock
-        self._latched_at_s: float | None = None
-        self._show(None)
-        self.pressed.connect(self._press)
-        self.clicked.connect(lambda _: self._show(requests.session.snapshot().latched))
+    height: int
+    badge: QSize
+    state: QSize
+    lock: QSize
+    stop: QSize
+
+    @property
+    def width(self) -> int:
+        """What the parts of one size take together."""
+        return sum(each.width() for each in self[1:])
+
+
+LARGE = Sizes(72, QSize(280, 56), QSize(420, 56), QSize(160, 64), QSize(240, 64))
+SMALL = Sizes(46, QSize(170, 40), QSize(260, 40), QSize(100, 44), QSize(150, 44))
+_LARGE_FROM = 1600  # px of the window's width
+_NARROWEST = 60  # px
+_MOST = 0.75  # of the width that parts of one size may take, however large text is
+
+
+class StateView(QWidget):
+    """The state in a word, the reason below it, and the button that helps."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self.phase, self.doing = PhaseLabel(), ElidedLabel()
+        self.doing.setProperty("quiet", True)
+        self.help = HelpingButton(workbench)
+        words = QVBoxLayout()
+        words.setSpacing(2)
+        words.addWidget(self.phase)
+        words.addWidget(self.doing)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addLayout(words, 1)
+        row.addWidget(self.help)
 
     def refresh(self, state: SessionState) -> None:
-        """Show whether it is latched, whoever did that."""
-        if not self.isDown():
-            self._show(state.latched)
+        """Show a state."""
+        self.phase.setText(headword(state, self._workbench.playback.state))
+        set_tone(self.phase, tone(state))
+        self.doing.show_text(doing(state))
+        self.help.refresh(state)
 
-    def _press(self) -> None:
-        if self._latched_at_s is None:
-            self._requests.emergency_stop()
-            self._latched_at_s = self._clock()
-        elif self._clock() - self._latched_at_s >= RELEASE_AFTER_S:
-            self._requests.release()
 
-    def _show(self, latched: str | None) -> None:
-        if latched is None:
-            self._latched_at_s = None
-        elif self._latched_at_s is None:
-            self._latched_at_s = self._clock()
-        self.setChecked(latched is not None)
-        self.setText(
-            translate("shell", "E-STOP")
-            if latched is None
-            else translate("shell", "Latched – release")
+class EventsChip(QToolButton):
+    """How many warnings and errors came since the log was opened."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self.setObjectName("model")  # a chip like that of the model
+        self.setToolTip(
+            plain_tip(translate("shell", "Warnings and errors since the log was opened (Ctrl+L)"))
         )
-        tip = (
-            (
-                translate(
-                    "shell", "Stop all axes, and let nothing move until it is released (Shift+Esc)."
-                ),
-                translate("shell", _SOFTWARE),
-            )
-            if latched is None
-            else (
-                translate("shell", "Latched: {latched}.").format(latched=spoken(latched)),
-                translate("shell", "Press to release; nothing moves until it is told to."),
-            )
-        )
-        self.setToolTip(plain_tip(*tip))
+        self._count = 0
+        workbench.noticed.connect(self._count_notice)
+        self.clicked.connect(self._forget)
+        self._show()
+
+    def _count_notice(self, level: Level, _text: str) -> None:
+        if level in (Level.WARNING, Level.ERROR):
+            self._count += 1
+            self._show()
+
+    def _forget(self) -> None:
+        self._count = 0
+        self._show()
+
+    def _show(self) -> None:
+        self.setText(translate("shell", "Events {n}").format(n=self._count))
 
 
 class MotionBar(QToolBar):
-    """Phase and stops; it can neither be moved nor hidden."""
+    """The header; it can neither be moved nor hidden.
 
-    def __init__(self, requests: Workbench) -> None:
+    Signals
+    -------
+    events_asked() : the log is wanted.
+    machine_changed() : another machine is driven from now on.
+    """
+
+    events_asked = Signal()
+    machine_changed = Signal()
+
+    def __init__(self, workbench: Workbench) -> None:
         super().__init__(translate("shell", "Motion"))
         self.setObjectName("motion")
         self.setMovable(False)
         self.toggleViewAction().setVisible(False)  # the stop button is always in sight
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
-        title = QLabel(requests.robot.name)
-        title.setProperty("heading", True)
-        title.setTextFormat(Qt.TextFormat.PlainText)
-        self.phase, self.doing = PhaseLabel(), ElidedLabel()
-        self.doing.setProperty("quiet", True)
-        self.reconnect = _button(
-            translate("shell", "Reconnect"),
-            translate("shell", "Connect again to the device"),
-            requests.reconnect,
-        )
-        self.emergency = EmergencyButton(requests)
-        self.stop = QPushButton(translate("shell", "STOP"))
-        self.stop.setObjectName("stop")
-        self.stop.setToolTip(
-            plain_tip(
-                translate("shell", "Stop all axes and hold (Esc)."), translate("shell", _SOFTWARE)
-            )
-        )
-        self.stop.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        # On pressing, not on release: a stop must not wait for the finger to lift.
-        self.stop.pressed.connect(requests.stop)
-        self.model = ModelChip(requests)
-        for widget in (title, self.phase, self.doing, self.model):
-            self.addWidget(widget)
-        self._offer = self.addWidget(self.reconnect)
-        self._offer.setVisible(False)
+        self.badge, self.state = MachineBadge(workbench), StateView(workbench)
+        self.phase, self.doing, self.help = self.state.phase, self.state.doing, self.state.help
+        self.owner, self.model = OwnerChip(), ModelChip(workbench)
+        self.recording, self.events = RecordingSign(workbench), EventsChip(workbench)
+        self.events.clicked.connect(self.events_asked)
+        self.emergency, self.stop = EmergencyButton(workbench), StopButton(workbench)
+        self._body = QWidget()
+        self._body.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        row = QHBoxLayout(self._body)
+        row.setContentsMargins(8, 0, 8, 0)
+        row.setSpacing(10)
+        row.addWidget(self.badge)
+        row.addWidget(self.state, 100)  # up to its size; in a narrow window it gives way
+        for widget in (self.owner, self.model, self.recording, self.events):
+            row.addWidget(widget)
+        row.addStretch(1)
         for widget in (self.emergency, self.stop):
-            self.addWidget(widget)
+            row.addWidget(widget)
+        self.addWidget(self._body)
 
     def refresh(self, state: SessionState) -> None:
         """Show a state."""
-        self.phase.show_state(state)
-        self.doing.show_text(doing(state))
+        self.state.refresh(state)
         self.emergency.refresh(state)
+        self.owner.refresh(state)
+        # A narrow header has no room for both; the line below the state names the owners as well.
+        self.owner.setVisible(self.width() >= _LARGE_FROM or self.recording.isHidden())
         self.model.refresh(state)
-        self._offer.setVisible(state.connection is Connection.FAILED)
+        if self.badge.refresh():
+            self.machine_changed.emit()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Take the sizes that suit the window's width."""
+        super().resizeEvent(event)
+        self._fit()
 
-def _button(text: str, tip: str, run: Callable[[], object]) -> QPushButton:
-    button = QPushButton(text)
-    button.setToolTip(tip)
-    button.clicked.connect(lambda _: run())
-    return button
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Take the sizes that suit the size of text."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
+            self._fit()
+
+    def _fit(self) -> None:
+        sizes = LARGE if self.width() >= _LARGE_FROM else SMALL
+        scale = max(self.doing.font().pixelSize() / _TEXT, 1.0)
+        scale = min(scale, max(_MOST * self.width() / sizes.width, 1.0))
+        parts = (self.badge, self.state, self.emergency, self.stop)
+        for widget, size in zip(parts, sizes[1:], strict=True):
+            widget.setFixedSize(size * scale)
+        for widget in (self.emergency, self.stop):  # however large text is, none of it is cut
+            widget.setFixedSize(widget.size().expandedTo(widget.minimumSizeHint()))
+        for widget in (self.badge, self.state):
+            widget.setMinimumWidth(_NARROWEST)
+        self.layout().setContentsMargins(0, 0, 0, 0)  # Qt's own come back with each style sheet
+        self._body.setFixedHeight(round(sizes.height * scale))

@@ -20,6 +20,7 @@ from rotemina.app.shell.workbench import Level, Run
 from rotemina.sim.comparison.figure import save_figure
 from rotemina.sim.comparison.table import table
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import AxisEffect
@@ -52,12 +53,16 @@ def run(session: MotionSession, output: Path) -> int:
     try:
         output.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OffscreenError(f"{output}: the folder cannot be made: {error.strerror}") from error
+        raise OffscreenError(
+            message("engine", "{output}: the folder cannot be made: {strerror}").fill(
+                output=output, strerror=str(error.strerror)
+            )
+        ) from error
     settings = Settings(output / "settings.json")
     if not settings.get(language.SETTING, ""):
         settings.set(language.SETTING, language.ENGLISH)  # as what it prints and writes
     window = make_window(session, settings, output / "played")
-    worn = worn_effects(session.robot) if session.effects is not None else ()
+    worn = worn_effects(session.robot) if session.service.effects is not None else ()
     try:
         window.resize(*SIZE)
         window.show()
@@ -68,7 +73,9 @@ def run(session: MotionSession, output: Path) -> int:
             told = Story((play(window, example_for(session.robot)),))
         picture = output / "window.png"
         if not window.grab().save(str(picture)):
-            raise OffscreenError(f"{picture}: the picture cannot be written")
+            raise OffscreenError(
+                message("engine", "{picture}: the picture cannot be written").fill(picture=picture)
+            )
         _report(told, output)
     finally:
         window.workbench.close()
@@ -92,7 +99,7 @@ def tell_the_story(window: MainWindow, effects: tuple[AxisEffect, ...]) -> Story
     """
     bench, panel = window.workbench, window.panels["gap"]
     _wait(window, bench.refreshed, lambda: bench.session.snapshot().locked is None)
-    bench.session.set_effects(effects)
+    bench.session.service.set_effects(effects)
     _say("playing on a worn machine …")
     before = play(window, demonstration(bench.robot))
     window.bring_up("gap")

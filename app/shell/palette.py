@@ -14,10 +14,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell.controls import native_keys
 from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.fuzzy import score
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import native_keys
 
 _WIDTH, _HEIGHT = 560, 380
 _TO_THE_LIST = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
@@ -25,7 +25,7 @@ _UNABLE = 0.7  # what cannot be done now comes after what fits about as well
 
 
 class Palette(QDialog):
-    """A field and the list of what fits it; Enter does what is marked.
+    """A field and the list of what fits it, what has just this name first; Enter does the marked.
 
     What cannot be done now is listed too, with the reason; Enter on it does nothing.
 
@@ -43,11 +43,11 @@ class Palette(QDialog):
         self._entries: tuple[Entry, ...] = ()
         self._shown: tuple[Entry, ...] = ()
         self.field, self.list = QLineEdit(), QListWidget()
-        self.field.setPlaceholderText(translate("shell", "a few letters of what to do"))
-        self.field.setAccessibleName(translate("shell", "Letters of what to do"))
+        self.field.setPlaceholderText(translate("shell", "type part of a command"))
+        self.field.setAccessibleName(translate("shell", "Part of a command's name"))
         self.field.textChanged.connect(self._show_fitting)
         self.field.installEventFilter(self)
-        self.list.setAccessibleName(translate("shell", "What can be done"))
+        self.list.setAccessibleName(translate("shell", "Commands"))
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
@@ -102,8 +102,9 @@ class Palette(QDialog):
             fits = score(typed, entry.text)
             if fits is not None:
                 worth = fits if entry.why_not is None else _UNABLE * fits
-                found.append((-worth, entry.why_not is not None, number, entry))
-        found.sort(key=lambda each: each[:3])
+                named = typed.strip().casefold() == entry.what.casefold()
+                found.append((not named, -worth, entry.why_not is not None, number, entry))
+        found.sort(key=lambda each: each[:4])
         self._shown = tuple(entry for *_, entry in found)
         self.list.clear()
         for entry in self._shown:
@@ -114,7 +115,7 @@ class Palette(QDialog):
     def _explain(self, row: int) -> None:
         if not 0 <= row < len(self._shown):
             self.reason.setText(
-                "" if self._shown else translate("shell", "Nothing has these letters.")
+                "" if self._shown else translate("shell", "No command contains these letters.")
             )
             return
         reason = self._shown[row].why_not

@@ -149,7 +149,7 @@ class PanelWatch(QObject):
             panel = self._panels.pop(name)
             dock = self._docks.pop(name, None)
             text = (
-                translate("shell", "Panel {name!r} is left out: it fails to paint itself: {error}")
+                translate("shell", "Panel {name!r} is left out: it cannot be drawn: {error}")
                 if painting
                 else translate("shell", "Panel {name!r} is left out after {n} faults: {error}")
             )

@@ -7,10 +7,12 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from rotemina.app.display import label
 from rotemina.app.motion.ownership import OPERATOR
+from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import Connection, Phase, SessionState
-from rotemina.app.motion.stop_request import StopRequest
+from rotemina.app.motion.stop_request import LOCKED, StopRequest
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.controls import set_property
 from rotemina.drivers.samples import DeviceState
 
 
@@ -57,6 +59,27 @@ def word(state: SessionState) -> str:
     return translate("shell", _WORDS[state.phase])
 
 
+def headword(state: SessionState, playback: PlaybackState) -> str:
+    """Return how the session stands as the header says it, with how far a playback is."""
+    ready = state.phase is Phase.READY and state.locked is None
+    if state.activity is DeviceState.PLAYING:
+        text = translate("shell", "Playing {share:.0f} %").format(share=100.0 * state.progress)
+    elif ready and playback.phase is PlaybackPhase.PAUSED:
+        text = translate("shell", "Paused at row {row}").format(row=max(playback.row, 0) + 1)
+    elif state.phase is Phase.SHORT_LOSS or (state.fault and state.silent_s > 0.0):
+        text = translate("shell", "Link lost")
+    elif ready and _halted(state):
+        text = translate("shell", "Stopped")
+    else:
+        text = word(state)
+    return text[:1].upper() + text[1:]
+
+
+def _halted(state: SessionState) -> bool:
+    """Whether a stop is the last thing that happened, which has not been released since."""
+    return state.stop is not None and state.stop.why != LOCKED
+
+
 def tone(state: SessionState) -> Tone:
     """Return how grave that is."""
     if state.connection is Connection.FAILED or state.latched is not None:
@@ -69,13 +92,14 @@ def tone(state: SessionState) -> Tone:
 def doing(state: SessionState) -> str:
     """Return what the robot does, or why it does not move; "" when it may be told to."""
     if state.activity is DeviceState.PLAYING:
-        return translate("shell", "playing {share:.0f} %").format(share=100.0 * state.progress)
+        return driven(state)
     if state.activity is DeviceState.HOMING:
-        return translate("shell", "looks for its limit switches")
+        return translate("shell", "searching for its limit switches")
     if state.locked is not None:
         reason = spoken(state.locked)
         return reason[:1].upper() + reason[1:]
-    return driven(state) or (stopped(state.stop) if state.stop is not None else "")
+    told = stopped(state.stop) if state.stop is not None and _halted(state) else ""
+    return driven(state) or told
 
 
 def stopped(request: StopRequest) -> str:
@@ -99,10 +123,7 @@ def driven(state: SessionState) -> str:
 
 def set_tone(widget: QWidget, value: Tone) -> None:
     """Give a widget the colours of a tone."""
-    if widget.property("tone") != str(value):
-        widget.setProperty("tone", str(value))
-        widget.style().unpolish(widget)
-        widget.style().polish(widget)
+    set_property(widget, "tone", str(value))
 
 
 class PhaseLabel(QLabel):

@@ -1,5 +1,7 @@
 """A plot in the window's colours, cheap enough to be redrawn at every frame."""
 
+from typing import Any, NamedTuple
+
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
@@ -9,10 +11,43 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.decimation import envelope
+from rotemina.sim.quantities import localized
 
 AXIS_WIDTH = 68  # fixed, so that plots above each other line up and never shift
+RIGHT_MARGIN = 12  # px beside a plot, as fixed
+BAND = 0.15  # of the text's colour: the noise floor
 _SHRINK = 0.35  # the scale is tightened when the signal fills less than this of it
 _MARGIN = 0.12
+
+
+class Line(NamedTuple):
+    """How a signal is drawn: colour role of the theme, width in px, dashes."""
+
+    role: str
+    width: int = 1
+    style: Qt.PenStyle = Qt.PenStyle.SolidLine
+
+
+#: What is drawn how, in every plot and theme: two lines that colour-blind eyes confuse differ in
+#: their dashes. Dense noise is slow to draw wider than 1 px or dashed: what is measured is neither.
+LINES = {
+    "command": Line("command", style=Qt.PenStyle.DashLine),
+    "model": Line("model", width=3),  # seen on both sides of the measured line
+    "nominal": Line("model", style=Qt.PenStyle.DotLine),
+    "doubt": Line("model", style=Qt.PenStyle.DashDotLine),
+    "other": Line("other", style=Qt.PenStyle.DashDotDotLine),
+    "reference": Line("text", width=3, style=Qt.PenStyle.DotLine),  # what was wanted
+    "measured": Line("real"),
+    "gap": Line("text"),
+}
+
+
+class _Axis(pg.AxisItem):
+    """An axis whose numbers have the decimal sign in use."""
+
+    def tickStrings(self, *ticks: Any) -> list[str]:  # noqa: N802 (pyqtgraph's name)
+        """Return what is written at ticks."""
+        return [localized(text) for text in super().tickStrings(*ticks)]
 
 
 class SignalPlot(pg.PlotWidget):
@@ -23,13 +58,12 @@ class SignalPlot(pg.PlotWidget):
     """
 
     def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        axes = {side: _Axis(side) for side in ("left", "bottom")}
+        super().__init__(parent, enableMenu=False, axisItems=axes)
         self._curves: dict[str, pg.PlotCurveItem] = {}
-        self._pens: dict[str, tuple[str, int]] = {}
-        self._styles: dict[str, Qt.PenStyle] = {}
+        self._pens: dict[str, Line] = {}
         self._scale: tuple[float, float] | None = None
         self._stale = False
-        self.setMenuEnabled(False)
         self.hideButtons()
         self.setAntialiasing(False)
         item = self.getPlotItem()
@@ -44,14 +78,11 @@ class SignalPlot(pg.PlotWidget):
         item.showGrid(x=True, y=True, alpha=0.18)
         self.set_theme(theme)
 
-    def add_curve(
-        self, name: str, role: str, width: int = 1, style: Qt.PenStyle = Qt.PenStyle.SolidLine
-    ) -> None:
-        """Add a curve in the theme's colour ``role``, ``width`` pixels wide."""
+    def add_curve(self, name: str, line: Line) -> None:
+        """Add a curve; what has its way in :data:`LINES` is drawn so."""
         curve = pg.PlotCurveItem(skipFiniteCheck=True)
         self._curves[name] = curve
-        self._pens[name] = (role, width)
-        self._styles[name] = style
+        self._pens[name] = line
         self.addItem(curve)
         self._colour_curve(name)
 
@@ -79,14 +110,14 @@ class SignalPlot(pg.PlotWidget):
         axis.setStyle(showValues=shown)
         if shown:
             axis.setLabel(translate("shell", "time [s]"))
-        self.getPlotItem().layout.setContentsMargins(0, 4, 12, 0 if shown else 4)
+        self.getPlotItem().layout.setContentsMargins(0, 4, RIGHT_MARGIN, 0 if shown else 4)
 
     def show_signal(self, name: str, time_s: FloatArray, values: FloatArray) -> None:
         """Draw a signal (n,), thinned to what the width can show.
 
         A wide line is thinned further: it hides what is narrower than itself.
         """
-        _, width = self._pens[name]
+        width = self._pens[name].width
         buckets = max(self.width(), 200) // (width + 1)
         self._curves[name].setData(*envelope(time_s, values, buckets))
 
@@ -112,7 +143,6 @@ class SignalPlot(pg.PlotWidget):
         self.setYRange(*self._scale, padding=0.0)
 
     def _colour_curve(self, name: str) -> None:
-        role, width = self._pens[name]
-        role = "quiet" if self._stale else role
-        colour = QColor(getattr(self._theme, role))
-        self._curves[name].setPen(pg.mkPen(colour, width=width, style=self._styles[name]))
+        role, width, style = self._pens[name]
+        colour = QColor(getattr(self._theme, "quiet" if self._stale else role))
+        self._curves[name].setPen(pg.mkPen(colour, width=width, style=style))

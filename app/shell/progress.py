@@ -5,8 +5,9 @@ import time
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QWidget
 
 from rotemina.app.display import duration_text
-from rotemina.app.shell.controls import ElidedLabel, fill
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import fill
+from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.drivers.clock import Clock
 from rotemina.sim.errors import InputError
 
@@ -52,7 +53,7 @@ class Progress:
         """
         if self.cancelled:
             raise CancelledError(
-                translate("shell", "{doing} Called off; nothing was changed.").format(
+                translate("shell", "{doing} Cancelled; nothing was changed.").format(
                     doing=self.doing
                 )
             )
@@ -78,12 +79,12 @@ class Progress:
     def text(self) -> str:
         """What is being done, and for how long yet."""
         if self.cancelled:
-            return translate("shell", "{doing} Is being called off.").format(doing=self.doing)
+            return translate("shell", "{doing} Being cancelled.").format(doing=self.doing)
         if (left_s := self.left_s) is not None:
             return translate("shell", "{doing} About {left} left.").format(
                 doing=self.doing, left=duration_text(left_s)
             )
-        return translate("shell", "{doing} For {passed} now.").format(
+        return translate("shell", "{doing} Running for {passed}.").format(
             doing=self.doing, passed=duration_text(self.elapsed_s)
         )
 
@@ -99,7 +100,7 @@ class ProgressLine(QWidget):
         self.bar.setFixedWidth(_BAR_WIDTH)
         self.bar.setAccessibleName(translate("shell", "Progress of long work"))
         self.cancel.setText(translate("shell", "Cancel"))
-        self.cancel.setToolTip(translate("shell", "Call this work off"))
+        self.cancel.setToolTip(translate("shell", "Cancel this work"))
         self.cancel.clicked.connect(lambda _: self._progress and self._progress.cancel())
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

@@ -4,14 +4,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from rotemina.app.display import duration_text, size_text
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import plain_tip
 
 
 class RecordingSign(QLabel):
-    """Since when it is recorded and how much, or that the disk takes nothing; else unseen."""
+    """For how long it is recorded and how much, or that the disk takes nothing; else unseen."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
@@ -38,8 +38,10 @@ class RecordingSign(QLabel):
         set_tone(self, Tone.BUSY)
         since_s = self._operation.clock() - writer.began_s
         self.setText(
-            translate("shell", "● Recording {time}  {size}").format(
+            translate("shell", "● {time}  {size}").format(
                 time=duration_text(since_s), size=size_text(writer.bytes_written)
             )
         )
-        self.setToolTip(plain_tip(str(writer.path)))
+        self.setToolTip(
+            plain_tip(translate("shell", "A recording runs: its time and size"), str(writer.path))
+        )

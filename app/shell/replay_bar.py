@@ -16,12 +16,13 @@ from rotemina.app.display import duration_text
 from rotemina.app.motion.recording.pacing import SPEEDS
 from rotemina.app.motion.state import SessionState
 from rotemina.app.recorded_events import timeline_events
-from rotemina.app.shell.controls import ElidedLabel
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.timeline import Timeline
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.quantities import rounded
 
 
 class ReplayBar(QFrame):
@@ -37,7 +38,9 @@ class ReplayBar(QFrame):
         self.phase = PhaseLabel()
         self.phase.setAccessibleName(translate("shell", "Phase in the recording"))
         self.phase.setToolTip(
-            translate("shell", "How the machine stood then; how it stands now is in the tool bar")
+            translate(
+                "shell", "The machine's state at that time; its present state is in the tool bar"
+            )
         )
         self.machine = QLabel(translate("shell", "The machine moves now"))
         set_tone(self.machine, Tone.DANGER)
@@ -47,7 +50,7 @@ class ReplayBar(QFrame):
         self.live.clicked.connect(workbench.replaying.end)
         self.play = QPushButton()
         self.play.setMinimumWidth(70)
-        self.play.setToolTip(translate("shell", "Go on with the replay, or hold it"))
+        self.play.setToolTip(translate("shell", "Resume or pause the replay"))
         self.play.clicked.connect(self._toggle)
         self.speed = _speeds()
         self.speed.currentIndexChanged.connect(self._set_speed)
@@ -142,7 +145,7 @@ class ReplayBar(QFrame):
 def _speeds() -> QComboBox:
     box = QComboBox()
     box.setAccessibleName(translate("shell", "Speed of the replay"))
-    box.setToolTip(translate("shell", "How many times as fast as it happened"))
+    box.setToolTip(translate("shell", "Replay speed as a multiple of real time"))
     for speed in SPEEDS:
-        box.addItem(f"{speed:g} ×", speed)
+        box.addItem(f"{rounded(speed, 6)} ×", speed)
     return box

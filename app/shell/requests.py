@@ -33,10 +33,12 @@ class Requests(QObject):
     Signals
     -------
     refused(str) : a request that was not taken, and why.
+    acted() : a request was taken.
     ports_offered(tuple of OfferedPort) : where virtual boards listen now.
     """
 
     refused = Signal(object)
+    acted = Signal()
     ports_offered = Signal(object)
 
     def __init__(self, session: MotionSession) -> None:
@@ -74,6 +76,10 @@ class Requests(QObject):
     def home(self, axes: Sequence[str] | None = None) -> None:
         """Find the limit switches of axes, or of all that have some."""
         self.ask(lambda: self.session.home(axes))
+
+    def set_voltage(self, axis: str, voltage: float) -> None:
+        """Put out a piezo amplifier's voltage, V, from rest."""
+        self.ask(lambda: self.session.set_voltage(axis, voltage))
 
     def undo(self) -> None:
         """Go back to where the axes rested before the latest move."""
@@ -113,7 +119,7 @@ class Requests(QObject):
 
     def clear_fault(self) -> None:
         """Acknowledge the device's fault."""
-        self.ask(self.session.clear_fault)
+        self.ask(self.session.service.clear_fault)
 
     def confirm_position(self) -> None:
         """Trust the position again after a lost connection."""
@@ -121,21 +127,21 @@ class Requests(QObject):
 
     def accept_parameters(self) -> None:
         """Move with the device's parameters as they are."""
-        self.ask(self.session.accept_parameters)
+        self.ask(self.session.service.accept_parameters)
 
     def write_parameters(self) -> None:
         """Write the robot file's parameters into the device."""
-        self.ask(self.session.write_parameters)
+        self.ask(self.session.service.write_parameters)
 
     # --- bounds of the tip ------------------------------------------------------------------------
 
     def teach_floor(self) -> None:
         """Put the tip's floor where the tip is now."""
-        self.ask(self.session.teach_floor)
+        self.ask(self.session.bounds.teach_floor)
 
     def clear_floor(self) -> None:
         """Take the tip's floor away."""
-        self.ask(self.session.clear_floor)
+        self.ask(self.session.bounds.clear_floor)
 
     def ask_aside(
         self,
@@ -153,7 +159,11 @@ class Requests(QObject):
             self.refused.emit(reason)
             undone()
 
-        self._aside.run(f"request {next(self._asked_aside)}", request, lambda _: done(), refused)
+        def taken(_: object) -> None:
+            self.acted.emit()
+            done()
+
+        self._aside.run(f"request {next(self._asked_aside)}", request, taken, refused)
 
     def ask(self, request: Callable[[], object]) -> bool:
         """Make a request of the session; a refusal is told. Return whether it was taken."""
@@ -162,4 +172,5 @@ class Requests(QObject):
         except (InputError, OSError, ValueError, RuntimeError) as error:
             self.refused.emit(explained(error))
             return False
+        self.acted.emit()
         return True

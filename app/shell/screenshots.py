@@ -20,6 +20,7 @@ def main(folder: Path) -> int:
 
     from rotemina.app.motion.session import MotionSession
     from rotemina.app.settings import Settings
+    from rotemina.app.shell.layouts import OPERATE
     from rotemina.app.shell.offscreen_run import tell_the_story
     from rotemina.app.shell.qt_messages import log_qt_messages
     from rotemina.app.shell.window_run import make_window
@@ -38,9 +39,7 @@ def main(folder: Path) -> int:
         window.show()
         window.workbench.start()
         window.panels.make_all()
-        begun = window.saveState()
         tell_the_story(window, worn_effects(robot))
-        window.restoreState(begun)  # the layout of a first start
         while window.workbench.busy:  # panels that work on what was played
             QApplication.processEvents()
         window.panels["gap"].tabs.setCurrentIndex(2)  # how far the gap shrinks
@@ -49,21 +48,24 @@ def main(folder: Path) -> int:
         window.workbench.release()
         window.workbench.teach_floor()
         window.workbench.refreshed.emit(window.workbench.session.snapshot())
-        for theme, front in (("dark", "comparison"), ("light", "faults")):
+        for theme, front in (("dark", "comparison"), ("light", "trajectory")):
             window.use_theme(theme)
             for width, height in SIZES:
                 window.resize(width, height)
-                window.docks[front].raise_()
+                window.arrangement.arrange(OPERATE)  # as at a first start
+                for name in ("plots", front):
+                    window.bring_up(name)
                 for _ in range(5):
                     QApplication.processEvents()
-                name = f"{width}x{height}-{theme}"
-                window.grab().save(str(folder / f"window-{name}.png"))
+                window.grab().save(str(folder / f"window-{width}x{height}-{theme}.png"))
                 count += 1
-                panels = window.panels if theme == "dark" else {}
-                for panel_name, panel in panels.items():
-                    bring_up(window, panel_name)  # one behind another has no size of its own
-                    panel.grab().save(str(folder / f"{panel_name}-{name}.png"))
-                    count += 1
+        window.use_theme("dark")
+        for width, height in SIZES:  # last: docks keep the widths that they are given here
+            window.resize(width, height)
+            for name, panel in window.panels.items():
+                bring_up(window, name)
+                panel.grab().save(str(folder / f"{name}-{width}x{height}-dark.png"))
+                count += 1
         window.workbench.close()
         window.hide()
         count += in_german(folder, Path(kept))
@@ -100,7 +102,8 @@ def in_german(folder: Path, kept: Path) -> int:
         window.resize(width, height)
         for _ in range(5):
             QApplication.processEvents()
-        name = f"window-de-{layout.word.lower()}-{width}x{height}-dark.png"
+        word = layout.word.lower().replace(" ", "-")
+        name = f"window-de-{word}-{width}x{height}-dark.png"
         window.grab().save(str(folder / name))
     window.workbench.close()
     window.hide()
@@ -109,11 +112,15 @@ def in_german(folder: Path, kept: Path) -> int:
 
 def bring_up(window: "MainWindow", name: str) -> None:
     """Put a panel before the others of its place; the microscope with its first picture."""
+    from PySide6.QtCore import Qt
     from PySide6.QtWidgets import QApplication, QTabWidget
 
     panel = window.panels[name]
+    for other, dock in window.docks.items():  # which it would share a small screen with
+        dock.setVisible(other == name)
+    window.bring_up(name)
     if name in window.docks:
-        window.docks[name].raise_()
+        window.resizeDocks([window.docks[name]], [window.height()], Qt.Orientation.Vertical)
     for tabs in window.findChildren(QTabWidget):
         if tabs.indexOf(panel) >= 0:
             tabs.setCurrentWidget(panel)

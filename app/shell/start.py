@@ -21,7 +21,13 @@ logger = logging.getLogger(__name__)
 
 
 def start(
-    robot: str, *, driver: str, assignments: Sequence[str], offscreen: bool, output: Path
+    robot: str,
+    *,
+    driver: str,
+    assignments: Sequence[str],
+    offscreen: bool,
+    output: Path,
+    speaks: str | None = None,
 ) -> int:
     """Open the window and run it until it is closed; return the exit status.
 
@@ -32,6 +38,7 @@ def start(
     assignments : settings of the driver, each as ``name=value``.
     offscreen : do the main job without a display.
     output : folder for the picture and report of a run without a display.
+    speaks : language of the window, in place of the one last used.
 
     Raises
     ------
@@ -57,7 +64,8 @@ def start(
         from rotemina.app.shell import window_run
 
         settings = Settings()
-        return window_run.run(MotionSession(_driver(kind, described, given, settings)), settings)
+        session = MotionSession(_driver(kind, described, given, settings))
+        return window_run.run(session, settings, speaks=speaks)
     from rotemina.app.shell import offscreen_run
 
     print(f"No window ({reason}): doing the main job offscreen instead.")

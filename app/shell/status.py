@@ -8,6 +8,7 @@ from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import driven, word
 from rotemina.app.shell.workbench import Workbench
+from rotemina.sim.quantities import fixed
 
 
 class StatusText(QLabel):
@@ -48,4 +49,4 @@ class StatusText(QLabel):
 
 def age(seconds: float) -> str:
     """Return an age as text: in milliseconds as long as data is fresh."""
-    return f"{1e3 * seconds:.0f} ms" if seconds < 1.0 else f"{seconds:.0f} s"
+    return f"{fixed(1e3 * seconds, 0)} ms" if seconds < 1.0 else f"{fixed(seconds, 0)} s"

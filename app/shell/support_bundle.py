@@ -13,9 +13,9 @@ from types import MappingProxyType
 
 from rotemina.app.files import json_text
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.anonymiser import Anonymiser
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.message_log import Message
-from rotemina.app.shell.scrubbing import Scrubber
 from rotemina.sim.plugin_points import API_VERSIONS
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
@@ -52,20 +52,18 @@ def gather(
     driver: str,
     robot: str,
     record: Record | None,
-    scrubber: Scrubber,
+    anonymiser: Anonymiser,
     lateness: Mapping[str, float] = MappingProxyType({}),
     reached: Reached = lambda _: None,
 ) -> tuple[Item, ...]:
-    """Return what a bundle holds, scrubbed; a large record takes a while.
+    """Return what a bundle holds, anonymised; a large record takes a while.
 
     ``reached`` gets the share that is done, and may raise to end it.
     """
     reached(0.0)
     log = "\n".join(message.line for message in messages)
     items = [
-        Item(
-            "log.txt", translate("shell", "What the program told since it was started"), f"{log}\n"
-        ),
+        Item("log.txt", translate("shell", "Messages of the program since its start"), f"{log}\n"),
         Item(
             "settings.json",
             translate("shell", "Preferences of the screen, and settings of drivers"),
@@ -97,11 +95,11 @@ def gather(
             )
         )
     reached(0.6)
-    scrubbed = []
+    anonymised = []
     for number, item in enumerate(items, 1):
-        scrubbed.append(Item(item.name, item.about, scrubber.scrub(item.text)))
+        anonymised.append(Item(item.name, item.about, anonymiser.anonymise(item.text)))
         reached(0.6 + 0.4 * number / len(items))
-    return tuple(scrubbed)
+    return tuple(anonymised)
 
 
 def write_bundle(path: Path, items: Sequence[Item], reached: Reached = lambda _: None) -> None:

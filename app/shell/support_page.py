@@ -4,10 +4,8 @@ from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QDialog,
-    QFileDialog,
     QHBoxLayout,
     QLabel,
     QListWidget,
@@ -18,14 +16,15 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import size_text
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.anonymiser import Anonymiser
+from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.loop_watch import LoopWatch
 from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.progress import Progress
-from rotemina.app.shell.scrubbing import Scrubber
 from rotemina.app.shell.support_bundle import Item, gather, write_bundle
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow
 
 _SHOWN = 20_000  # letters of a file; the rest of a record looks alike
 _INTRODUCTION = marked(
@@ -75,20 +74,12 @@ class SupportPage(QDialog):
 
     def ask_where(self) -> None:
         """Ask where to, and write the bundle there."""
-        settings = self._workbench.settings
-        dialog = QFileDialog(
-            self,
+        title, kinds = (
             translate("shell", "Save support bundle"),
-            settings.get("files.folder", ""),
             translate("shell", "Archives (*.zip)"),
         )
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("zip")
-        dialog.selectFile(f"rotemina-support-{datetime.now():%Y-%m-%d}.zip")
-        dialog.fileSelected.connect(lambda name: self.write(Path(name)))
-        dialog.show()
+        name = f"rotemina-support-{datetime.now():%Y-%m-%d}.zip"
+        ask_where(self, self._workbench, title, kinds, name, self.write)
 
     def write(self, path: Path) -> None:
         """Write the bundle, away from the window's thread, and close the page."""
@@ -114,15 +105,15 @@ class SupportPage(QDialog):
         late = watch.lateness.as_json()
 
         def work(progress: Progress) -> tuple[Item, ...]:
-            scrubber = Scrubber.of_this_user()
+            anonymiser = Anonymiser.of_this_user()
             told = log.messages()
             return gather(
-                told, preferences, state, driver, robot, record, scrubber, late, progress.reached
+                told, preferences, state, driver, robot, record, anonymiser, late, progress.reached
             )
 
         bench.long_work(
             "support items",
-            Progress(translate("shell", "The support bundle is put together.")),
+            Progress(translate("shell", "The support bundle is being assembled.")),
             work,
             self._show_items,
         )
@@ -136,9 +127,7 @@ class SupportPage(QDialog):
         self._allow_saving()
 
     def _allow_saving(self) -> None:
-        why_not = (
-            None if self.items else translate("shell", "the bundle is still being put together")
-        )
+        why_not = None if self.items else translate("shell", "the bundle is still being assembled")
         allow(self.save, why_not, translate("shell", "Write all of it into one zip archive"))
 
     def _show_item(self, row: int) -> None:

@@ -34,6 +34,9 @@ class Theme:
     command: str
     model: str
     real: str
+    other: str
+    virtual: str
+    on_virtual: str
 
 
 DARK = Theme(
@@ -54,6 +57,9 @@ DARK = Theme(
     command="#8b95a5",
     model="#4c9be8",
     real="#f0a35e",
+    other="#e58fc8",
+    virtual="#b795ff",
+    on_virtual="#140a29",
 )
 LIGHT = Theme(
     name="light",
@@ -73,6 +79,9 @@ LIGHT = Theme(
     command="#5c6675",
     model="#1f66b0",
     real="#a64b08",
+    other="#9c2c7d",
+    virtual="#6a3fc4",
+    on_virtual="#ffffff",
 )
 HIGH_CONTRAST = Theme(
     name="contrast",
@@ -92,17 +101,24 @@ HIGH_CONTRAST = Theme(
     command="#c8c8c8",
     model="#66bfff",
     real="#ffa04d",
+    other="#ff9be0",
+    virtual="#cbb0ff",
+    on_virtual="#000000",
 )
 THEMES = {theme.name: theme for theme in (DARK, LIGHT, HIGH_CONTRAST)}
 GROUNDS = ("window", "surface", "raised")
 #: Roles that are read on every ground.
-READ = ("text", "quiet", "accent", "danger_text", "warning", "good", "command", "model", "real")
+READ = (
+    *("text", "quiet", "accent", "danger_text", "warning", "good"),
+    *("command", "model", "real", "other"),
+)
 #: What is read, and on what: every text of the style sheet is one of these.
 PAIRS = (
     *((role, ground) for role in READ for ground in GROUNDS),
     ("on_accent", "accent"),
     ("on_danger", "danger"),
     ("window", "warning"),
+    ("on_virtual", "virtual"),
 )
 #: Sizes of text to choose from; 1.0 suits a screen of 1080 lines.
 SCALES = (0.9, 1.0, 1.15, 1.3, 1.5, 1.75, 2.0)

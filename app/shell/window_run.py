@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QApplication
 
 from rotemina.app.motion.heartbeat import PERIOD_S
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.range_settings import kept_ranges
 from rotemina.app.settings import Settings
 from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
@@ -27,6 +28,7 @@ from rotemina.app.shell.panel_watch import PanelWatch
 from rotemina.app.shell.preloading import preload
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.watchdog.watched import Watched
+from rotemina.sim.errors import InputError
 
 DEFAULT_THEME = "dark"
 # How long another thread may go on once the window's, or the session's, wants to: both do so often.
@@ -47,20 +49,40 @@ def make_application() -> QApplication:
 
 
 def make_window(
-    session: MotionSession, settings: Settings, played_folder: Path | None = None
+    session: MotionSession,
+    settings: Settings,
+    played_folder: Path | None = None,
+    *,
+    speaks: str | None = None,
 ) -> MainWindow:
     """Make the window with its workbench, in the language and theme last used; it is not shown yet.
+
+    ``speaks`` takes the place of that language.
 
     Played records are kept in ``played_folder``, by default among the user's own data.
     """
     folder = played_folder or user_data_path("rotemina", appauthor=False) / "played"
     application = make_application()
-    language.use(application, language.chosen(settings))  # before anything is made that speaks
+    language.use(
+        application, language.chosen(settings, speaks)
+    )  # before anything is made that speaks
     theme = themes.theme_named(settings.get("window.theme", DEFAULT_THEME))
     themes.apply(application, theme)
     window = MainWindow(Workbench(session, settings, theme, folder))
     _tell_of(settings, window.workbench)
+    _narrow(session, settings, window.workbench)
     return window
+
+
+def _narrow(session: MotionSession, settings: Settings, workbench: Workbench) -> None:
+    """Use the ranges that were narrowed before; one that cannot be is told."""
+    try:
+        session.ranges.begin_with(kept_ranges(settings, session.robot))
+    except InputError as error:
+        text = language.translate(
+            "shell", "No range is narrowed: {error}. Narrow them again in Control, Axes."
+        ).format(error=error)
+        workbench.notify(Level.WARNING, text, about="control.md")
 
 
 def _tell_of(settings: Settings, workbench: Workbench) -> None:
@@ -79,12 +101,15 @@ def _tell_of(settings: Settings, workbench: Workbench) -> None:
     workbench.notify(Level.WARNING, text, about="window.md")
 
 
-def run(session: MotionSession, settings: Settings) -> int:
-    """Show the window and run it; return the exit status."""
+def run(session: MotionSession, settings: Settings, *, speaks: str | None = None) -> int:
+    """Show the window, in another language than the last where it is given, and run it.
+
+    Return the exit status.
+    """
     atexit.register(session.stop, "the program ends")  # also where a plugin's SystemExit ends it
     try:
         with exits_refused():
-            return _run(session, settings)
+            return _run(session, settings, speaks)
     except BaseException:
         session.stop("the program ends")
         raise
@@ -92,16 +117,19 @@ def run(session: MotionSession, settings: Settings) -> int:
         atexit.unregister(session.stop)
 
 
-def _run(session: MotionSession, settings: Settings) -> int:
+def _run(session: MotionSession, settings: Settings, speaks: str | None) -> int:
     trim_heap()
     sys.setswitchinterval(SWITCH_S)
     application = make_application()
+
+    def leave() -> None:
+        window.workbench.stop()  # whoever sends a signal may not be there to be asked
+        application.closeAllWindows()
+
     # Only asked for here: a handler may interrupt anything, a lock that closing needs as well.
     for name in {"SIGINT", "SIGTERM", "SIGHUP"} & signal.Signals.__members__.keys():
-        signal.signal(
-            signal.Signals[name], lambda *_: QTimer.singleShot(0, application.closeAllWindows)
-        )
-    window = make_window(session, settings)
+        signal.signal(signal.Signals[name], lambda *_: QTimer.singleShot(0, leave))
+    window = make_window(session, settings, speaks=speaks)
     panels = window.panels
     watch = PanelWatch(window, panels, window.docks, window.workbench.notify, panels.kinds)
     watch.install()
@@ -112,6 +140,7 @@ def _run(session: MotionSession, settings: Settings) -> int:
         window.show()
         if not settings.get("window.state", ""):  # a first start shows what is needed to begin
             window.arrangement.arrange(OPERATE)
+        window.first_steps.offer()
     # A look through all that was imported takes tenths of a second, for which every thread waits:
     # longer than the boards' set-points last. What is here stays as long as the program.
     gc.collect()

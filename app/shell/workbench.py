@@ -2,8 +2,6 @@
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
-from datetime import datetime
 from enum import StrEnum
 from pathlib import Path
 from typing import TypeVar
@@ -26,23 +24,28 @@ from rotemina.app.motion.state import (
     Faulted,
     ModelChanged,
     PlaybackFinished,
+    SessionState,
     Stopped,
 )
+from rotemina.app.records.entry import Entry
+from rotemina.app.records.library import commands, read
 from rotemina.app.settings import Settings
+from rotemina.app.shell.at_rest import AtRest
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.help_topics import Explained, page_for, page_of
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.plan import Plan
 from rotemina.app.shell.progress import Progress
+from rotemina.app.shell.record_library import RecordLibrary, write_played
 from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests import Requests
 from rotemina.app.shell.theme import Theme
 from rotemina.drivers.gate import Permit
+from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
-from rotemina.sim.trajectory.dry_run import DryRun, dry_run
-from rotemina.sim.whole_files import FileWriteError
 
 logger = logging.getLogger(__name__)
 Answer = TypeVar("Answer")
@@ -59,16 +62,6 @@ class Level(StrEnum):
     ERROR = "error"
 
 
-@dataclass(frozen=True, slots=True)
-class Plan:
-    """A trajectory with its dry run: what the model in use expects if it were played."""
-
-    name: str
-    trajectory: Record
-    dry_run: DryRun
-    model_id: str = ""
-
-
 class Workbench(Requests):
     """The window's state and its requests; every panel holds the same one.
 
@@ -81,16 +74,18 @@ class Workbench(Requests):
     and ``bounds`` (of the deviation of readings from the model, m or rad by axis) are what the next
     playback is begun with. ``operation`` is what an operator's hand does with the machine: input
     devices, teleoperation, penetration, recorder. Its data go beside ``played_folder``.
-    ``microscope`` is camera, calibration, clicks and vision. ``progress`` is long work that is
-    under way, see :meth:`long_work`. ``source``
-    is what is shown: the machine, or a replay of ``replaying``; whoever draws positions reads
-    ``source`` and ``shown``, and whoever acts on the machine reads ``session`` and ``refreshed``.
+    ``library`` has every record that was played, recorded or opened. ``microscope`` is camera,
+    calibration, clicks and vision. ``progress`` is long work that is under way, see
+    :meth:`long_work`. ``source`` is what is shown: the machine, or a replay of ``replaying``;
+    whoever draws positions reads ``source`` and ``shown``, and whoever acts on the machine reads
+    ``session`` and ``refreshed``.
 
     Signals
     -------
     refreshed(SessionState) : the machine's, once a frame, at most 30 a second.
     shown(SessionState) : likewise, of what is shown; the same unless that is a replay.
     plan_changed(Plan) : a trajectory was loaded and its dry run is done.
+    plan_checked(Plan) : the same, as the machine stands otherwise now.
     model_changed(ModelInUse) : predictions are made with another model from now on.
     run_changed(Run) : a record was opened or a playback ended, and model and real are compared.
     busy_changed(str) : what is being worked on in the background, or "".
@@ -103,6 +98,7 @@ class Workbench(Requests):
     refreshed = Signal(object)
     shown = Signal(object)
     plan_changed = Signal(object)
+    plan_checked = Signal(object)
     model_changed = Signal(object)
     run_changed = Signal(object)
     busy_changed = Signal(str)
@@ -112,7 +108,7 @@ class Workbench(Requests):
     closing = Signal()
     _happened = Signal(object)
     _exceeded = Signal(object)
-    _told = Signal(str)
+    _told = Signal(object)
 
     def __init__(
         self, session: MotionSession, settings: Settings, theme: Theme, played_folder: Path
@@ -128,13 +124,22 @@ class Workbench(Requests):
         self.pace = 1.0
         self.bounds: dict[str, float] = {}
         self.progress: Progress | None = None
+        self._checked_for: tuple[object, ...] = ()  # plan and standing of the latest check
         self._background = Background(self)
         self._exceeded.connect(self._tell_excess)
         self._told.connect(lambda text: self.notify(Level.WARNING, text, about="motion.md"))
+        self._ended = self._compared = 0  # playbacks: counted by the worker, and by the window
+        self._unsubscribe_count = session.subscribe(self._count)
         # Before this subscribes itself: when it hears of an end, the playback knows it already.
         self.playback = Playback(session, self._exceeded.emit)
         self.operation = Operation(
             session, settings.folder, played_folder.parent, told=self._told.emit
+        )
+        self.library = RecordLibrary(
+            session,
+            settings,
+            played_folder,
+            lambda text: self.notify(Level.WARNING, text, about="recording.md#the-library"),
         )
         self.microscope = Microscope(
             session,
@@ -146,10 +151,9 @@ class Workbench(Requests):
         )
         self.replaying = Replaying(session, self.operation.penetration)
         self._happened.connect(self._on_event)
-        self.refused.connect(
-            lambda reason: self.notify(Level.ERROR, spoken(reason), about=page_of(reason))
-        )
+        self.refused.connect(lambda reason: self.notify(Level.ERROR, reason, about=page_of(reason)))
         self._unsubscribe = session.subscribe(self._happened.emit)
+        self._at_rest = AtRest(self)
         self._frames = QTimer(self, interval=FRAME_MS)
         self._frames.timeout.connect(self._refresh)
 
@@ -159,24 +163,32 @@ class Workbench(Requests):
         self.operation.start()
         self.microscope.start()
         self._frames.start()
+        self.library.refresh()
 
     def close(self) -> None:
         """Stop refreshing, end all work and disconnect."""
         self._frames.stop()
         self.closing.emit()
         self._unsubscribe()
+        self._unsubscribe_count()
         self.microscope.close()
         self.operation.close()
         self.playback.close()
         self.session.close()
         self._background.wait()
         self._aside.wait()
+        self.library.close()
 
     @property
     def source(self) -> MotionSession | Replay:
         """What is shown; ``replaying.changed`` tells when it is another."""
         paced = self.replaying.paced
         return self.session if paced is None else paced.replay
+
+    @property
+    def untold(self) -> bool:
+        """Whether a playback has ended of which the window has yet to hear."""
+        return self._ended != self._compared
 
     @property
     def busy(self) -> bool:
@@ -190,7 +202,7 @@ class Workbench(Requests):
         of a page: the notice has a "?" that opens the page on it. A text that knows its page, as
         those of failures in the background do, needs none.
         """
-        text = Explained(text, page_of(text) or page_for(about))
+        text = Explained(spoken(text), page_of(text) or page_for(about))
         logger.log(logging.WARNING if level in (Level.WARNING, Level.ERROR) else logging.INFO, text)
         self.noticed.emit(level, text)
 
@@ -207,7 +219,9 @@ class Workbench(Requests):
         def work() -> None:
             self.session.use_model(make())
 
-        self.work("model", translate("shell", "Carrying the past on …"), work, lambda _: None)
+        self.work(
+            "model", translate("shell", "Carrying the history forward …"), work, lambda _: None
+        )
 
     def use_nominal_model(self) -> None:
         """Go back to the model of the robot file."""
@@ -219,6 +233,7 @@ class Workbench(Requests):
         """Play the planned trajectory; a refusal becomes a notice.
 
         A ``permit`` is that of the request, where it waited: nothing plays if a stop came since.
+        What is about to rest, as a machine whose effects were switched just now, is waited for.
         """
         plan, permit = self.plan, permit or self.session.permit()
         if plan is None:
@@ -226,8 +241,9 @@ class Workbench(Requests):
             self.notify(Level.WARNING, text, about="trajectory.md")
         elif self.ask(plan.dry_run.require):
             checked, pace, bounds = plan.dry_run.require(), self.pace, dict(self.bounds)
-            self.ask_aside(
-                lambda: self.playback.play(checked, speed=pace, bounds=bounds, permit=permit)
+            self._at_rest.do(
+                lambda: self.playback.play(checked, speed=pace, bounds=bounds, permit=permit),
+                permit,
             )
 
     def toggle_playback(self) -> None:
@@ -262,7 +278,7 @@ class Workbench(Requests):
 
         def work() -> Plan:
             trajectory = read_record(path, columns=columns, robot=self.robot)
-            return self._tried(path.name, trajectory)
+            return Plan.tried(self.session, path.name, trajectory)
 
         self.work(
             "plan",
@@ -276,7 +292,7 @@ class Workbench(Requests):
         self.work(
             "plan",
             translate("shell", "Dry run …"),
-            lambda: self._tried(name, trajectory),
+            lambda: Plan.tried(self.session, name, trajectory),
             self._set_plan,
         )
 
@@ -285,22 +301,49 @@ class Workbench(Requests):
         self.work(
             "plan again",
             translate("shell", "Dry run …"),
-            lambda: self._tried(plan.name, plan.trajectory),
+            lambda: Plan.tried(self.session, plan.name, plan.trajectory),
             self._renew_plan,
         )
 
     def open_record(self, path: Path, columns: str | None = None) -> None:
-        """Read a record as "real" and compare it with the model."""
+        """Read a record as "real", compare it with the model, and take it into the library."""
 
         def work() -> Run:
             record = read_record(path, columns=columns, robot=self.robot)
             return compared(self.session.model, path.name, record)
 
+        def done(run: Run) -> None:
+            if columns is None:  # without a header nobody could open it again without asking
+                self.library.add(path, run.record, path.name)
+            self._take_run(run, path)
+
+        self.work("run", translate("shell", "Reading {name} …").format(name=path.name), work, done)
+
+    def open_entry(self, entry: Entry) -> None:
+        """Compare a record of the library with the model, as :meth:`open_record` does."""
+
+        def work() -> Run:
+            return compared(self.session.model, entry.name, read(entry, self.robot))
+
         self.work(
             "run",
-            translate("shell", "Reading {name} …").format(name=path.name),
+            translate("shell", "Reading {name} …").format(name=entry.name),
             work,
-            self._set_run,
+            lambda run: self._take_run(run, entry.path),
+        )
+
+    def load_entry(self, entry: Entry) -> None:
+        """Take the commands of a record of the library in hand as a trajectory."""
+
+        def work() -> Plan:
+            record = commands(entry, self.robot, self.session.setpoint_period_s)
+            return Plan.tried(self.session, entry.name, record)
+
+        self.work(
+            "plan",
+            translate("shell", "Reading {name} …").format(name=entry.name),
+            work,
+            self._set_plan,
         )
 
     def save_record(self, path: Path) -> None:
@@ -403,27 +446,37 @@ class Workbench(Requests):
                 self.operation.stop_recording()
 
         progress = Progress(
-            translate("shell", "The recording is put into one file."), cancellable=False
+            translate("shell", "The recording is being merged into one file."), cancellable=False
         )
         self.long_work("last recording", progress, work, lambda _: done(), undone)
 
     def _refresh(self) -> None:
         state = self.session.snapshot()
+        self._check_plan(state)
         self.refreshed.emit(state)
+        self._at_rest.look(state)
         self.replaying.step()
         source = self.source
         self.shown.emit(state if source is self.session else source.snapshot())
 
-    def _tried(self, name: str, trajectory: Record) -> Plan:
-        period_s = self.session.setpoint_period_s
-        model = self.session.model
-        tried = dry_run(
-            self.robot,
-            trajectory,
-            setpoint_period_s=period_s,
-            corrected=model.robot if model.corrected else None,
+    def _check_plan(self, state: SessionState) -> None:
+        """Find out anew whether the plan can be played, where the machine stands otherwise now."""
+        plan, session = self.plan, self.session
+        if plan is None or state.activity is not DeviceState.IDLE or not state.command:
+            return
+        asked = plan, session.standing
+        if asked[1] == plan.standing or asked == self._checked_for:
+            return
+        self._checked_for = asked
+
+        def done(checked: Plan) -> None:
+            if self.plan is plan:
+                self.plan = checked
+                self.plan_checked.emit(checked)
+
+        self._background.run(
+            "plan from here", lambda: plan.from_here(session), done, self.refused.emit
         )
-        return Plan(name, trajectory, tried, model.id)
 
     def _set_plan(self, plan: Plan) -> None:
         if self.playback.state.phase is PlaybackPhase.PAUSED:
@@ -431,8 +484,11 @@ class Workbench(Requests):
         self.plan = plan
         self.plan_changed.emit(plan)
         if not plan.dry_run.allowed:
-            text = f"{plan.name}: {plan.dry_run.objections[0]}"
+            text = f"{plan.name}: {spoken(plan.dry_run.objections[0])}"
             self.notify(Level.WARNING, text, about="trajectory.md")
+        elif plan.refusal:
+            text = f"{plan.name}: {spoken(plan.refusal)}"
+            self.notify(Level.WARNING, text, about=page_of(plan.refusal))
 
     def _renew_plan(self, plan: Plan) -> None:
         """Take the same trajectory in hand with another dry run; what is paused stays so."""
@@ -451,6 +507,11 @@ class Workbench(Requests):
         self.record = run.record
         self.run_changed.emit(run)
 
+    def _take_run(self, run: Run, path: Path) -> None:
+        """Take a record in hand that is in a file of the library."""
+        self.library.set_gap(path, run)
+        self._set_run(run)
+
     def _on_event(self, event: Event) -> None:
         if isinstance(event, Faulted | CommandRefused):
             self.notify(Level.ERROR, event.message, about=event)
@@ -468,38 +529,28 @@ class Workbench(Requests):
         self.notify(
             Level.ERROR,
             translate(
-                "shell", "Playback paused: {text}. Look at the machine; then go on, or end it."
+                "shell",
+                "Playback paused: {text}. Check the machine, then resume or end the playback.",
             ).format(text=excess.text),
             about=excess,
         )
 
-    def _keep(self, record: Record, name: str) -> None:
-        """Write a played record into the folder of played records."""
-        stamp = datetime.now().strftime("%Y-%m-%d_%H-%M-%S-%f")
-        stem = "".join(c if c.isalnum() or c in "-_" else "_" for c in Path(name).stem)[:40]
-        path = self.played_folder / f"{stamp}_{stem}.csv.gz"
-
-        def write() -> None:
-            try:
-                path.parent.mkdir(parents=True, exist_ok=True)
-            except OSError as error:
-                raise FileWriteError(
-                    translate("shell", "{parent}: cannot be made: {strerror}").format(
-                        parent=path.parent, strerror=error.strerror
-                    )
-                ) from error
-            write_record(record, path)
+    def _keep(self, record: Record, name: str) -> Path:
+        """Write a played record into the folder of played records, and return where."""
+        path = self.library.place(name)
 
         def done(_: None) -> None:
             if self.unsaved is record:
                 self.unsaved = None
+            self.library.add(path, record, name)
 
         self.work(
             f"keep {path.name}",
             translate("shell", "Keeping {name} …").format(name=path.name),
-            write,
+            lambda: write_played(record, path),
             done,
         )
+        return path
 
     def _take_model(self, event: ModelChanged) -> None:
         """Show everything by another model."""
@@ -519,7 +570,12 @@ class Workbench(Requests):
                 self._renew_run,
             )
 
+    def _count(self, event: Event) -> None:
+        if isinstance(event, PlaybackFinished):
+            self._ended += 1
+
     def _compare_played(self, event: PlaybackFinished) -> None:
+        self._compared += 1
         record, completed = event.record, event.completed
         name = self.plan.name if self.plan else "playback"
         if record is None:
@@ -530,7 +586,7 @@ class Workbench(Requests):
             return
         # Kept before anything else: no comparison that fails, nor the next run, may lose it.
         self.record = self.unsaved = record
-        self._keep(record, name)
+        path = self._keep(record, name)
         if self.playback.state.phase is PlaybackPhase.PAUSED:
             return  # compared when it has ended
         if not completed:
@@ -538,15 +594,10 @@ class Workbench(Requests):
                 name=name, duration_s=record.duration_s
             )
             self.notify(Level.WARNING, text, about="trajectory.md")
-        self.work(
-            "played run",
-            translate("shell", "Comparing model and real …"),
-            lambda: compared(
-                event.model or self.session.model,
-                name,
-                record,
-                completed=completed,
-                answers=event.answers,
-            ),
-            self._set_run,
-        )
+
+        def compare() -> Run:
+            model = event.model or self.session.model
+            return compared(model, name, record, completed=completed, answers=event.answers)
+
+        comparing = translate("shell", "Comparing model and real …")
+        self.work("played run", comparing, compare, lambda run: self._take_run(run, path))

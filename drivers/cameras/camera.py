@@ -24,6 +24,7 @@ from rotemina.drivers.cameras.settings import (
 )
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import StateError
+from rotemina.sim.messages import message
 
 #: Waits for so many seconds.
 Wait = Callable[[float], None]
@@ -114,7 +115,9 @@ class Camera(ABC):
             If it is closed: it has not been asked.
         """
         if self._description is None:
-            raise StateError(f"{self.name}: it is closed; open it first")
+            raise StateError(
+                message("engine", "{name}: it is closed; open it first").fill(name=self.name)
+            )
         return self._description
 
     @property
@@ -136,7 +139,9 @@ class Camera(ABC):
             If it is none, or cannot be opened: permission, used by another program, no video.
         """
         if self._description is not None:
-            raise StateError(f"{self.name}: it is open already; close it first")
+            raise StateError(
+                message("engine", "{name}: it is open already; close it first").fill(name=self.name)
+            )
         self._count = 0
         self._triggered = False
         self._settings = CameraSettings()
@@ -176,7 +181,11 @@ class Camera(ABC):
             If it is closed, or runs freely.
         """
         if self.description and self._settings.trigger is not Trigger.SOFTWARE:
-            raise StateError(f"{self.name}: it runs freely; configure a software trigger first")
+            raise StateError(
+                message(
+                    "engine", "{name}: it runs freely; configure a software trigger first"
+                ).fill(name=self.name)
+            )
         self._triggered = True
 
     @final
@@ -202,9 +211,17 @@ class Camera(ABC):
         rows, columns = picture.pixels.shape[:2]
         if (columns, rows) != (shown.width, shown.height):
             raise CameraLostError(
-                f"{self.name}: a picture of {columns} × {rows} px, expected {shown.width} × "
-                f"{shown.height}: its resolution has changed; close it and open it again, and "
-                "calibrate anew"
+                message(
+                    "engine",
+                    "{name}: a picture of {columns} × {rows} px, expected {width} × {height}: its "
+                    "resolution has changed; close it and open it again, and calibrate anew",
+                ).fill(
+                    name=self.name,
+                    columns=columns,
+                    rows=rows,
+                    width=shown.width,
+                    height=shown.height,
+                )
             )
         self._count += 1
         return self._frame(picture, shown)

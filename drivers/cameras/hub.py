@@ -10,6 +10,7 @@ from rotemina.drivers.cameras.errors import CameraRefusedError
 from rotemina.drivers.cameras.source import CameraSource
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.registry import discover
+from rotemina.sim.messages import message
 
 CAMERAS = "rotemina.cameras"
 
@@ -88,8 +89,9 @@ class CameraHub:
         if source is None:
             known = ", ".join(self.sources)
             raise CameraRefusedError(
-                f"{identity.name}: there is no source {identity.source!r} of cameras; installed: "
-                f"{known}"
+                message(
+                    "engine", "{name}: there is no source {source} of cameras; installed: {known}"
+                ).fill(name=identity.name, source=repr(identity.source), known=known)
             )
         return source.camera(identity)
 
@@ -97,5 +99,9 @@ class CameraHub:
         """Return the camera that an operator has named, not yet open; errors as above."""
         if source not in self.sources:
             known = ", ".join(self.sources)
-            raise CameraRefusedError(f"there is no source {source!r} of cameras; there is: {known}")
+            raise CameraRefusedError(
+                message("engine", "there is no source {source} of cameras; there is: {known}").fill(
+                    source=repr(source), known=known
+                )
+            )
         return self.camera(self.sources[source].addressed(address))

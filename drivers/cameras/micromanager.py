@@ -18,8 +18,9 @@ from rotemina.drivers.cameras.frame import Region
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
 from rotemina.drivers.cameras.source import CameraSource
 from rotemina.drivers.clock import Clock
+from rotemina.sim.messages import marked, message
 
-_INSTALL = "pip install 'rotemina[micromanager]', then mmcore install"
+_INSTALL = message("engine", "pip install 'rotemina[micromanager]', then mmcore install")
 _LOOK_S = 0.002  # between two looks into Micro-Manager's buffer
 _EXPOSURES_S = (1e-5, 100.0)
 _GAIN = "Gain"
@@ -32,14 +33,18 @@ def installed_core() -> Any:
     try:
         return import_module("pymmcore_plus").CMMCorePlus()
     except (ImportError, OSError, RuntimeError) as error:
-        raise CameraRefusedError(f"Micro-Manager cannot be used: {error}; {_INSTALL}") from error
+        raise CameraRefusedError(
+            message("engine", "Micro-Manager cannot be used: {error}; {install}").fill(
+                error=str(error), install=_INSTALL
+            )
+        ) from error
 
 
 class MicroManager(CameraSource):
     """Cameras of Micro-Manager; ``core`` makes a ``CMMCorePlus``."""
 
     name = "Micro-Manager"
-    address_hint = "configuration file of Micro-Manager (.cfg)"
+    address_hint = marked("engine", "configuration file of Micro-Manager (.cfg)")
 
     def __init__(
         self,
@@ -55,7 +60,9 @@ class MicroManager(CameraSource):
     def problem(self) -> str | None:
         """Whether the extra is missing; see :class:`CameraSource`."""
         if self._core is installed_core and find_spec("pymmcore_plus") is None:
-            return f"pymmcore-plus is not installed: {_INSTALL}"
+            return message("engine", "pymmcore-plus is not installed: {install}").fill(
+                install=_INSTALL
+            )
         return None
 
     def devices(self) -> tuple[CameraIdentity, ...]:
@@ -66,7 +73,11 @@ class MicroManager(CameraSource):
         """Return the camera of a configuration file; see :class:`CameraSource`."""
         path = Path(address.strip())
         if path.suffix.lower() != ".cfg":
-            raise CameraRefusedError(f"{self.name}: {address!r}: type a {self.address_hint}")
+            raise CameraRefusedError(
+                message("engine", "{name}: {address}: type a {address_hint}").fill(
+                    name=self.name, address=repr(address), address_hint=self.address_hint
+                )
+            )
         return CameraIdentity(f"micromanager:{path}", path.stem, "micromanager")
 
     def camera(self, identity: CameraIdentity) -> Camera:
@@ -92,21 +103,31 @@ class MicroManagerCamera(Camera):
     def _open(self) -> CameraDescription:
         path = Path(self.identity.address)
         if not path.is_file():
-            raise CameraLostError(f"{path}: there is no such file; choose another configuration")
+            raise CameraLostError(
+                message(
+                    "engine", "{path}: there is no such file; choose another configuration"
+                ).fill(path=path)
+            )
         self._core = self._make()
         self._lost = 0
         try:
             self._core.loadSystemConfiguration(str(path))
             if not self._core.getCameraDevice():
                 raise CameraRefusedError(
-                    f"{path}: it names no camera; add one with Micro-Manager's wizard"
+                    message(
+                        "engine", "{path}: it names no camera; add one with Micro-Manager's wizard"
+                    ).fill(path=path)
                 )
             self._core.clearROI()
             described = self._described()
             self._core.startContinuousSequenceAcquisition(0)
         except (RuntimeError, OSError) as error:
             self._close()
-            raise CameraLostError(f"{path}: Micro-Manager cannot open it: {error}") from error
+            raise CameraLostError(
+                message("engine", "{path}: Micro-Manager cannot open it: {error}").fill(
+                    path=path, error=str(error)
+                )
+            ) from error
         except CameraRefusedError:
             self._close()
             raise
@@ -122,8 +143,11 @@ class MicroManagerCamera(Camera):
             types = (PixelType.MONO16, PixelType.MONO8)
         else:
             raise CameraRefusedError(
-                f"{self.name}: pixels of {core.getBytesPerPixel()} bytes: must be grey of 8 or 16 "
-                "bits, or colour; set the camera's pixel type in its configuration"
+                message(
+                    "engine",
+                    "{name}: pixels of {getbytesperpixel} bytes: must be grey of 8 or 16 bits, or "
+                    "colour; set the camera's pixel type in its configuration",
+                ).fill(name=self.name, getbytesperpixel=core.getBytesPerPixel())
             )
         return CameraDescription(
             core.getImageWidth(),
@@ -158,7 +182,11 @@ class MicroManagerCamera(Camera):
             with self._translated():
                 self._set(self.settings)
                 self._run(self.settings)
-            raise CameraSettingError(f"{self.name}: it does not take that: {error}") from error
+            raise CameraSettingError(
+                message("engine", "{name}: it does not take that: {error}").fill(
+                    name=self.name, error=str(error)
+                )
+            ) from error
         with self._translated():
             self._run(settings)
             if settings.region is not None:  # some cameras move it to where they can
@@ -209,7 +237,10 @@ class MicroManagerCamera(Camera):
         while not (count := int(core.getRemainingImageCount())):
             if not core.isSequenceRunning():
                 raise CameraLostError(
-                    f"{self.name}: it has stopped taking pictures; was it unplugged? Open it again"
+                    message(
+                        "engine",
+                        "{name}: it has stopped taking pictures; was it unplugged? Open it again",
+                    ).fill(name=self.name)
                 )
             if self.clock() >= until_s:
                 return 0
@@ -223,5 +254,7 @@ class MicroManagerCamera(Camera):
             yield
         except RuntimeError as error:
             raise CameraLostError(
-                f"{self.name}: Micro-Manager has lost it: {error}; open it again"
+                message("engine", "{name}: Micro-Manager has lost it: {error}; open it again").fill(
+                    name=self.name, error=str(error)
+                )
             ) from error

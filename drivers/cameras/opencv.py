@@ -21,6 +21,7 @@ from rotemina.drivers.cameras.pace import Pace
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType
 from rotemina.drivers.cameras.source import CameraSource
 from rotemina.drivers.clock import Clock
+from rotemina.sim.messages import marked, message
 
 _USUAL_HZ = 25.0  # of a file that does not tell
 _RATES_HZ = (0.1, 1000.0)
@@ -61,8 +62,10 @@ class OpenCvSource(CameraSource):
         Makes a ``cv2.VideoCapture``.
     """
 
-    name = "USB camera, video file or stream"
-    address_hint = "number of a device, path of a video file, or address such as rtsp://…"
+    name = marked("engine", "USB camera, video file or stream")
+    address_hint = marked(
+        "engine", "number of a device, path of a video file, or address such as rtsp://…"
+    )
 
     def __init__(
         self,
@@ -87,7 +90,11 @@ class OpenCvSource(CameraSource):
         """Return the camera of a number, file or address; see :class:`CameraSource`."""
         address = address.strip()
         if not address:
-            raise CameraRefusedError(f"{self.name}: nothing was named; type a {self.address_hint}")
+            raise CameraRefusedError(
+                message("engine", "{name}: nothing was named; type a {address_hint}").fill(
+                    name=self.name, address_hint=self.address_hint
+                )
+            )
         if address.isdecimal():
             return CameraIdentity(f"opencv:{int(address)}", f"Camera {int(address)}", "opencv")
         return CameraIdentity(f"opencv:{address}", address.rstrip("/").split("/")[-1], "opencv")
@@ -153,15 +160,22 @@ class Device(_OpenCvCamera):
         stream = self._opened(int(self.identity.address))
         if stream is None:
             raise CameraLostError(
-                f"{self.name}: there is no camera {self.identity.address}, or another program uses "
-                "it, or you may not read it (group 'video' on Linux)"
+                message(
+                    "engine",
+                    "{name}: there is no camera {address}, or another program uses it, or you may "
+                    "not read it (group 'video' on Linux)",
+                ).fill(name=self.name, address=self.identity.address)
             )
         self._stream = stream
         stream.set(cv2.CAP_PROP_BUFFERSIZE, 1)  # the newest, never a backlog
         pixels = self._next()
         if pixels is None:
             self._close()
-            raise CameraLostError(f"{self.name}: it gives no picture; unplug it and plug it in")
+            raise CameraLostError(
+                message("engine", "{name}: it gives no picture; unplug it and plug it in").fill(
+                    name=self.name
+                )
+            )
         return self._described(
             pixels,
             exposure_s=_EXPOSURES_S if stream.getBackendName() == "V4L2" else None,
@@ -170,22 +184,39 @@ class Device(_OpenCvCamera):
 
     def _configure(self, settings: CameraSettings) -> CameraSettings:
         if settings.exposure_s is not None and settings.exposure_s != self.settings.exposure_s:
-            self._set(cv2.CAP_PROP_AUTO_EXPOSURE, _MANUAL, "a manual exposure")
+            self._set(cv2.CAP_PROP_AUTO_EXPOSURE, _MANUAL, marked("engine", "a manual exposure"))
             steps = round(settings.exposure_s / _V4L_EXPOSURE_S)
-            self._set(cv2.CAP_PROP_EXPOSURE, steps, f"an exposure of {settings.exposure_s:g} s")
+            self._set(
+                cv2.CAP_PROP_EXPOSURE,
+                steps,
+                message("engine", "an exposure of {exposure_s} s").fill(
+                    exposure_s=settings.exposure_s
+                ),
+            )
         if settings.gain is not None and settings.gain != self.settings.gain:
-            self._set(cv2.CAP_PROP_GAIN, settings.gain, f"a gain of {settings.gain:g}")
+            self._set(
+                cv2.CAP_PROP_GAIN,
+                settings.gain,
+                message("engine", "a gain of {gain}").fill(gain=settings.gain),
+            )
         return settings
 
     def _set(self, which: int, value: float, what: str) -> None:
         if not self._stream.set(which, value):
-            raise CameraSettingError(f"{self.name}: it does not take {what}; leave it as it is")
+            raise CameraSettingError(
+                message("engine", "{name}: it does not take {what}; leave it as it is").fill(
+                    name=self.name, what=what
+                )
+            )
 
     def _grab(self, timeout_s: float) -> Picture | None:
         pixels = self._next()
         if pixels is None:
             raise CameraLostError(
-                f"{self.name}: it gives no picture any more; was it unplugged? Open it again"
+                message(
+                    "engine",
+                    "{name}: it gives no picture any more; was it unplugged? Open it again",
+                ).fill(name=self.name)
             )
         return self._picture(pixels)
 
@@ -203,7 +234,11 @@ class Film(_OpenCvCamera):
     def _open(self) -> CameraDescription:
         address = self.identity.address
         if self._is_file and not Path(address).is_file():
-            raise CameraLostError(f"{address}: there is no such file; choose another one")
+            raise CameraLostError(
+                message("engine", "{address}: there is no such file; choose another one").fill(
+                    address=address
+                )
+            )
         self._stream = self._opened_film()
         pixels = self._first()
         self._pace: Pace | None = None
@@ -221,12 +256,18 @@ class Film(_OpenCvCamera):
             return stream
         if self._is_file:
             raise CameraRefusedError(
-                f"{self.identity.address}: it is no video, or one that was cut off or is of an "
-                "unknown kind; choose another file"
+                message(
+                    "engine",
+                    "{address}: it is no video, or one that was cut off or is of an unknown kind; "
+                    "choose another file",
+                ).fill(address=self.identity.address)
             )
         raise CameraLostError(
-            f"{self.identity.address}: no video came from there within {_TIMEOUT_MS / 1e3:g} s; "
-            "check the address and the network"
+            message(
+                "engine",
+                "{address}: no video came from there within {timeout_ms} s; check the address and "
+                "the network",
+            ).fill(address=self.identity.address, timeout_ms=_TIMEOUT_MS / 1000.0)
         )
 
     def _first(self) -> Pixels:
@@ -241,7 +282,11 @@ class Film(_OpenCvCamera):
             reason = "it is no video but one picture; open pictures as an image sequence"
         if reason or pixels is None:
             self._close()
-            raise CameraRefusedError(f"{self.identity.address}: {reason}; choose another file")
+            raise CameraRefusedError(
+                message("engine", "{address}: {reason}; choose another file").fill(
+                    address=self.identity.address, reason=reason
+                )
+            )
         if self._is_file:
             self._stream.set(cv2.CAP_PROP_POS_FRAMES, 0)
         return pixels
@@ -260,8 +305,11 @@ class Film(_OpenCvCamera):
             pixels = self._next()
         if pixels is None:
             raise CameraLostError(
-                f"{self.name}: it has ended; open it again"
-                + (", or let it repeat" if self._is_file else "")
+                message("engine", "{name}: it has ended; open it again, or let it repeat").fill(
+                    name=self.name
+                )
+                if self._is_file
+                else message("engine", "{name}: it has ended; open it again").fill(name=self.name)
             )
         return self._picture(pixels)
 

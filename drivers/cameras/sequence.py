@@ -14,6 +14,7 @@ from rotemina.drivers.cameras.pixels import pixel_type_of
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
 from rotemina.drivers.cameras.source import CameraSource
 from rotemina.sim.input_files import open_file
+from rotemina.sim.messages import marked, message
 
 _KINDS = (".tif", ".tiff", ".png")
 _MOST_BYTES = 4_000_000_000
@@ -24,8 +25,8 @@ _DIGITS = re.compile(r"(\d+)")
 class ImageSequences(CameraSource):
     """Folders and files that are named."""
 
-    name = "Image sequence"
-    address_hint = "folder of TIFF or PNG files, or TIFF file with several pages"
+    name = marked("engine", "Image sequence")
+    address_hint = marked("engine", "folder of TIFF or PNG files, or TIFF file with several pages")
 
     def devices(self) -> tuple[CameraIdentity, ...]:
         """Return nothing: a sequence has to be named."""
@@ -34,7 +35,11 @@ class ImageSequences(CameraSource):
     def addressed(self, address: str) -> CameraIdentity:
         """Return the sequence in a folder or file; see :class:`CameraSource`."""
         if not address.strip():
-            raise CameraRefusedError(f"{self.name}: nothing was named; type a {self.address_hint}")
+            raise CameraRefusedError(
+                message("engine", "{name}: nothing was named; type a {address_hint}").fill(
+                    name=self.name, address_hint=self.address_hint
+                )
+            )
         path = Path(address.strip())
         return CameraIdentity(f"sequence:{path}", path.name or str(path), "sequence")
 
@@ -78,8 +83,11 @@ class ImageSequence(Camera):
         if self._at == len(self._pages):
             if not self.settings.repeat:
                 raise CameraLostError(
-                    f"{self.name}: it has ended after {len(self._pages)} pictures; open it again, "
-                    "or let it repeat"
+                    message(
+                        "engine",
+                        "{name}: it has ended after {count} pictures; open it again, or let it "
+                        "repeat",
+                    ).fill(name=self.name, count=len(self._pages))
                 )
             self._at = 0
         file, page = self._pages[self._at]
@@ -90,8 +98,15 @@ class ImageSequence(Camera):
         self._at += 1
         if pixel_type_of(pixels) is not self.description.pixel_types[0]:
             raise CameraLostError(
-                f"{file}: a picture of type {pixel_type_of(pixels)}, expected "
-                f"{self.description.pixel_types[0]} as the first; convert it"
+                message(
+                    "engine",
+                    "{file}: a picture of type {pixel_type_of}, expected {pixel_types} as the "
+                    "first; convert it",
+                ).fill(
+                    file=file,
+                    pixel_type_of=pixel_type_of(pixels),
+                    pixel_types=self.description.pixel_types[0],
+                )
             )
         bits = 16 if pixels.dtype == np.uint16 else 8
         return Picture(pixels, bits, self.clock(), metadata={"file": file.name, "page": page})
@@ -105,14 +120,23 @@ def _pages(path: Path) -> tuple[tuple[Path, int], ...]:
         ]
         if not files:
             raise CameraRefusedError(
-                f"{path}: there is no TIFF or PNG file in this folder; choose another one"
+                message(
+                    "engine",
+                    "{path}: there is no TIFF or PNG file in this folder; choose another one",
+                ).fill(path=path)
             )
         return tuple((file, 0) for file in sorted(files, key=_natural))
     if not path.is_file():
-        raise CameraLostError(f"{path}: there is no such folder or file; choose another one")
+        raise CameraLostError(
+            message("engine", "{path}: there is no such folder or file; choose another one").fill(
+                path=path
+            )
+        )
     count = cv2.imcount(str(path), cv2.IMREAD_UNCHANGED)
     if count < 1:
-        raise CameraRefusedError(f"{path}: it is no picture; choose a TIFF or PNG file")
+        raise CameraRefusedError(
+            message("engine", "{path}: it is no picture; choose a TIFF or PNG file").fill(path=path)
+        )
     return tuple((path, page) for page in range(count))
 
 
@@ -124,21 +148,35 @@ def _natural(path: Path) -> list[tuple[bool, int, str]]:
 
 def _read(file: Path, page: int) -> Pixels:
     open_file(
-        file, CameraRefusedError, most_bytes=_MOST_BYTES, advice="is it cut off, or gone?"
+        file,
+        CameraRefusedError,
+        most_bytes=_MOST_BYTES,
+        advice=marked("engine", "is it cut off, or gone?"),
     ).close()
     try:
         there, pages = cv2.imreadmulti(str(file), page, 1, flags=cv2.IMREAD_UNCHANGED)
     except cv2.error as error:
-        raise CameraRefusedError(f"{file}: page {page + 1} cannot be read: {error}") from error
+        raise CameraRefusedError(
+            message("engine", "{file}: page {page} cannot be read: {error}").fill(
+                file=file, page=page + 1, error=str(error)
+            )
+        ) from error
     if not there or not pages:
-        raise CameraRefusedError(f"{file}: page {page + 1} cannot be read; it is cut off, or gone")
+        raise CameraRefusedError(
+            message("engine", "{file}: page {page} cannot be read; it is cut off, or gone").fill(
+                file=file, page=page + 1
+            )
+        )
     pixels = pages[0]
     if pixels.ndim == 3 and pixels.dtype == np.uint8:
         code = cv2.COLOR_BGRA2RGB if pixels.shape[2] == 4 else cv2.COLOR_BGR2RGB
         return np.asarray(cv2.cvtColor(pixels, code), dtype=np.uint8)
     if pixels.ndim != 2 or pixels.dtype not in (np.uint8, np.uint16):
         raise CameraRefusedError(
-            f"{file}: pixels of type {pixels.dtype} with {pixels.ndim} dimensions: must be grey of "
-            "8 or 16 bits, or colour of 8; convert it"
+            message(
+                "engine",
+                "{file}: pixels of type {dtype} with {ndim} dimensions: must be grey of 8 or 16 "
+                "bits, or colour of 8; convert it",
+            ).fill(file=file, dtype=str(pixels.dtype), ndim=pixels.ndim)
         )
     return pixels  # type: ignore[return-value]  # its type was looked at

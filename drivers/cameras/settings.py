@@ -6,6 +6,7 @@ from math import isfinite
 
 from rotemina.drivers.cameras.errors import CameraSettingError
 from rotemina.drivers.cameras.frame import Region
+from rotemina.sim.messages import message
 
 
 class PixelType(StrEnum):
@@ -90,10 +91,18 @@ def check(name: str, can: CameraDescription, settings: CameraSettings) -> None:
     types = (*can.pixel_types, PixelType.MONO8)
     if settings.pixel_type is not None and settings.pixel_type not in types:
         known = ", ".join(dict.fromkeys(types))
-        raise CameraSettingError(f"{name}: pixel type {settings.pixel_type}: it has {known}")
+        raise CameraSettingError(
+            message("engine", "{name}: pixel type {pixel_type}: it has {known}").fill(
+                name=name, pixel_type=settings.pixel_type, known=known
+            )
+        )
     if settings.trigger not in can.triggers:
         known = ", ".join(can.triggers)
-        raise CameraSettingError(f"{name}: trigger {settings.trigger}: it has {known}")
+        raise CameraSettingError(
+            message("engine", "{name}: trigger {trigger}: it has {known}").fill(
+                name=name, trigger=settings.trigger, known=known
+            )
+        )
     if settings.region is not None:
         _check_region(name, can, settings.region)
 
@@ -104,10 +113,16 @@ def _check_number(
     if value is None:
         return
     if bounds is None:
-        raise CameraSettingError(f"{name}: {what} = {value:g}{unit}: it cannot be set; leave it")
+        raise CameraSettingError(
+            message("engine", "{name}: {what} = {value}{unit}: it cannot be set; leave it").fill(
+                name=name, what=what, value=value, unit=unit
+            )
+        )
     if not (isfinite(value) and bounds[0] <= value <= bounds[1]):
         raise CameraSettingError(
-            f"{name}: {what} = {value:g}{unit}: must be {bounds[0]:g} to {bounds[1]:g}{unit}"
+            message(
+                "engine", "{name}: {what} = {value}{unit}: must be {least} to {most}{unit}"
+            ).fill(name=name, what=what, value=value, unit=unit, least=bounds[0], most=bounds[1])
         )
 
 
@@ -116,6 +131,17 @@ def _check_region(name: str, can: CameraDescription, region: Region) -> None:
     inside = region.left >= 0 and region.top >= 0 and right <= can.width and bottom <= can.height
     if not (inside and region.width > 0 and region.height > 0):
         raise CameraSettingError(
-            f"{name}: region of {region.width} × {region.height} px from column {region.left}, row "
-            f"{region.top}: must lie in the sensor's {can.width} × {can.height} px"
+            message(
+                "engine",
+                "{name}: region of {width} × {height} px from column {left}, row {top}: must lie "
+                "in the sensor's {can_width} × {can_height} px",
+            ).fill(
+                name=name,
+                width=region.width,
+                height=region.height,
+                left=region.left,
+                top=region.top,
+                can_width=can.width,
+                can_height=can.height,
+            )
         )

@@ -28,6 +28,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position, tool_axis
+from rotemina.sim.messages import marked, message
 from rotemina.sim.microscope.cell import UNTOUCHED, met
 from rotemina.sim.microscope.renderer import EXPOSURE_S, Renderer
 from rotemina.sim.microscope.scene import Scene
@@ -57,7 +58,7 @@ class SimulatedMicroscope(CameraSource):
         how the camera is turned, for a calibration to find out.
     """
 
-    name = "Simulated microscope"
+    name = marked("engine", "Simulated microscope")
 
     def __init__(
         self,
@@ -79,7 +80,9 @@ class SimulatedMicroscope(CameraSource):
         driver = self._driver()
         if driver is None or isinstance(driver, TruePositions):
             return None
-        return f"{driver.name}: only a simulated machine can be seen; connect the simulator"
+        return message(
+            "engine", "{name}: only a simulated machine can be seen; connect the simulator"
+        ).fill(name=driver.name)
 
     def devices(self) -> Sequence[CameraIdentity]:
         """Return the one microscope, if a simulated machine is in use."""
@@ -146,8 +149,12 @@ class SimulatedCamera(FocusDrive):
         low, high = _FOCUS_RANGE_M
         if not low <= focus_m <= high:
             raise CameraSettingError(
-                f"{self.name}: focus at {focus_m * 1e6:g} µm: must be {low * 1e6:g} to "
-                f"{high * 1e6:g} µm"
+                message("engine", "{name}: focus at {focus_m} µm: must be {low} to {high} µm").fill(
+                    name=self.name,
+                    focus_m=focus_m * 1000000.0,
+                    low=low * 1000000.0,
+                    high=high * 1000000.0,
+                )
             )
         self._focus_m = float(focus_m)
 
@@ -164,13 +171,18 @@ class SimulatedCamera(FocusDrive):
         driver = self._driver()
         if not isinstance(driver, TruePositions):
             raise CameraLostError(
-                f"{self.name}: there is no simulated machine to look at; connect the simulator"
+                message(
+                    "engine",
+                    "{name}: there is no simulated machine to look at; connect the simulator",
+                ).fill(name=self.name)
             )
         try:
             chain = Chain.of(driver.robot)
             scene = Scene.of(driver.robot, seed=self._seed, **self._mounting)
         except InputError as error:
-            raise CameraRefusedError(f"{self.name}: {error}") from error
+            raise CameraRefusedError(
+                message("engine", "{name}: {error}").fill(name=self.name, error=str(error))
+            ) from error
         self._robot, self._chain = driver.robot, chain
         self._renderer = Renderer(scene)
         self._rng = np.random.default_rng([self._seed, 1])
@@ -231,8 +243,11 @@ class SimulatedCamera(FocusDrive):
         if isinstance(driver, TruePositions):
             if driver.robot is not self._robot and driver.robot != self._robot:
                 raise CameraLostError(
-                    f"{self.name}: robot {driver.robot.name!r} is in use now, not the one that it "
-                    "was opened on; close it and open it again"
+                    message(
+                        "engine",
+                        "{name}: robot {robot_name} is in use now, not the one that it was opened "
+                        "on; close it and open it again",
+                    ).fill(name=self.name, robot_name=repr(driver.robot.name))
                 )
             self._joints = chain.joints_of(np.array(driver.true_positions))
         return self._joints

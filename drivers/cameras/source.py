@@ -8,6 +8,7 @@ from typing import ClassVar
 from rotemina.drivers.cameras.camera import Camera, CameraIdentity, Wait
 from rotemina.drivers.cameras.errors import CameraRefusedError
 from rotemina.drivers.clock import Clock
+from rotemina.sim.messages import message
 from rotemina.sim.plugin_points import API_VERSIONS
 
 
@@ -48,7 +49,11 @@ class CameraSource(ABC):
         CameraRefusedError
             If no camera can be named like this.
         """
-        raise CameraRefusedError(f"{self.name}: {address!r}: choose one that is listed")
+        raise CameraRefusedError(
+            message("engine", "{name}: {address}: choose one that is listed").fill(
+                name=self.name, address=repr(address)
+            )
+        )
 
     @abstractmethod
     def camera(self, identity: CameraIdentity) -> Camera:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from rotemina.drivers.errors import DriverError
 from rotemina.sim.errors import InputError
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.quantities import exact
 
 
 class Unmet(AssertionError):  # noqa: N818 - a finding about a driver, not an error of the check
@@ -25,14 +25,14 @@ def within(what: str, seen: float, expected: float, tolerance: float, unit: str)
     """Raise :class:`Unmet` unless a value is what it should be; all in ``unit``."""
     demand(
         abs(seen - expected) <= tolerance,
-        f"{what} {readable(seen, unit)}",
-        f"{readable(expected, unit)} ± {readable(tolerance, unit)}",
+        f"{what} {exact(seen, unit)}",
+        f"{exact(expected, unit)} ± {exact(tolerance, unit)}",
     )
 
 
 def at_most(what: str, seen: float, bound: float, unit: str) -> None:
     """Raise :class:`Unmet` unless a value is no greater than a bound; both in ``unit``."""
-    demand(seen <= bound, f"{what} {readable(seen, unit)}", f"at most {readable(bound, unit)}")
+    demand(seen <= bound, f"{what} {exact(seen, unit)}", f"at most {exact(bound, unit)}")
 
 
 def refused(

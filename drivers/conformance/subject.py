@@ -9,8 +9,8 @@ from rotemina.drivers.abilities import Homer
 from rotemina.drivers.conformance.findings import Inapplicable, Unmet, at_most, demand
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 # A clock set by hand is moved on in steps of this, short beside every motion that is judged.
 _STEP_S = 0.05

@@ -10,6 +10,8 @@ from math import floor, pi, sqrt
 from typing import Self
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
 from rotemina.sim.robot.model import Robot, StepperAxis
 
 _UNITS = {"m": 1000.0, "rad": 180.0 / pi}  # to mm, to degrees
@@ -67,8 +69,11 @@ class StageAxis:
         def value(first: int) -> float:
             if settings.get(first + number, 0.0) <= 0.0:
                 raise InputError(
-                    f"axis {name}: the controller has no setting ${first + number}; it needs one "
-                    f"for each of the {len(robot.axes)} axes"
+                    message(
+                        "engine",
+                        "axis {name}: the controller has no setting ${first}; it needs one for "
+                        "each of the {count} axes",
+                    ).fill(name=name, first=first + number, count=len(robot.axes))
                 )
             return settings[first + number]
 
@@ -84,9 +89,17 @@ class StageAxis:
             over = wanted - bound if least else bound - wanted
             if over > _SLACK * wanted:
                 raise InputError(
-                    f"axis {name}: the controller's ${first + number} = "
-                    f"{settings[first + number]:g} does not agree with the robot file; send it "
-                    f"${first + number}={wanted * scale:.3f} ({unit}), or correct the file"
+                    message(
+                        "engine",
+                        "axis {name}: the controller's ${first} = {settings} does not agree with "
+                        "the robot file; send it ${first}={wanted} ({unit}), or correct the file",
+                    ).fill(
+                        name=name,
+                        first=first + number,
+                        settings=settings[first + number],
+                        wanted=fixed(wanted * scale, 3),
+                        unit=unit,
+                    )
                 )
         return cls(
             name, letter, number, scale, *axis.range, travel,
@@ -114,14 +127,23 @@ def check_stage(robot: Robot, letters: str) -> None:
     """
     if len(robot.axes) > len(letters):
         raise InputError(
-            f"robot {robot.name!r} has {len(robot.axes)} axes; the letters {letters!r} name "
-            f"{len(letters)}"
+            message(
+                "engine", "robot {name} has {count} axes; the letters {letters} name {letter_count}"
+            ).fill(
+                name=repr(robot.name),
+                count=len(robot.axes),
+                letters=repr(letters),
+                letter_count=len(letters),
+            )
         )
     for name, axis in robot.axes.items():
         if not isinstance(axis, StepperAxis):
             raise InputError(
-                f"robot {robot.name!r}: axis {name} is moved by a {axis.kind}; a G-code controller "
-                "moves stepping motors: take a robot file that has such axes only, as xyz"
+                message(
+                    "engine",
+                    "robot {robot}: axis {axis} is moved by a {kind}; a G-code controller moves "
+                    "stepping motors: take a robot file that has such axes only, as xyz",
+                ).fill(robot=repr(robot.name), axis=name, kind=axis.kind)
             )
 
 

@@ -7,6 +7,7 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverTimeoutError, ProtocolError
 from rotemina.drivers.gcode.dialogue import HOLD, RESET, Dialogue
 from rotemina.drivers.gcode.reports import Answer, Message, Note, Setting, Status, Welcome
+from rotemina.sim.messages import marked, message
 
 _STEP_S = 0.01
 _ASK_S = 0.1
@@ -77,10 +78,16 @@ class Opening:
         info.status = self._status(_LINE_S)
         if info.status.position is None:
             raise ProtocolError(
-                f"{self._where}: its reports have no machine position; send it $10=1"
+                message(
+                    "engine", "{where}: its reports have no machine position; send it $10=1"
+                ).fill(where=self._where)
             )
         if info.settings.get(13, 0.0):
-            raise ProtocolError(f"{self._where}: it reports inches; send it $13=0")
+            raise ProtocolError(
+                message("engine", "{where}: it reports inches; send it $13=0").fill(
+                    where=self._where
+                )
+            )
         return info
 
     def empty(self) -> None:
@@ -97,15 +104,20 @@ class Opening:
         self._rest()
         self._dialogue.send_realtime(RESET)
         self._dialogue.forget()
-        self._until(lambda one: isinstance(one, Welcome), _RESET_S, "did not reset")
+        self._until(
+            lambda one: isinstance(one, Welcome), _RESET_S, marked("engine", "did not reset")
+        )
 
     def _rest(self) -> None:
         end_s = self._clock() + _REST_S
         while self._status(_LINE_S).moving:
             if self._clock() > end_s:
                 raise DriverTimeoutError(
-                    f"{self._where}: its axes still move {_REST_S:g} s after a feed hold; use the "
-                    "machine's emergency switch"
+                    message(
+                        "engine",
+                        "{where}: its axes still move {rest_s} s after a feed hold; use the "
+                        "machine's emergency switch",
+                    ).fill(where=self._where, rest_s=_REST_S)
                 )
 
     def _status(self, limit_s: float, deaf_s: float = float("inf")) -> Status:
@@ -115,29 +127,40 @@ class Opening:
             self._dialogue.ask(_ASK_S, self._last_s)
             self._last_s = self._dialogue.asked_s or self._last_s
             self._pause(_STEP_S)
-            for message, _, fresh in self._dialogue.hear():
-                if isinstance(message, Status) and fresh:
-                    return message
+            for told, _, fresh in self._dialogue.hear():
+                if isinstance(told, Status) and fresh:
+                    return told
             if not reset and self._clock() - began_s > deaf_s:
                 self._dialogue.send_realtime(RESET)
                 reset = True
         raise DriverTimeoutError(
-            f"{self._where}: no answer to '?' in {limit_s:g} s; is it a GRBL controller, is it "
-            "switched on, is the baud rate right?"
+            message(
+                "engine",
+                "{where}: no answer to '?' in {limit_s} s; is it a GRBL controller, is it switched "
+                "on, is the baud rate right?",
+            ).fill(where=self._where, limit_s=limit_s)
         )
 
     def _until(self, ends: Callable[[Message], bool], limit_s: float, what: str) -> list[Message]:
         began_s, heard = self._clock(), list[Message]()
         while self._clock() - began_s < limit_s:
             self._pause(_STEP_S)
-            for message, _, _ in self._dialogue.hear():
-                heard.append(message)
-                if ends(message):
+            for told, _, _ in self._dialogue.hear():
+                heard.append(told)
+                if ends(told):
                     return heard
-        raise DriverTimeoutError(f"{self._where}: it {what} within {limit_s:g} s")
+        raise DriverTimeoutError(
+            message("engine", "{where}: it {what} within {limit_s} s").fill(
+                where=self._where, what=what, limit_s=limit_s
+            )
+        )
 
     def _asked(self, line: str) -> list[Message]:
         self._dialogue.say(line)
-        heard = self._until(lambda one: isinstance(one, Answer), _LINE_S, f"did not answer {line}")
+        heard = self._until(
+            lambda one: isinstance(one, Answer),
+            _LINE_S,
+            message("engine", "did not answer {line}").fill(line=line),
+        )
         self._dialogue.awaited = None
         return heard

@@ -1,16 +1,19 @@
 """What a GRBL controller says: each line as a message. Source: GRBL 1.1, interface.md."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
+
+from rotemina.sim.messages import marked, message
 
 #: What alarms mean that a stage can have.
 ALARMS = {
-    1: "hard limit: a limit switch was hit",
-    2: "soft limit: a target lies beyond the travel",
-    3: "it was reset in motion",
-    6: "homing was ended by a reset",
-    7: "the door was opened while homing",
-    8: "homing: pulling off did not clear the limit switch",
+    1: marked("engine", "hard limit: a limit switch was hit"),
+    2: marked("engine", "soft limit: a target lies beyond the travel"),
+    3: marked("engine", "it was reset in motion"),
+    6: marked("engine", "homing was ended by a reset"),
+    7: marked("engine", "the door was opened while homing"),
+    8: marked("engine", "homing: pulling off did not clear the limit switch"),
     9: "homing: the limit switch was not found",
 }
 #: Of alarms after which the controller still knows where it is.
@@ -18,13 +21,13 @@ POSITION_KEPT = frozenset({2, 4, 5})
 #: Of alarms after which the controller answers nothing but a reset.
 CRITICAL = frozenset({1, 2})
 ERRORS = {
-    5: "homing is not enabled ($22)",
-    8: "it is not idle",
-    9: "it is locked by an alarm",
-    11: "the line is too long",
-    15: "the target lies beyond the travel",
-    16: "no jog command",
-    20: "unsupported G-code",
+    5: marked("engine", "homing is not enabled ($22)"),
+    8: marked("engine", "it is not idle"),
+    9: marked("engine", "it is locked by an alarm"),
+    11: marked("engine", "the line is too long"),
+    15: marked("engine", "the target lies beyond the travel"),
+    16: marked("engine", "no jog command"),
+    20: marked("engine", "unsupported G-code"),
 }
 _STATUS = re.compile(r"<(\w+)(?::(\d+))?\|(.*)>")
 _NUMBERED = re.compile(r"(error|ALARM):(\d+)")
@@ -54,7 +57,7 @@ class Answer:
     @property
     def text(self) -> str:
         """The error in words."""
-        return f"error:{self.error}, {ERRORS.get(self.error or 0, 'see the manual')}"
+        return _in_words("error", self.error or 0, ERRORS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +69,7 @@ class Alarm:
     @property
     def text(self) -> str:
         """The alarm in words."""
-        return f"ALARM:{self.number}, {ALARMS.get(self.number, 'see the manual')}"
+        return _in_words("ALARM", self.number, ALARMS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,3 +124,11 @@ def _position(fields: str) -> tuple[float, ...] | None:
             except ValueError:
                 return None
     return None
+
+
+def _in_words(what: str, number: int, meanings: Mapping[int, str]) -> str:
+    return message("engine", "{what}:{number}, {meaning}").fill(
+        what=what,
+        number=number,
+        meaning=meanings.get(number, marked("engine", "see the manual")),
+    )

@@ -33,6 +33,7 @@ from rotemina.drivers.mc68hc11.port import OpenPort, Port, open_port
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import marked, message
 from rotemina.sim.robot.model import Robot
 
 _LOG = logging.getLogger(__name__)
@@ -95,7 +96,9 @@ class GcodeStage(Homer, Linked):
         self._letters = str(self.settings["letters"])
         if set(self._letters) - set("XYZABCUVW") or len(set(self._letters)) < len(self._letters):
             raise SettingError(
-                f"gcode: letters = {self._letters!r}: must be different ones of XYZABCUVW"
+                message(
+                    "engine", "gcode: letters = {letters}: must be different ones of XYZABCUVW"
+                ).fill(letters=repr(self._letters))
             )
         check_stage(robot, self._letters)
         self._baud = int(self._bounded("baud", 300, 4_000_000))
@@ -182,8 +185,11 @@ class GcodeStage(Homer, Linked):
     ) -> tuple[StageAxis, ...]:
         if count < len(self.axes):
             raise DriverError(
-                f"{url}: the controller has {count} axes, robot {self.robot.name!r} "
-                f"{len(self.axes)}; take the robot file of this stage"
+                message(
+                    "engine",
+                    "{url}: the controller has {count} axes, robot {robot} {wanted}; take the "
+                    "robot file of this stage",
+                ).fill(url=url, count=count, robot=repr(self.robot.name), wanted=len(self.axes))
             )
         try:
             return tuple(
@@ -191,7 +197,9 @@ class GcodeStage(Homer, Linked):
                 for number, name in enumerate(self.axes)
             )
         except InputError as error:
-            raise DriverError(f"{url}: {error}") from error
+            raise DriverError(
+                message("engine", "{url}: {error}").fill(url=url, error=str(error))
+            ) from error
 
     def _close(self) -> None:
         dialogue, self._dialogue = self._dialogue, None
@@ -256,7 +264,11 @@ class GcodeStage(Homer, Linked):
     def _clear_fault(self, permit: Permit) -> None:
         dialogue = self._talk()
         if self._braking or self._latest.moving:
-            raise StateError(f"{self.name}: its axes still brake; clear the fault when they rest")
+            raise StateError(
+                message(
+                    "engine", "{name}: its axes still brake; clear the fault when they rest"
+                ).fill(name=self.name)
+            )
         with permit.passing():
             dialogue.send_realtime(RESET)
         self._begin_reset(dialogue)
@@ -267,11 +279,18 @@ class GcodeStage(Homer, Linked):
         dialogue = self._talk()
         if not self._single and set(axes) != set(self.axes):
             raise LimitError(
-                f"{self.name}: this controller homes all axes together; home all "
-                f"{len(self.axes)}, or build it with single-axis homing"
+                message(
+                    "engine",
+                    "{name}: this controller homes all axes together; home all {count}, or build "
+                    "it with single-axis homing",
+                ).fill(name=self.name, count=len(self.axes))
             )
         if not self._ready(dialogue):
-            raise StateError(f"{self.name}: it is still busy with a stop; ask again")
+            raise StateError(
+                message("engine", "{name}: it is still busy with a stop; ask again").fill(
+                    name=self.name
+                )
+            )
         lines = deque([("$H", self.axes)])
         if self._single:
             lines = deque(("$H" + self._letters[self.axes.index(axis)], (axis,)) for axis in axes)
@@ -287,8 +306,8 @@ class GcodeStage(Homer, Linked):
         if self._lost is not None:
             raise ConnectionLostError(self._lost)
         self._follow_stops(dialogue)
-        for message, asked_s, fresh in dialogue.hear():
-            self._take(dialogue, message, asked_s, fresh)
+        for told, asked_s, fresh in dialogue.hear():
+            self._take(dialogue, told, asked_s, fresh)
         self._empty_at_rest(dialogue)
         self._go_on(dialogue)
         self._look_at_times(dialogue, now_s)
@@ -324,7 +343,10 @@ class GcodeStage(Homer, Linked):
         if way is None or position is None or not way.fully_sent:
             return
         if short := way.missed(position):
-            self._give_up(dialogue, f"it came to rest before its end: {short}")
+            self._give_up(
+                dialogue,
+                message("engine", "it came to rest before its end: {short}").fill(short=short),
+            )
         else:
             self._end_way()
 
@@ -333,7 +355,12 @@ class GcodeStage(Homer, Linked):
         if line is None:
             return
         if answer.error is not None:
-            self._give_up(dialogue, f"the controller refused {line!r}: {answer.text}")
+            self._give_up(
+                dialogue,
+                message("engine", "the controller refused {line}: {text}").fill(
+                    line=repr(line), text=answer.text
+                ),
+            )
         elif self._searching and line == self._searching[0][0]:
             self._known |= set(self._searching.popleft()[1])
 
@@ -354,7 +381,9 @@ class GcodeStage(Homer, Linked):
     def _welcomed(self, dialogue: Dialogue) -> None:
         if self._reset_s is None and not self._stops and self._fault is None:
             self._known.clear()
-            self._fault = "the controller was reset by somebody else, or lost its supply"
+            self._fault = marked(
+                "engine", "the controller was reset by somebody else, or lost its supply"
+            )
         self._deaf = False
         self._reset_s = None
         self._searching.clear()
@@ -479,13 +508,18 @@ class GcodeStage(Homer, Linked):
             line = dialogue.awaited
             dialogue.forget()
             if now_s - dialogue.heard_s < _SILENT_S or self._searching:
-                self._give_up(dialogue, f"no answer to {line!r} within {limit_s:g} s")
+                self._give_up(
+                    dialogue,
+                    message("engine", "no answer to {line} within {limit_s} s").fill(
+                        line=repr(line), limit_s=limit_s
+                    ),
+                )
         if not self._may_be_silent() and now_s - dialogue.heard_s > _LOST_S:
-            self._lost = (
-                f"{self.settings['port']}: the controller has said nothing for {_LOST_S:g} s; it "
-                "ends what it was told within half a second and braking. Look at the machine, then "
-                "connect again"
-            )
+            self._lost = message(
+                "engine",
+                "{port}: the controller has said nothing for {seconds} s; it ends what it was told "
+                "within half a second and braking. Look at the machine, then connect again",
+            ).fill(port=str(self.settings["port"]), seconds=_LOST_S)
             raise ConnectionLostError(self._lost)
 
     def _samples(self) -> Samples:
@@ -506,5 +540,9 @@ class GcodeStage(Homer, Linked):
     def _bounded(self, name: str, low: float, high: float) -> float:
         value = float(self.settings[name])
         if not low <= value <= high:
-            raise SettingError(f"gcode: {name} = {value:g}: must be {low:g} to {high:g}")
+            raise SettingError(
+                message("engine", "gcode: {name} = {value}: must be {low} to {high}").fill(
+                    name=name, value=value, low=low, high=high
+                )
+            )
         return value

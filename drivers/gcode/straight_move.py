@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from typing import Self
 
 from rotemina.drivers.gcode.coordinates import StageAxis, feed_of
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
 
 _AHEAD_S = 0.25  # more than an answer and the next report take
 _PIECE_S = 0.1
@@ -96,7 +98,9 @@ class StraightMove:
         for axis, end in zip(self.axes, self.end, strict=True):
             at = position[axis.number]
             if abs(at - end) > 2.0 * axis.resolution * axis.scale:
-                return f"axis {axis.name} at {at:.3f}, not at {end:.3f}, as the controller counts"
+                return message(
+                    "engine", "axis {name} at {at}, not at {end}, as the controller counts"
+                ).fill(name=axis.name, at=fixed(at, 3), end=fixed(end, 3))
         return ""
 
     def _share(self, position: Sequence[float]) -> float:

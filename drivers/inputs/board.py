@@ -15,6 +15,7 @@ from rotemina.drivers.inputs.device import (
     InputSource,
 )
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.messages import marked, message
 
 Told = tuple[tuple[float, ...], tuple[bool, ...]]
 
@@ -33,7 +34,7 @@ class BoardInputs(InputSource):
         The host's time, s.
     """
 
-    name = "Joystick of the controller"
+    name = marked("engine", "Joystick of the controller")
 
     def __init__(
         self, driver: Callable[[], Driver | None], *, clock: Clock = time.monotonic
@@ -56,7 +57,11 @@ class BoardInputs(InputSource):
         """Open it; see :class:`InputSource`."""
         driver = self._driver()
         if not isinstance(driver, AnalogInputs) or _identity(driver) != identity:
-            raise InputLostError(f"{identity.name}: the driver in use has none of this name")
+            raise InputLostError(
+                message("engine", "{name}: the driver in use has none of this name").fill(
+                    name=identity.name
+                )
+            )
         return BoardJoystick(identity, driver, self._driver, self.clock)
 
 
@@ -94,14 +99,31 @@ class BoardJoystick(InputDevice):
     def read(self) -> tuple[InputReading, ...]:
         """Return a reading if anything has changed; see :class:`InputDevice`."""
         if not self._is_open:
-            raise StateError(f"{self.identity.name}: it was closed; open it again")
+            raise StateError(
+                message("engine", "{name}: it was closed; open it again").fill(
+                    name=self.identity.name
+                )
+            )
         if self._in_use() is not self._driver:
-            raise InputLostError(f"{self.identity.name}: another driver is in use now")
+            raise InputLostError(
+                message("engine", "{name}: another driver is in use now").fill(
+                    name=self.identity.name
+                )
+            )
         readings, buttons = told = _latest(self._driver)
         if (len(readings), len(buttons)) != (len(self.axes), len(self.buttons)):
             raise InputLostError(
-                f"{self.identity.name}: it has {len(readings)} axes and {len(buttons)} buttons now,"
-                f" {len(self.axes)} and {len(self.buttons)} before; open it again"
+                message(
+                    "engine",
+                    "{name}: it has {axes} axes and {buttons} buttons now, {axes_before} and "
+                    "{buttons_before} before; open it again",
+                ).fill(
+                    name=self.identity.name,
+                    axes=len(readings),
+                    buttons=len(buttons),
+                    axes_before=len(self.axes),
+                    buttons_before=len(self.buttons),
+                )
             )
         if told == self._told:
             return ()
@@ -124,13 +146,33 @@ def _latest(driver: AnalogInputs) -> Told:
         status = driver.status()
         readings, buttons = driver.analog_inputs()
     except Exception as error:  # its worker may be closing it at this very moment
-        raise InputLostError(f"{driver.name}: its joystick tells nothing: {error}") from error
+        raise InputLostError(
+            message("engine", "{name}: its joystick tells nothing: {error}").fill(
+                name=driver.name, error=str(error)
+            )
+        ) from error
     if status.state is DeviceState.CLOSED:
-        raise InputLostError(f"{driver.name}: it is not connected; connect it for its joystick")
+        raise InputLostError(
+            message("engine", "{name}: it is not connected; connect it for its joystick").fill(
+                name=driver.name
+            )
+        )
     if status.state is DeviceState.FAULT:
-        raise InputLostError(f"{driver.name}: its joystick is not trusted in a fault; clear it")
+        raise InputLostError(
+            message("engine", "{name}: its joystick is not trusted in a fault; clear it").fill(
+                name=driver.name
+            )
+        )
     if status.silent_s > 0.0:
-        raise InputLostError(f"{driver.name}: nothing was heard of it and its joystick for a while")
+        raise InputLostError(
+            message("engine", "{name}: nothing was heard of it and its joystick for a while").fill(
+                name=driver.name
+            )
+        )
     if not readings and not buttons:
-        raise InputLostError(f"{driver.name}: no joystick has told anything; is one plugged in?")
+        raise InputLostError(
+            message("engine", "{name}: no joystick has told anything; is one plugged in?").fill(
+                name=driver.name
+            )
+        )
     return readings, buttons

@@ -18,6 +18,7 @@ from rotemina.drivers.inputs.device import (
     InputSource,
 )
 from rotemina.drivers.registry import discover
+from rotemina.sim.messages import marked, message
 
 _LOG = logging.getLogger(__name__)
 
@@ -140,9 +141,13 @@ class InputHub:
         """
         with self._lock:
             found = self._there.get(key)
-            keys = ", ".join(self._there) or "none at all"
+            keys = ", ".join(self._there) or marked("engine", "none at all")
         if found is None:
-            raise InputLostError(f"input device {key!r} is not plugged in; there are: {keys}")
+            raise InputLostError(
+                message("engine", "input device {key} is not plugged in; there are: {keys}").fill(
+                    key=repr(key), keys=keys
+                )
+            )
         identity, source = found
         try:
             device = source.open(identity)
@@ -152,7 +157,9 @@ class InputHub:
         except Exception as error:  # a plugin may raise anything
             self._note(key, f"{type(error).__name__}: {error}")
             raise DriverError(
-                f"{identity.name} ({key}) cannot be opened: {type(error).__name__}: {error}"
+                message("engine", "{name} ({key}) cannot be opened: {type_name}: {error}").fill(
+                    name=identity.name, key=key, type_name=type(error).__name__, error=str(error)
+                )
             ) from error
         with self._lock:
             self._opened.add(key)

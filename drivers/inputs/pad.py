@@ -15,6 +15,7 @@ from rotemina.drivers.inputs.device import (
     InputReading,
     InputSource,
 )
+from rotemina.sim.messages import marked, message
 
 _MOST_WAITING = 1024  # readings that nobody has read; the newest are kept
 
@@ -38,7 +39,7 @@ class Pad(InputSource):
         The host's time, s.
     """
 
-    name = "Keys and on-screen pad"
+    name = marked("engine", "Keys and on-screen pad")
 
     def __init__(
         self,
@@ -58,6 +59,7 @@ class Pad(InputSource):
         self._lock = Lock()
         self._there = True
         self._said_s = -inf
+        self._let_go = False  # by itself: what was held must be taken anew
         self._deflections = dict.fromkeys(self.axes, 0.0)
         self._held = dict.fromkeys(self.buttons, False)
         self._devices: list[PadDevice] = []
@@ -72,9 +74,14 @@ class Pad(InputSource):
         """
         self._require(axis, self.axes, "axis")
         if not -1.0 <= deflection <= 1.0:
-            raise LimitError(f"{self.identity.name}: {axis} at {deflection:g}: must be -1 to 1")
+            raise LimitError(
+                message("engine", "{name}: {axis} at {deflection}: must be -1 to 1").fill(
+                    name=self.identity.name, axis=axis, deflection=deflection
+                )
+            )
         with self._lock:
             self._deflections[axis] = float(deflection)
+            self._let_go = False
             self._tell()
 
     def hold(self, button: str, held: bool = True) -> None:
@@ -88,24 +95,29 @@ class Pad(InputSource):
         self._require(button, self.buttons, "button")
         with self._lock:
             self._held[button] = held
+            self._let_go = False
             self._tell()
 
     def renew(self) -> bool:
-        """Go on holding what is held; return whether it was still held. Any thread."""
+        """Go on holding what is held; return False where the pad let go of it. Any thread.
+
+        A deflection of 0 is held like any other.
+        """
         with self._lock:
             self._lapse()
             self._said_s = self.clock()
-            return self._holds
+            return not self._let_go
 
     def release_all(self) -> None:
         """Bring all axes to 0 and release all buttons; any thread."""
         with self._lock:
+            self._let_go = False
             self._release()
 
     def withdraw(self) -> None:
         """Take the device away, as unplugging does; what was held is released. Any thread."""
         with self._lock:
-            self._there = False
+            self._there, self._let_go = False, True
             self._release()
             for device in self._devices:
                 device.lost = True
@@ -124,7 +136,11 @@ class Pad(InputSource):
         """Open the device, which first tells how it stands; see :class:`InputSource`."""
         with self._lock:
             if not self._there or identity != self.identity:
-                raise InputLostError(f"{identity.name} ({identity.key}): it is not there")
+                raise InputLostError(
+                    message("engine", "{name} ({key}): it is not there").fill(
+                        name=identity.name, key=identity.key
+                    )
+                )
             device = PadDevice(self)
             self._devices.append(device)
             device.waiting.append(self._reading())
@@ -140,7 +156,9 @@ class Pad(InputSource):
         """
         with self._lock:
             if device.lost:
-                raise InputLostError(f"{self.identity.name}: it was taken away")
+                raise InputLostError(
+                    message("engine", "{name}: it was taken away").fill(name=self.identity.name)
+                )
             self._lapse()
             readings = tuple(device.waiting)
             device.waiting.clear()
@@ -155,7 +173,12 @@ class Pad(InputSource):
     def _require(self, name: str, names: tuple[str, ...], kind: str) -> None:
         if name not in names:
             raise LimitError(
-                f"{self.identity.name}: no {kind} {name!r}; it has {', '.join(names) or 'none'}"
+                message("engine", "{name}: no {kind} {wanted}; it has {known}").fill(
+                    name=self.identity.name,
+                    kind=kind,
+                    wanted=repr(name),
+                    known=", ".join(names) or "none",
+                )
             )
 
     @property
@@ -164,6 +187,7 @@ class Pad(InputSource):
 
     def _lapse(self) -> None:
         if self._holds and self.clock() - self._said_s > self._lease_s:
+            self._let_go = True
             self._release()
 
     def _release(self) -> None:
@@ -204,7 +228,11 @@ class PadDevice(InputDevice):
     def read(self) -> tuple[InputReading, ...]:
         """Return what was set since the last call; see :class:`InputDevice`."""
         if not self._is_open:
-            raise StateError(f"{self.identity.name}: it was closed; open it again")
+            raise StateError(
+                message("engine", "{name}: it was closed; open it again").fill(
+                    name=self.identity.name
+                )
+            )
         return self._pad.readings(self)
 
     def close(self) -> None:

@@ -9,6 +9,7 @@ from typing import Self
 
 from rotemina.sim.errors import InputError
 from rotemina.sim.input_files import read_text
+from rotemina.sim.messages import marked, message
 
 _MOST_BYTES = 16_000_000
 _TIME, _PLUGGED, _AXIS, _BUTTON = "time_s", "plugged", "axis ", "button "
@@ -46,21 +47,36 @@ class Script:
     def __post_init__(self) -> None:
         before = float("-inf")
         for number, moment in enumerate(self.moments, 1):
-            where = f"moment {number}"
+            where = message("engine", "moment {number}").fill(number=number)
             if not isfinite(moment.time_s) or moment.time_s <= before:
                 raise ScriptError(
-                    f"{where}: time {moment.time_s:g} s: must be later than the one before "
-                    f"({before:g} s)"
+                    message(
+                        "engine",
+                        "{where}: time {time_s} s: must be later than the one before ({before} s)",
+                    ).fill(where=where, time_s=moment.time_s, before=before)
                 )
             before = moment.time_s
             if (len(moment.axes), len(moment.buttons)) != (len(self.axes), len(self.buttons)):
                 raise ScriptError(
-                    f"{where}: {len(moment.axes)} axes and {len(moment.buttons)} buttons: must be "
-                    f"{len(self.axes)} and {len(self.buttons)}"
+                    message(
+                        "engine",
+                        "{where}: {axes} axes and {buttons} buttons: must be {axes_wanted} and "
+                        "{buttons_wanted}",
+                    ).fill(
+                        where=where,
+                        axes=len(moment.axes),
+                        buttons=len(moment.buttons),
+                        axes_wanted=len(self.axes),
+                        buttons_wanted=len(self.buttons),
+                    )
                 )
             for name, deflection in zip(self.axes, moment.axes, strict=True):
                 if not -1.0 <= deflection <= 1.0:
-                    raise ScriptError(f"{where}: {name} at {deflection:g}: must be -1 to 1")
+                    raise ScriptError(
+                        message("engine", "{where}: {name} at {deflection}: must be -1 to 1").fill(
+                            where=where, name=name, deflection=deflection
+                        )
+                    )
 
     @classmethod
     def load(cls, path: Path) -> Self:
@@ -71,7 +87,7 @@ class Script:
         ScriptError
             With file, line and column.
         """
-        text = read_text(path, ScriptError, _MOST_BYTES, advice="name a CSV file")
+        text = read_text(path, ScriptError, _MOST_BYTES, advice=marked("engine", "name a CSV file"))
         try:
             reader = csv.reader(StringIO(text, newline=""))
             columns = [name.strip() for name in next(reader, [])]
@@ -80,11 +96,17 @@ class Script:
                 _moment(f"{path}, line {reader.line_num}", columns, row) for row in reader if row
             )
         except csv.Error as error:
-            raise ScriptError(f"{path}: cannot be read: {error}") from error
+            raise ScriptError(
+                message("engine", "{path}: cannot be read: {error}").fill(
+                    path=path, error=str(error)
+                )
+            ) from error
         try:
             return cls(_named(columns, _AXIS), _named(columns, _BUTTON), moments)
         except ScriptError as error:
-            raise ScriptError(f"{path}: {error}") from error
+            raise ScriptError(
+                message("engine", "{path}: {error}").fill(path=path, error=str(error))
+            ) from error
 
 
 def _named(columns: list[str], kind: str) -> tuple[str, ...]:
@@ -94,21 +116,36 @@ def _named(columns: list[str], kind: str) -> tuple[str, ...]:
 def _check(path: Path, columns: list[str]) -> None:
     """Refuse columns that mean nothing, or the same twice."""
     if _TIME not in columns:
-        raise ScriptError(f"{path}, line 1: there must be a column {_TIME!r}")
+        raise ScriptError(
+            message("engine", "{path}, line 1: there must be a column {time}").fill(
+                path=path, time=repr(_TIME)
+            )
+        )
     for name in columns:
         if name not in (_TIME, _PLUGGED) and not name.startswith((_AXIS, _BUTTON)):
             raise ScriptError(
-                f"{path}, line 1: unknown column {name!r}; there can be {_TIME!r}, {_PLUGGED!r}, "
-                "'axis NAME' and 'button NAME'"
+                message(
+                    "engine",
+                    "{path}, line 1: unknown column {name}; there can be {time}, {plugged}, 'axis "
+                    "NAME' and 'button NAME'",
+                ).fill(path=path, name=repr(name), time=repr(_TIME), plugged=repr(_PLUGGED))
             )
         if columns.count(name) > 1:
-            raise ScriptError(f"{path}, line 1: column {name!r} is there twice")
+            raise ScriptError(
+                message("engine", "{path}, line 1: column {name} is there twice").fill(
+                    path=path, name=repr(name)
+                )
+            )
 
 
 def _moment(where: str, columns: list[str], row: list[str]) -> Moment:
     """Return what a line says, in the order of the columns."""
     if len(row) != len(columns):
-        raise ScriptError(f"{where}: {len(row)} values: must be {len(columns)}, as in line 1")
+        raise ScriptError(
+            message("engine", "{where}: {count} values: must be {columns}, as in line 1").fill(
+                where=where, count=len(row), columns=len(columns)
+            )
+        )
     values = {name: _number(where, name, text) for name, text in zip(columns, row, strict=True)}
     return Moment(
         values[_TIME],
@@ -122,7 +159,15 @@ def _number(where: str, column: str, text: str) -> float:
     try:
         value = float(text)
     except ValueError as error:
-        raise ScriptError(f"{where}, column {column!r}: {text.strip()!r} is no number") from error
+        raise ScriptError(
+            message("engine", "{where}, column {column}: {strip} is no number").fill(
+                where=where, column=repr(column), strip=repr(text.strip())
+            )
+        ) from error
     if (column == _PLUGGED or column.startswith(_BUTTON)) and value not in (0.0, 1.0):
-        raise ScriptError(f"{where}, column {column!r}: {value:g}: must be 0 or 1")
+        raise ScriptError(
+            message("engine", "{where}, column {column}: {value}: must be 0 or 1").fill(
+                where=where, column=repr(column), value=value
+            )
+        )
     return value

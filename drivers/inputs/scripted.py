@@ -14,6 +14,7 @@ from rotemina.drivers.inputs.device import (
     Rumbler,
 )
 from rotemina.drivers.inputs.script import Moment, Script
+from rotemina.sim.messages import message
 
 
 class Scripted(InputSource):
@@ -50,7 +51,11 @@ class Scripted(InputSource):
     def open(self, identity: InputIdentity) -> "ScriptedDevice":
         """Open the device; see :class:`InputSource`."""
         if identity not in self.devices():
-            raise InputLostError(f"{identity.name} ({identity.key}): it is not plugged in")
+            raise InputLostError(
+                message("engine", "{name} ({key}): it is not plugged in").fill(
+                    name=identity.name, key=identity.key
+                )
+            )
         return ScriptedDevice(self, max(0, self._past() - 1))
 
     def since(self, number: int) -> tuple[Moment, ...]:
@@ -88,12 +93,20 @@ class ScriptedDevice(Rumbler):
     def read(self) -> tuple[InputReading, ...]:
         """Return what happened since the last call; see :class:`InputDevice`."""
         if not self._is_open:
-            raise StateError(f"{self.identity.name}: it was closed; open it again")
+            raise StateError(
+                message("engine", "{name}: it was closed; open it again").fill(
+                    name=self.identity.name
+                )
+            )
         moments = self._source.since(self._next)
         self._next += len(moments)
         self._lost = self._lost or not all(moment.plugged for moment in moments)
         if self._lost:
-            raise InputLostError(f"{self.identity.name}: it was unplugged, as its script says")
+            raise InputLostError(
+                message("engine", "{name}: it was unplugged, as its script says").fill(
+                    name=self.identity.name
+                )
+            )
         begun_s = self._source.begun_s
         return tuple(
             InputReading(max(self._opened_s, begun_s + moment.time_s), moment.axes, moment.buttons)
@@ -107,5 +120,9 @@ class ScriptedDevice(Rumbler):
     def rumble(self, strength: float) -> None:
         """Remember the strength; see :class:`Rumbler`."""
         if not 0.0 <= strength <= 1.0:
-            raise LimitError(f"{self.identity.name}: a strength of {strength:g}: must be 0 to 1")
+            raise LimitError(
+                message("engine", "{name}: a strength of {strength}: must be 0 to 1").fill(
+                    name=self.identity.name, strength=strength
+                )
+            )
         self.rumbled.append((self._source.clock(), strength))

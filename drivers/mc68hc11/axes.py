@@ -14,6 +14,7 @@ from rotemina.drivers.mc68hc11.codes import AXES, Kind, Unit
 from rotemina.drivers.mc68hc11.codes import Role as RoleCode
 from rotemina.drivers.mc68hc11.reports import AxisDescription
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
 from rotemina.sim.trajectory.limits import resolution_of
 
@@ -47,8 +48,11 @@ class BoardAxis:
         axis = robot.axes[name]
         if not isinstance(axis, StepperAxis | PiezoAxis):
             raise InputError(
-                f"robot {robot.name!r}: axis {name} is moved by a {axis.kind}; the MC68HC11 boards "
-                "move stepping motors and piezos"
+                message(
+                    "engine",
+                    "robot {robot}: axis {axis} is moved by a {kind}; the MC68HC11 boards move "
+                    "stepping motors and piezos",
+                ).fill(robot=repr(robot.name), axis=name, kind=axis.kind)
             )
         return cls(name, number, *_step(axis))
 
@@ -101,7 +105,9 @@ def board_axes(robot: Robot) -> tuple[tuple[BoardAxis, ...], ...]:
     names = tuple(robot.axes)
     if len(names) > 2 * AXES:
         raise InputError(
-            f"robot {robot.name!r}: {len(names)} axes: two boards have {2 * AXES} at most"
+            message("engine", "robot {name}: {count} axes: two boards have {axes} at most").fill(
+                name=repr(robot.name), count=len(names), axes=2 * AXES
+            )
         )
     return tuple(
         tuple(
@@ -132,5 +138,9 @@ def _parts(size: float) -> tuple[int, int]:
     while mantissa % 10 == 0 or mantissa > _MOST_MANTISSA:
         mantissa, exponent = round(mantissa / 10), exponent + 1
     if not -128 <= exponent <= 127:
-        raise ProtocolError(f"a step of {size:g}: its power of ten takes more than 8 bits")
+        raise ProtocolError(
+            message("engine", "a step of {size}: its power of ten takes more than 8 bits").fill(
+                size=size
+            )
+        )
     return mantissa, exponent

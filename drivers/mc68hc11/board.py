@@ -13,19 +13,27 @@ from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.orders import Orders
 from rotemina.drivers.mc68hc11.reports import Identity, Inputs, Rates, Telemetry
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.messages import marked, message
 
 _KEPT = 4096  # samples that nobody has asked for yet
-_TELEMETRY_BYTES = 30
+_TELEMETRY_BYTES = 31
+_LOW = marked("engine", "low")  # ends of an axis that has switches
+_HIGH = marked("engine", "high")
 _WORDS = {
-    Fault.STOPPED: "stopped, and not by this program: a stop came over the line; is it sound?",
-    Fault.WATCHDOG: "the host was silent for too long; the board halted",
-    Fault.LIMIT_SWITCH: "a limit switch was met",
-    Fault.SOFT_LIMIT: "an axis met an end of its range",
-    Fault.SENSOR: "a position sensor failed",
-    Fault.BROWN_OUT: "the supply voltage broke down; home it again",
-    Fault.RESET: "the board was reset; home it again",
-    Fault.LATE_SETPOINT: "a set-point came too late; the trajectory ended there",
-    Fault.PROFILE: "the profile could not be run",
+    Fault.STOPPED: marked(
+        "engine", "stopped, and not by this program: a stop came over the line; is it sound?"
+    ),
+    Fault.WATCHDOG: marked("engine", "the host was silent for too long; the board halted"),
+    Fault.LIMIT_SWITCH: marked("engine", "a limit switch was met"),
+    Fault.SOFT_LIMIT: marked("engine", "an axis met an end of its range"),
+    Fault.SENSOR: marked("engine", "a position sensor failed"),
+    Fault.BROWN_OUT: marked("engine", "the supply voltage broke down; home it again"),
+    Fault.RESET: marked("engine", "the board was reset; home it again"),
+    Fault.LATE_SETPOINT: marked("engine", "a set-point came too late; the trajectory ended there"),
+    Fault.PROFILE: marked("engine", "the profile could not be run"),
+    Fault.TOO_FAST: marked(
+        "engine", "a set-point was farther away than the axis goes in that time; it was refused"
+    ),
 }
 
 
@@ -86,7 +94,9 @@ class Board:
     @property
     def where(self) -> str:
         """How messages call it."""
-        return f"board {self.address} on {self.link.url}"
+        return message("engine", "board {address} on {url}").fill(
+            address=self.address, url=self.link.url
+        )
 
     @property
     def state(self) -> State:
@@ -107,8 +117,8 @@ class Board:
             return None
         words = _WORDS[fault]
         if fault is Fault.LIMIT_SWITCH and (switches := self._switches()):
-            words = f"limit switch met: {switches}"
-        return f"board {self.address}: {words}"
+            words = message("engine", "limit switch met: {switches}").fill(switches=switches)
+        return message("engine", "board {address}: {words}").fill(address=self.address, words=words)
 
     @property
     def activity(self) -> DeviceState:
@@ -140,6 +150,10 @@ class Board:
         """Return where its axes were commanded last, steps."""
         samples = self.latest.samples() if self.latest is not None else ()
         return tuple(command for _, command in samples)
+
+    def told_s(self) -> float:
+        """Return the time within which telemetry tells what has reached the board, s."""
+        return self.link.answer_s + 2e-3 * self.telemetry_ms
 
     def number_at(self, host_time_s: float) -> int:
         """Return the number of the latest sample at a time of the host."""
@@ -207,9 +221,9 @@ class Board:
         assert self.latest is not None, "it told a fault"
         told = self.latest.switches
         ends = [
-            f"{axis.name} {end}"
+            message("engine", "{name} {end}").fill(name=axis.name, end=end)
             for number, axis in enumerate(self.axes)
-            for bit, end in ((2 * number, "low"), (2 * number + 1, "high"))
+            for bit, end in ((2 * number, _LOW), (2 * number + 1, _HIGH))
             if told >> bit & 1
         ]
         return ", ".join(ends)

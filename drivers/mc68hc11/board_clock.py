@@ -100,8 +100,3 @@ class BoardClock:
             )
             self._drift = min(max(slope, -_MOST_DRIFT), _MOST_DRIFT)
         self._offset_s = min(late_s - self._drift * board_s for board_s, late_s in self._windows)
-
-
-def wrapped(time_us: int) -> int:
-    """Return an unwrapped time as it is written into a frame."""
-    return time_us % _TURN

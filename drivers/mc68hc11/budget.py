@@ -5,6 +5,7 @@ which the host alone may begin to speak, so that a stop never waits for more tha
 """
 
 from dataclasses import dataclass
+from math import ceil
 
 from rotemina.drivers.mc68hc11.codes import AXES
 from rotemina.drivers.mc68hc11.framing import MAX_FRAME
@@ -21,6 +22,10 @@ _SAMPLE = 2  # bytes of one axis
 _SLOT = 3  # bytes of silence after a frame on a shared bus
 _BOARDS = 2  # on a shared bus
 _MOST = 0.95  # of a line that is used
+TICK_HZ = 2000  # of the chip at E = 4 MHz
+# Hz at a tick of 1 kHz, E = 2 MHz: what the chip keeps up, see ``firmware/budget.py``.
+_CHIP_HZ, _CHIP = 1000, (100, 25, 1000, 250)
+ROWS = 2  # of a trajectory in one segment of a stream
 _WISHED = (  # Hz: telemetry alone and while capturing, capture of one axis and of three
     (200, 50, 2000, 1000),
     (100, 25, 1000, 500),
@@ -75,8 +80,11 @@ class Line:
         return (telemetry_hz * telemetry + captured) / self.bytes_per_s
 
 
-def rates(line: Line) -> Rates:
-    """Return the greatest rates that a board announces on a line."""
+def rates(line: Line, tick_hz: int = TICK_HZ) -> Rates:
+    """Return the greatest rates that a board announces on a line, at its control ticks a second.
+
+    Segments: two rows each, at the rate of telemetry, or half of it on a shared bus.
+    """
 
     def fits(telemetry_hz: float, capture_hz: float = 0.0, axes: int = 0) -> bool:
         return line.load(telemetry_hz, capture_hz, axes) <= _MOST
@@ -85,7 +93,10 @@ def rates(line: Line) -> Rates:
     slower, one, three = next(
         own[1:] for own in _WISHED if fits(own[1], own[2], 1) and fits(own[1], own[3], 3)
     )
-    return Rates(telemetry, slower, one, three)
+    chip = (rate * tick_hz // _CHIP_HZ for rate in _CHIP)
+    telemetry, slower, one, three = map(min, (telemetry, slower, one, three), chip)
+    segments = ceil(telemetry / (ROWS * (2 if line.half_duplex else 1)))
+    return Rates(telemetry, slower, one, three, segments, tick_hz)
 
 
 def _wire(message: type[Message]) -> int:

@@ -2,10 +2,10 @@
 
 from enum import IntEnum, IntFlag
 
-VERSION = 1
+VERSION = 2
 LCD_COLUMNS, LCD_ROWS = 20, 2
-SEGMENTS = 16  # of an on-board profile
-SETPOINTS = 16  # that wait in a board
+SEGMENTS = 32  # of an on-board profile
+QUEUE = 32  # segments of set-points that wait in a board
 AXES = 3  # of one board
 
 
@@ -22,6 +22,7 @@ class Fault(IntEnum):
     RESET = 7
     LATE_SETPOINT = 8
     PROFILE = 9
+    TOO_FAST = 10
 
 
 class Refusal(IntEnum):
@@ -69,6 +70,7 @@ class State(IntFlag):
     CAPTURING = 0x10
     ARMED = 0x20
     POSITION_UNKNOWN = 0x40
+    WRITING = 0x80
 
 
 class Ability(IntFlag):

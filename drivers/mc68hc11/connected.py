@@ -18,6 +18,7 @@ from rotemina.drivers.mc68hc11.session import Session
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot, StepperAxis
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 
@@ -86,12 +87,16 @@ class Connected(Driver):
         try:
             axes = board_axes(self.robot)
         except InputError as error:
-            raise DriverError(f"{self.name}: {error}") from error
+            raise DriverError(
+                message("engine", "{name}: {error}").fill(name=self.name, error=str(error))
+            ) from error
         urls = [str(self.settings["port"])]
         second = str(self.settings["second_port"])
         if second and len(axes) == 1:
             raise DriverError(
-                f"{self.name}: robot {self.robot.name!r} has one board; leave second_port empty"
+                message(
+                    "engine", "{name}: robot {robot_name} has one board; leave second_port empty"
+                ).fill(name=self.name, robot_name=repr(self.robot.name))
             )
         self._asked_stop = self._seen_stop = 0
         self._fault, self._progress, self._profile = None, 0.0, None
@@ -173,7 +178,9 @@ class Connected(Driver):
     def _clear_fault(self, permit: Permit) -> None:
         session = self._running
         if session.lost is not None:
-            raise DriverError(f"{self.name}: {session.lost}")
+            raise DriverError(
+                message("engine", "{name}: {lost}").fill(name=self.name, lost=str(session.lost))
+            )
         self._fault = None
         for board in session.boards:
             board.orders.forget()
@@ -249,6 +256,11 @@ class Connected(Driver):
         value = self.settings[name]
         if isinstance(value, str) or not least <= value <= greatest:
             raise SettingError(
-                f"{self.name}: setting {name} = {value!r} is not between {least:g} and {greatest:g}"
+                message(
+                    "engine",
+                    "{name}: setting {setting} = {value} is not between {least} and {greatest}",
+                ).fill(
+                    name=self.name, setting=name, value=repr(value), least=least, greatest=greatest
+                )
             )
         return value

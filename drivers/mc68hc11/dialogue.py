@@ -15,6 +15,7 @@ from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.framing import RESYNC, Frame, encoded
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.reports import Done, Refused
+from rotemina.sim.messages import message
 
 _MOST_QUEUED = 96  # requests of one urgency: a profile and all parameters, and some
 
@@ -125,7 +126,11 @@ class Dialogue:
         """
         queue = self._queues[request.urgency]
         if len(queue) >= _MOST_QUEUED:
-            raise StateError(f"board {self.address}: {len(queue)} requests wait for it; wait")
+            raise StateError(
+                message("engine", "board {address}: {count} requests wait for it; wait").fill(
+                    address=self.address, count=len(queue)
+                )
+            )
         queue.append(request)
 
     def drop(self) -> None:

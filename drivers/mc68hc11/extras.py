@@ -26,6 +26,8 @@ from rotemina.drivers.mc68hc11.uploading import profile_messages
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 _MOST_SAMPLES = _MOST_PERIOD_US = 0xFFFF
 _FULL_SCALE = 4095.0  # of 12 bits
@@ -77,12 +79,22 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         session = self._running
         boards = {session.board_of(axis)[0] for axis in axes}
         if len(boards) > 1:
-            raise LimitError(f"{self.name}: {', '.join(axes)} are not all on one board")
+            raise LimitError(
+                message("engine", "{name}: {names} are not all on one board").fill(
+                    name=self.name, names=", ".join(axes)
+                )
+            )
         board = boards.pop()
         period_us = ceil(1e6 / rate_hz * (1.0 - 1e-9))
         if period_us > _MOST_PERIOD_US:
             raise LimitError(
-                f"{self.name}: a capture at {rate_hz:g} Hz: {1e6 / _MOST_PERIOD_US:.3g} Hz at least"
+                message(
+                    "engine", "{name}: a capture at {rate_hz} Hz: {most_period_us} Hz at least"
+                ).fill(
+                    name=self.name,
+                    rate_hz=rate_hz,
+                    most_period_us=rounded(1000000.0 / _MOST_PERIOD_US, 3),
+                )
             )
         on_clock = session.sampling.time_s if board is session.boards[0] else session.second_time_s
         dialogue = board.link.dialogues[board.address]
@@ -114,19 +126,28 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         self._prepare("take a profile")
         board, axis = self._running.board_of(profile.axis)
         if not board.able(Ability.PROFILE):
-            raise StateError(f"{self.name}: {board.where} cannot run profiles")
-        for index, message in enumerate(profile_messages(profile, axis)):
-            board.orders.give(("profile", index), partial(constant, message), permit=permit)
+            raise StateError(
+                message("engine", "{name}: {where} cannot run profiles").fill(
+                    name=self.name, where=board.where
+                )
+            )
+        assert board.rates is not None, "it announced them when it was opened"
+        for index, order in enumerate(profile_messages(profile, axis, board.rates.tick)):
+            board.orders.give(("profile", index), partial(constant, order), permit=permit)
         self._profile = board
         self._serve()
 
     def _trigger(self, permit: Permit) -> None:
         self._follow_stop(self._running)
         if self._profile is None:
-            raise StateError(f"{self.name}: there is no profile to run; upload one first")
+            raise StateError(
+                message("engine", "{name}: there is no profile to run; upload one first").fill(
+                    name=self.name
+                )
+            )
         orders = self._profile.orders
-        message = partial(constant, TriggerProfile())
-        orders.give("trigger", message, DeviceState.PLAYING, permit=permit)
+        order = partial(constant, TriggerProfile())
+        orders.give("trigger", order, DeviceState.PLAYING, permit=permit)
         self._profile = None
         self._serve()
 
@@ -136,19 +157,19 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         for board in self._running.boards:
             if board.able(Ability.PROFILE):
                 board.orders.forget()
-                message = partial(constant, AbortProfile())
-                board.orders.give("abort", message, permit=None, halts=True)
+                order = partial(constant, AbortProfile())
+                board.orders.give("abort", order, permit=None, halts=True)
         self._serve()
 
     def _show(self, row: int, text: str) -> None:
         for board in self._running.boards:
             if board.able(Ability.DISPLAY):
-                message = ShowText(row, 0, text.encode("ascii", "replace"))
+                shown = ShowText(row, 0, text.encode("ascii", "replace"))
                 board.link.dialogues[board.address].ask(
-                    Request(message=message, urgency=Urgency.BACKGROUND)
+                    Request(message=shown, urgency=Urgency.BACKGROUND)
                 )
                 return self._serve()
-        raise StateError(f"{self.name}: no board has a display")
+        raise StateError(message("engine", "{name}: no board has a display").fill(name=self.name))
 
     def _accept_parameters(self) -> None:
         self._running.trust.accept()

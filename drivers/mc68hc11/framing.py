@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from rotemina.drivers.errors import ProtocolError
+from rotemina.sim.messages import message
 
 MAX_FRAME = 32  # bytes on the wire, with both zeros
 MAX_PAYLOAD = 24
@@ -53,13 +54,23 @@ def encoded(frame: Frame) -> bytes:
         If a part of it is out of bounds.
     """
     if frame.address not in _ADDRESSES:
-        raise ProtocolError(f"frame: address = {frame.address}: must be 1 to {BROADCAST}")
+        raise ProtocolError(
+            message("engine", "frame: address = {address}: must be 1 to {broadcast}").fill(
+                address=frame.address, broadcast=BROADCAST
+            )
+        )
     for name, value in (("number", frame.number), ("type", frame.type)):
         if not 0 <= value <= 0xFF:
-            raise ProtocolError(f"frame: {name} = {value}: must be 0 to 255")
+            raise ProtocolError(
+                message("engine", "frame: {name} = {value}: must be 0 to 255").fill(
+                    name=name, value=value
+                )
+            )
     if len(frame.payload) > MAX_PAYLOAD:
         raise ProtocolError(
-            f"frame: a payload of {len(frame.payload)} bytes: at most {MAX_PAYLOAD}"
+            message("engine", "frame: a payload of {count} bytes: at most {max_payload}").fill(
+                count=len(frame.payload), max_payload=MAX_PAYLOAD
+            )
         )
     who = frame.address | (FROM_BOARD if frame.from_board else 0)
     said = bytes((who, frame.number, frame.type)) + frame.payload

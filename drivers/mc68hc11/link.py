@@ -231,10 +231,11 @@ class Link:
             if window is not None and not dialogue.waiting and window.offer(now_s):
                 offers.append((Urgency.STREAM, self.said_s[address], address, True))
         urgency, _, address, streams = min(offers, default=(Urgency.BACKGROUND, 0.0, 0, False))
-        # Polls and requests without haste take turns: there may always be something to poll for.
+        # Polls take turns with set-points, and with requests without haste: there may always be
+        # something to poll for, and many set-points at first.
         yields = bool(offers) and self._polled
         self._polled = False
-        if urgency is Urgency.BACKGROUND and self.half_duplex and not yields:
+        if urgency >= Urgency.STREAM and self.half_duplex and not yields:
             # A board may repeat its last answer only: nothing comes between a request and it.
             polled = None if any(d.waiting for d in self.dialogues.values()) else self._poll(now_s)
             if polled is not None:
@@ -264,8 +265,9 @@ class Link:
             return
         self._awaited.discard(frame.address)
         window = self.windows.get(frame.address)
-        if not dialogue.receive(message, now_s) and window is not None:
+        if window is not None:
             window.receive(message, now_s)
+        dialogue.receive(message, now_s)
         self._handle(frame.address, message, now_s)
 
     def _count_load(self, now_s: float) -> None:

@@ -6,6 +6,7 @@ from struct import Struct
 from typing import ClassVar, Self
 
 from rotemina.drivers.errors import ProtocolError
+from rotemina.sim.messages import message
 
 
 class Message:
@@ -33,7 +34,11 @@ class Message:
         try:
             return self.LAYOUT.pack(*values) + tail
         except struct.error as error:
-            raise ProtocolError(f"{self}: a number does not fit: {error}") from error
+            raise ProtocolError(
+                message("engine", "{what}: a number does not fit: {error}").fill(
+                    what=str(self), error=str(error)
+                )
+            ) from error
 
     @classmethod
     def unpacked(cls, payload: bytes) -> Self:
@@ -48,7 +53,9 @@ class Message:
         if len(payload) < size or (len(payload) > size and not tail):
             more = " or more" if tail else ""
             raise ProtocolError(
-                f"{cls.__name__}: a payload of {len(payload)} bytes: must be {size}{more}"
+                message("engine", "{name}: a payload of {count} bytes: must be {size}{more}").fill(
+                    name=cls.__name__, count=len(payload), size=size, more=more
+                )
             )
         numbers = cls.LAYOUT.unpack_from(payload)
         values = (*numbers, payload[size:]) if tail else numbers

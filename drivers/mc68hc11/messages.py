@@ -24,6 +24,7 @@ from rotemina.drivers.mc68hc11.requests import (
     ArmProfile,
     AskRates,
     BeginProfile,
+    BeginStream,
     Capture,
     ClearFault,
     DescribeAxis,
@@ -33,7 +34,7 @@ from rotemina.drivers.mc68hc11.requests import (
     MoveVelocity,
     Poll,
     ReadParameter,
-    Segment,
+    Segments,
     SetPoint,
     SetTelemetry,
     SetVoltage,
@@ -43,6 +44,7 @@ from rotemina.drivers.mc68hc11.requests import (
     Watch,
     WriteParameter,
 )
+from rotemina.sim.messages import message
 
 _ALL: tuple[type[Message], ...] = (
     Identify,
@@ -54,6 +56,7 @@ _ALL: tuple[type[Message], ...] = (
     AskRates,
     MoveTo,
     MoveVelocity,
+    BeginStream,
     SetPoint,
     SetVoltage,
     Home,
@@ -63,7 +66,7 @@ _ALL: tuple[type[Message], ...] = (
     SetTelemetry,
     Capture,
     BeginProfile,
-    Segment,
+    Segments,
     ArmProfile,
     TriggerProfile,
     AbortProfile,
@@ -90,5 +93,9 @@ def message_of(type_: int, payload: bytes) -> Message:
     """
     known = MESSAGES.get(type_)
     if known is None:
-        raise ProtocolError(f"frame of type 0x{type_:02X}: no message of this protocol")
+        raise ProtocolError(
+            message("engine", "frame of type 0x{type}: no message of this protocol").fill(
+                type=format(type_, "02X")
+            )
+        )
     return known.unpacked(payload)

@@ -18,6 +18,7 @@ from rotemina.drivers.mc68hc11.player import Player
 from rotemina.drivers.mc68hc11.requests import Home, MoveTo, MoveVelocity, SetVoltage
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import StepperAxis
 
@@ -99,7 +100,11 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
         session = self._running
         for board in session.boards:
             if not board.able(Ability.SETPOINTS):
-                raise StateError(f"{self.name}: {board.where} cannot play trajectories")
+                raise StateError(
+                    message("engine", "{name}: {where} cannot play trajectories").fill(
+                        name=self.name, where=board.where
+                    )
+                )
         speeds = {name: self._speed(name) for name in self.axes}
         ends = {name: self._ends(name) for name in self.axes}
         session.player = session.playback = Player(

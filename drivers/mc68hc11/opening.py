@@ -8,7 +8,7 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverError, DriverTimeoutError, ProtocolError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board
-from rotemina.drivers.mc68hc11.budget import BAUDS, Line
+from rotemina.drivers.mc68hc11.budget import BAUDS, ROWS, Line
 from rotemina.drivers.mc68hc11.codes import VERSION, Ability, Fault, State
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
 from rotemina.drivers.mc68hc11.grid import Grid
@@ -25,6 +25,7 @@ from rotemina.drivers.mc68hc11.requests import (
     Watch,
 )
 from rotemina.drivers.mc68hc11.trust import Trust
+from rotemina.sim.messages import joined, marked, message
 from rotemina.sim.robot.model import Robot
 
 _PAUSE_S = 5e-4
@@ -36,8 +37,6 @@ _UNDER_WAY = State.MOVING | State.PLAYING | State.HOMING
 _LOOKS = 4  # at each board's clock
 _RATES_HZ = (200, 100, 50, 20, 10, 5, 4)
 _MOST = 0.95  # of a line
-_EXCHANGE = 25 + 9  # bytes: a set-point and its answer
-_SLOTS = 6  # bytes of silence around them on a shared bus
 # What a board says of the time before this session: a silent host, a stop, power that came.
 _OF_BEFORE = (Fault.STOPPED, Fault.WATCHDOG, Fault.RESET)
 
@@ -99,7 +98,7 @@ class Opening:
         self._ask()
         trust = Trust(self._robot, self._boards)
         trust.compare()
-        self._wait(self._quiet, _READ_S, "to tell all parameters")
+        self._wait(self._quiet, _READ_S, marked("engine", "to tell all parameters"))
         self._look()
         self._settle()
         self._begin_telemetry()
@@ -132,16 +131,32 @@ class Opening:
         told = board.identity
         assert told is not None, "it was identified"
         if told.version != VERSION:
-            older = "board's program" if told.version < VERSION else "program on this computer"
+            older = (
+                marked("engine", "board's program")
+                if told.version < VERSION
+                else marked("engine", "program on this computer")
+            )
             raise ProtocolError(
-                f"{board.where} speaks version {told.version} of the protocol, this program "
-                f"{VERSION}; update the {older}"
+                message(
+                    "engine",
+                    "{where} speaks version {version} of the protocol, this program {own}; "
+                    "update the {older}",
+                ).fill(where=board.where, version=told.version, own=VERSION, older=older)
             )
         if told.axes != len(board.axes):
             names = ", ".join(axis.name for axis in board.axes)
             raise DriverError(
-                f"{board.where} has {told.axes} axes, robot {self._robot.name!r} wants "
-                f"{len(board.axes)} there ({names}); choose the robot file of this machine"
+                message(
+                    "engine",
+                    "{where} has {axes} axes, robot {name} wants {count} there ({names}); choose "
+                    "the robot file of this machine",
+                ).fill(
+                    where=board.where,
+                    axes=told.axes,
+                    name=repr(self._robot.name),
+                    count=len(board.axes),
+                    names=names,
+                )
             )
 
     def _ask(self) -> None:
@@ -159,9 +174,13 @@ class Opening:
                         answered=partial(self._described, board, wrong),
                     )
                 )
-        self._wait(self._quiet, _ASK_S, "to describe its axes")
+        self._wait(self._quiet, _ASK_S, marked("engine", "to describe its axes"))
         if wrong:
-            raise DriverError("; ".join(wrong) + "; choose the robot file of this machine")
+            raise DriverError(
+                message("engine", "{wrong}; choose the robot file of this machine").fill(
+                    wrong=joined(wrong, "; ")
+                )
+            )
 
     def _described(self, board: Board, wrong: list[str], told: Message, _now_s: float) -> None:
         assert isinstance(told, AxisDescription), "it was matched"
@@ -170,25 +189,35 @@ class Opening:
         for what in ("kind", "role", "unit"):
             if getattr(told, what) != getattr(wanted, what):
                 wrong.append(
-                    f"{board.where}: {what} of axis {axis.name} is {getattr(told, what)}, the "
-                    f"robot file says {getattr(wanted, what)}"
+                    message(
+                        "engine",
+                        "{where}: {what} of axis {axis} is {told}, the robot file says {wanted}",
+                    ).fill(
+                        where=board.where,
+                        what=what,
+                        axis=axis.name,
+                        told=str(getattr(told, what)),
+                        wanted=str(getattr(wanted, what)),
+                    )
                 )
         step = told.mantissa * 10.0**told.exponent
         if abs(step - axis.step) > 1e-6 * axis.step:
             wrong.append(
-                f"{board.where}: a step of axis {axis.name} is {step:g}, by the robot file "
-                f"{axis.step:g}"
+                message(
+                    "engine",
+                    "{where}: a step of axis {axis} is {step}, by the robot file {wanted}",
+                ).fill(where=board.where, axis=axis.name, step=step, wanted=axis.step)
             )
 
     def _look(self) -> None:
         """Look at each board's clock and state a few times."""
         for _ in range(_LOOKS):
             self._poll_all()
-            self._wait(self._quiet, _ASK_S, "to tell where it is")
+            self._wait(self._quiet, _ASK_S, marked("engine", "to tell where it is"))
         self._wait(
             lambda: all(board.latest is not None for board in self._boards),
             _ASK_S,
-            "to tell where it is",
+            marked("engine", "to tell where it is"),
             self._poll_all,
         )
 
@@ -206,7 +235,7 @@ class Opening:
         self._wait(
             lambda: not any(board.state & State.MOVING for board in self._boards),
             _REST_S,
-            "to come to rest",
+            marked("engine", "to come to rest"),
             self._poll_all,
         )
         for board in self._boards:
@@ -214,7 +243,7 @@ class Opening:
                 board.link.dialogues[board.address].ask(
                     Request(message=ClearFault(), permit=self._permit)
                 )
-        self._wait(self._quiet, _ASK_S, "to forget its fault")
+        self._wait(self._quiet, _ASK_S, marked("engine", "to forget its fault"))
 
     def _begin_telemetry(self) -> None:
         self.period_ms, self.setpoint_every = self._periods()
@@ -230,24 +259,37 @@ class Opening:
         self._wait(
             lambda: all(board.samples for board in self._boards),
             _ASK_S + 4e-3 * self.period_ms,
-            "to send telemetry",
+            marked("engine", "to send telemetry"),
         )
 
     def _periods(self) -> tuple[int, int]:
         """Return the period of telemetry, ms, and of how many samples one has a set-point.
 
-        On a shared bus set-points go between the samples: there are fewer of both meanwhile.
+        On a shared bus segments go between the samples: there are fewer of both meanwhile.
         """
-        announced = min(board.rates.telemetry for board in self._boards if board.rates is not None)
-        if announced <= 0:
-            raise ProtocolError(f"{self._boards[0].where} announces no rate of telemetry")
+        told = [board.rates for board in self._boards if board.rates is not None]
+        announced = min(one.telemetry for one in told)
+        segments = min(one.segments for one in told)
+        if announced <= 0 or segments <= 0:
+            raise ProtocolError(
+                message("engine", "{where} announces no rate of telemetry or segments").fill(
+                    where=self._boards[0].where
+                )
+            )
         line = Line(self._baud, self._boards[0].link.half_duplex)
         fits = (one for one in _RATES_HZ if one <= announced and line.load(one) <= _MOST)
         rate = next(fits, announced)
-        load = line.load(rate)
-        if line.half_duplex:
-            load += line.seconds(rate * len(self._boards) * (_EXCHANGE + _SLOTS))
-        return 1000 // rate, ceil(load / _MOST) if line.half_duplex else 1
+        period_ms = 1000 // rate
+        for board, one in zip(self._boards, told, strict=True):
+            if one.tick <= 0 or period_ms * one.tick % 1000:
+                raise ProtocolError(
+                    message(
+                        "engine",
+                        "{where} announces {tick} ticks a second: none, or no whole number of "
+                        "them in the {period_ms} ms between two samples",
+                    ).fill(where=board.where, tick=one.tick, period_ms=period_ms)
+                )
+        return period_ms, ceil(rate / (ROWS * segments))
 
     def _poll_all(self) -> None:
         for board in self._boards:
@@ -273,7 +315,10 @@ class Opening:
                 late = [board.where for board in self._boards if board.busy_line()]
                 who = ", ".join(late) or self._boards[0].where
                 raise DriverTimeoutError(
-                    f"{who}: it took longer than {limit_s:g} s {what}; check cable and supply"
+                    message(
+                        "engine",
+                        "{who}: it took longer than {limit_s} s {what}; check cable and supply",
+                    ).fill(who=who, limit_s=limit_s, what=what)
                 )
             meanwhile()
             self._exchange()
@@ -299,10 +344,16 @@ def _nobody(board: Board, baud: int, *, garbage: bool) -> DriverError:
     others = ", ".join(f"{one}" for one in BAUDS if one != baud)
     if garbage:
         return ProtocolError(
-            f"{board.where}: what comes from there at {baud} baud is no frame of a board; is the "
-            f"baud rate another one ({others}), or the device at this port no MC68HC11 board?"
+            message(
+                "engine",
+                "{where}: what comes from there at {baud} baud is no frame of a board; is the baud "
+                "rate another one ({others}), or the device at this port no MC68HC11 board?",
+            ).fill(where=board.where, baud=baud, others=others)
         )
     return DriverTimeoutError(
-        f"{board.where}: nobody answers at {baud} baud; is the board switched on, its cable at "
-        f"this port and not at the other board's, the baud rate another one ({others})?"
+        message(
+            "engine",
+            "{where}: nobody answers at {baud} baud; is the board switched on, its cable at this "
+            "port and not at the other board's, the baud rate another one ({others})?",
+        ).fill(where=board.where, baud=baud, others=others)
     )

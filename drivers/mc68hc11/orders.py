@@ -15,16 +15,19 @@ from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.reports import Telemetry
 from rotemina.drivers.mc68hc11.requests import ClearFault, Stop
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.messages import marked, message
 
 _REASONS = {
-    Refusal.UNKNOWN_TYPE: "it does not know that message",
-    Refusal.WRONG_LENGTH: "the message has another length there",
-    Refusal.BAD_VALUE: "a value is beyond what it accepts; compare its parameters",
-    Refusal.NOT_HOMED: "it is not homed",
-    Refusal.BUSY: "it is busy",
-    Refusal.QUEUE_FULL: "its queue is full",
-    Refusal.NOT_ABLE: "it is not able to",
-    Refusal.OUT_OF_ORDER: "it came out of order",
+    Refusal.UNKNOWN_TYPE: marked("engine", "it does not know that message"),
+    Refusal.WRONG_LENGTH: marked("engine", "the message has another length there"),
+    Refusal.BAD_VALUE: marked(
+        "engine", "a value is beyond what it accepts; compare its parameters"
+    ),
+    Refusal.NOT_HOMED: marked("engine", "it is not homed"),
+    Refusal.BUSY: marked("engine", "it is busy"),
+    Refusal.QUEUE_FULL: marked("engine", "its queue is full"),
+    Refusal.NOT_ABLE: marked("engine", "it is not able to"),
+    Refusal.OUT_OF_ORDER: marked("engine", "it came out of order"),
 }
 
 
@@ -219,9 +222,11 @@ class Orders:
         self._pending.clear()
         if reason != Refusal.FAULTY:
             why = _REASONS.get(Refusal(reason)) if reason in tuple(Refusal) else None
-            self.refusal = (
-                f"board {self._address} refused a motion: {why or f'reason {reason}'}; "
-                "nothing more was sent to it"
+            self.refusal = message(
+                "engine", "board {address} refused a motion: {why}; nothing more was sent to it"
+            ).fill(
+                address=self._address,
+                why=why or message("engine", "reason {number}").fill(number=reason),
             )
 
 

@@ -4,7 +4,9 @@ from binascii import crc_hqx
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from rotemina.drivers.abilities import VOLTAGE_SLEW
 from rotemina.drivers.mc68hc11.axes import BoardAxis
+from rotemina.sim.messages import marked, message
 from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
 from rotemina.sim.trajectory.limits import controller_of
 
@@ -13,7 +15,6 @@ _START = 0xFFFF  # of the check, as of a frame's
 _CROSSING_S, _STARTING_S = 1.0, 0.1  # an axis that declares no bounds: its range, and to that speed
 _HOMING = 0.5  # of the greatest speed, towards the switch
 _OVERTRAVEL = 0.01  # of the range: how far beyond its ends the limit switches are
-_SLEW = 10.0  # ranges of the converter a second
 CODES = 0xFFFF  # of the converter, over the amplifier's voltage range
 
 
@@ -25,23 +26,23 @@ class Meaning(NamedTuple):
 
 
 _OF_ALL = (
-    Meaning("low limit", "steps"),
-    Meaning("high limit", "steps"),
-    Meaning("greatest speed", "steps/s"),
-    Meaning("greatest acceleration", "steps/s/ms"),
+    Meaning(marked("engine", "low limit"), "steps"),
+    Meaning(marked("engine", "high limit"), "steps"),
+    Meaning(marked("engine", "greatest speed"), "steps/s"),
+    Meaning(marked("engine", "greatest acceleration"), "steps/s/ms"),
 )
 _OF_STEPPERS = (
     *_OF_ALL,
-    Meaning("microsteps a revolution", ""),
+    Meaning(marked("engine", "microsteps a revolution"), ""),
     Meaning("pitch", "nm"),
-    Meaning("homing speed", "steps/s"),
-    Meaning("way from the low switch to zero", "steps"),
+    Meaning(marked("engine", "homing speed"), "steps/s"),
+    Meaning(marked("engine", "way from the low switch to zero"), "steps"),
 )
 _OF_PIEZOS = (
     *_OF_ALL,
-    Meaning("voltage at code 0", "mV"),
-    Meaning("voltage at the last code", "mV"),
-    Meaning("greatest slew of the converter", "codes/s"),
+    Meaning(marked("engine", "voltage at code 0"), "mV"),
+    Meaning(marked("engine", "voltage at the last code"), "mV"),
+    Meaning(marked("engine", "greatest slew of the converter"), "codes/s"),
     Meaning("gain", "millisteps/V"),
 )
 
@@ -51,7 +52,9 @@ def meaning(robot: Robot, axes: Sequence[BoardAxis], index: int) -> Meaning:
     axis = axes[index // PER_AXIS]
     table = _OF_STEPPERS if isinstance(robot.axes[axis.name], StepperAxis) else _OF_PIEZOS
     name, unit = table[index % PER_AXIS]
-    return Meaning(f"{axis.name}: {name}", unit)
+    return Meaning(
+        message("engine", "{axis}: {parameter}").fill(axis=axis.name, parameter=name), unit
+    )
 
 
 def parameters_of(robot: Robot, axes: Sequence[BoardAxis]) -> tuple[int, ...]:
@@ -85,6 +88,6 @@ def _of(robot: Robot, own: BoardAxis) -> tuple[int, ...]:
         *shared,
         round(1e3 * first),
         round(1e3 * last),
-        round(_SLEW * CODES),
+        round(VOLTAGE_SLEW * CODES),
         round(1e3 * axis.gain / own.step),
     )

@@ -1,22 +1,33 @@
-"""A trajectory on its way to the boards: approach, rest, and set-points ahead of their time."""
+"""A trajectory on its way to the boards: approach, rest, and segments ahead of their time.
+
+A segment holds two set-points: its two differences lead through both, step by step.
+"""
 
 from collections.abc import Mapping, Sequence
 from enum import Enum, auto
 from functools import lru_cache, partial
+from math import ceil
 
 import numpy as np
 
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board, BoardSample
+from rotemina.drivers.mc68hc11.budget import ROWS
+from rotemina.drivers.mc68hc11.codes import QUEUE
+from rotemina.drivers.mc68hc11.dialogue import Request
+from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.orders import constant
-from rotemina.drivers.mc68hc11.requests import MoveTo
-from rotemina.drivers.mc68hc11.setpoints import Due, SetpointWindow
+from rotemina.drivers.mc68hc11.requests import BeginStream, MoveTo, SetPoint
+from rotemina.drivers.mc68hc11.setpoints import SetpointWindow
 from rotemina.sim.arrays import IntArray
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.schedule import Schedule
 
-_AHEAD = 14  # set-points that a board has before their time, of the 16 that it can hold
-_LEAD = 24  # instants from the decision to begin until the first set-point acts
+_AHEAD = QUEUE - 1  # segments that wait in a board: its clock may be one behind ours
+# From the decision to begin until the first set-point acts, at least: a computer that is busy just
+# then is not late either.
+_LEAD, _LEAD_S = 24, 0.3  # set-points, and time
 _CHUNK = 256
 _CLIP = 1 << 15  # steps: a deviation that telemetry cannot tell
 
@@ -68,7 +79,9 @@ class Player:
         grid = boards[0].grid
         assert grid is not None, "telemetry is on"
         self._every = every
-        self._schedule = Schedule(trajectory, names, 1e-6 * grid.period_us * every, on_ticks=True)
+        period_s = 1e-6 * grid.period_us * every
+        self._lead = max(_LEAD, ceil(_LEAD_S / period_s))
+        self._schedule = Schedule(trajectory, names, period_s, on_ticks=True)
         self._first = {
             index: self._steps_of(index, at) for index, at in self._schedule.first.items()
         }
@@ -77,7 +90,7 @@ class Player:
         self._rested_s = 0.0
         self._begin: int | None = None  # the number of the instant of the first set-point
         self._instant = 0
-        self._held: list[int] = []
+        self._stand: Steps = ()
         self._streaming: tuple[Board, ...] = ()
         self._chunk = lru_cache(maxsize=4)(self._chunk_of)
         self.failure: str | None = None
@@ -140,29 +153,60 @@ class Player:
             b, axis = self._places[index]
             board = self._boards[b]
             if board.commanded()[axis.number] != target:
-                self.failure = f"axis {axis.name} did not reach the trajectory's first row"
+                self.failure = message(
+                    "engine", "axis {name} did not reach the trajectory's first row"
+                ).fill(name=axis.name)
                 self.give_up()
                 return
         self._phase, self._rested_s = _Phase.SETTLE, now_s
 
     def _begin_rows(self, now_s: float) -> None:
-        self._held = [step for board in self._boards for step in board.commanded()]
+        self._stand = tuple(tuple(board.commanded()) for board in self._boards)
         latest = max(board.number_at(now_s) for board in self._boards)
         # Telemetry that is slowed down meanwhile is of these instants.
-        self._begin = latest - latest % self._every + _LEAD * self._every
+        self._begin = latest - latest % self._every + self._lead * self._every
         moved = {self._places[index][0] for index in self._first}
         self._streaming = tuple(self._boards[b] for b in sorted(moved))
         for b in sorted(moved):
             board = self._boards[b]
+            grid = board.grid
+            assert grid is not None, "telemetry is on"
+            begin_us = grid.time_us(self._begin) % (1 << 32)
+            board.link.dialogues[board.address].ask(
+                Request(
+                    message=BeginStream(begin_us, self._segments, self._hold(board), fraction=0),
+                    answered=partial(self._begun, b),
+                    refused=partial(self._refused, board),
+                    permit=self._permit,
+                )
+            )
+        self._phase = _Phase.ROWS
+
+    @property
+    def _segments(self) -> int:
+        return -(-self._schedule.count // ROWS)
+
+    def _hold(self, board: Board) -> int:
+        """Return how many ticks of a board a set-point lasts."""
+        assert board.rates is not None, "it announced them when it was opened"
+        assert board.grid is not None, "telemetry is on"
+        return board.grid.period_us * self._every * board.rates.tick // 1_000_000
+
+    def _begun(self, b: int, _answer: Message, _now_s: float) -> None:
+        """Let segments go out to a board that has begun its stream."""
+        board = self._boards[b]
+        if self._phase is _Phase.ROWS:
             window = SetpointWindow(
-                board.address,
-                self._schedule.count,
-                partial(self._due, b),
-                board.link.answer_s,
-                self._permit,
+                board.address, self._segments, partial(self._segment, b), board.told_s, self._permit
             )
             board.link.begin_stream(board.address, window)
-        self._phase = _Phase.ROWS
+
+    def _refused(self, board: Board, reason: int | None) -> None:
+        if reason is not None:  # else a stop came before it
+            self.failure = message(
+                "engine", "board {address} refused to begin the trajectory ({reason})"
+            ).fill(address=board.address, reason=reason)
+        self.give_up()
 
     def _feed(self, now_s: float, settled: int) -> None:
         assert self._begin is not None, "the rows have begun"
@@ -170,9 +214,12 @@ class Player:
             window = board.link.windows.get(board.address)
             if window is None:
                 continue
-            window.release(self._instants(board.number_at(now_s)) + _AHEAD)
+            begun = -(-self._instants(board.number_at(now_s)) // ROWS)
+            window.release(begun + _AHEAD)
             if window.refusal is not None:
-                self.failure = f"board {board.address} refused a set-point ({window.refusal})"
+                self.failure = message(
+                    "engine", "board {address} refused a set-point ({refusal})"
+                ).fill(address=board.address, refusal=window.refusal)
                 self.give_up()
                 return
         self._instant = min(max(self._instants(settled), 0), self._schedule.count)
@@ -184,19 +231,33 @@ class Player:
         assert self._begin is not None, "the rows have begun"
         return (number - self._begin) // self._every + 1
 
-    def _due(self, b: int, instant: int) -> Due:
-        grid = self._boards[b].grid
-        assert grid is not None, "telemetry is on"
-        assert self._begin is not None, "the rows have begun"
+    def _segment(self, b: int, place: int) -> SetPoint:
+        """Return a segment that leads from the set-point before it through its own."""
+        first = place * ROWS
+        own = [
+            self._at(b, one) for one in range(first - 1, min(first + ROWS, self._schedule.count))
+        ]
+        differences = []
+        for before, *rows in zip(*own, strict=True):
+            to = rows[0] - before
+            second = rows[1] - rows[0] - to if len(rows) == ROWS else 0
+            differences.append((to - second, second))
+        hold = self._hold(self._boards[b])
+        return SetPoint.of(place % 256, hold * (len(own) - 1), differences)
+
+    def _at(self, b: int, instant: int) -> tuple[int, ...]:
+        """Return the steps of a board at an instant; before the first one where it stands."""
+        if instant < 0:
+            return self._stand[b]
         steps, _ = self._chunk(instant // _CHUNK)
-        own = tuple(int(one) for one in steps[b][instant % _CHUNK])
-        return Due(grid.time_us(self._begin + instant * self._every), own)
+        return tuple(int(one) for one in steps[b][instant % _CHUNK])
 
     def _chunk_of(self, chunk: int) -> tuple[list[IntArray], IntArray]:
         """Return the steps (n, axes) of each board and the rows (n,), -1 between two rows."""
         instants = self._schedule.instants(chunk * _CHUNK, (chunk + 1) * _CHUNK)
         commands = self._schedule.commands(instants.row, np.zeros(len(self._places)))
-        steps = np.tile(np.array(self._held, dtype=np.int64), (len(commands), 1))
+        stand = [step for own in self._stand for step in own]
+        steps = np.tile(np.array(stand, dtype=np.int64), (len(commands), 1))
         for index in self._first:
             steps[:, index] = [self._steps_of(index, float(at)) for at in commands[:, index]]
         parts, begin = [], 0

@@ -10,6 +10,7 @@ from typing import Protocol
 import serial
 
 from rotemina.drivers.errors import ConnectionLostError, DriverError
+from rotemina.sim.messages import message
 
 _LOG = logging.getLogger(__name__)
 _AT_ONCE = 4096  # bytes: more than any line brings between two calls
@@ -62,7 +63,11 @@ def open_port(url: str, baud: int) -> Port:
         If it cannot be opened, with what to do about it.
     """
     if not url:
-        raise DriverError("no serial port is set; set port to a device, for example /dev/ttyUSB0")
+        raise DriverError(
+            message(
+                "engine", "no serial port is set; set port to a device, for example /dev/ttyUSB0"
+            )
+        )
     if url.startswith(_REMOTE):
         _LOG.warning(
             "%s: whoever reaches this address can move the machine: nothing is authenticated or "
@@ -108,7 +113,11 @@ class SerialPort:
         with self._frame, self._translated():
             taken = self._serial.write(data)
         if taken is not None and taken < len(data):
-            raise ConnectionLostError(f"{self._url}: it takes no more bytes; is the line blocked?")
+            raise ConnectionLostError(
+                message("engine", "{url}: it takes no more bytes; is the line blocked?").fill(
+                    url=self._url
+                )
+            )
 
     def waiting(self) -> int:
         """Return how many bytes wait; see :class:`Port`."""
@@ -134,8 +143,11 @@ class SerialPort:
         except (OSError, TypeError) as error:
             # pyserial reads from None (TypeError) when another thread has closed the port.
             raise ConnectionLostError(
-                f"{self._url}: the port is gone ({error}); is it unplugged? Plug it in and connect "
-                "again, then check where the machine stands"
+                message(
+                    "engine",
+                    "{url}: the port is gone ({error}); is it unplugged? Plug it in and connect "
+                    "again, then check where the machine stands",
+                ).fill(url=self._url, error=str(error))
             ) from error
 
 
@@ -144,12 +156,16 @@ def _why(url: str, error: Exception) -> str:
     number = getattr(error, "errno", None)
     said = str(error)
     if number in _FORBIDDEN or "Permission denied" in said or "PermissionError" in said:
-        return (
-            f"{url}: no permission to open it; add the user to the group that owns the device "
-            "(dialout on most systems) and log in again"
-        )
+        return message(
+            "engine",
+            "{url}: no permission to open it; add the user to the group that owns the device "
+            "(dialout on most systems) and log in again",
+        ).fill(url=url)
     if number in _TAKEN or "exclusively lock" in said or "Access is denied" in said:
-        return f"{url}: another program uses it; close that program"
+        return message("engine", "{url}: another program uses it; close that program").fill(url=url)
     if number in _ABSENT or "could not open port" in said or "FileNotFoundError" in said:
-        return f"{url}: there is no such port ({said}); is the adapter plugged in, the name right?"
-    return f"{url}: it cannot be opened: {said}"
+        return message(
+            "engine",
+            "{url}: there is no such port ({said}); is the adapter plugged in, the name right?",
+        ).fill(url=url, said=said)
+    return message("engine", "{url}: it cannot be opened: {said}").fill(url=url, said=said)

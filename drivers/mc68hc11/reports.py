@@ -7,6 +7,7 @@ from typing import Self
 
 from rotemina.drivers.errors import ProtocolError
 from rotemina.drivers.mc68hc11.message import Message
+from rotemina.sim.messages import message
 
 Axes = Sequence[tuple[int, int]]  # reading and command of each axis, steps
 AXIS_BYTES = 5
@@ -75,20 +76,24 @@ class Telemetry(Message):
 
     It was taken at ``time_us``, before the command of the same instant acts; what is told is the
     command that acts from then on. ``switches``: limit switches low and high of each axis, then
-    both buttons, from bit 0 on; ``axes``: :class:`AxisSample`, packed one after the other.
+    both buttons, from bit 0 on; ``expected``: the index of the segment that a stream takes next, 0
+    while none plays; ``axes``: :data:`Axes`, packed one after the other.
     """
 
     TYPE = 0x84
-    LAYOUT = Struct(">IBBB")
+    LAYOUT = Struct(">IBBBB")
 
     time_us: int
     state: int
     fault: int
     switches: int
+    expected: int
     axes: bytes
 
     @classmethod
-    def of(cls, time_us: int, state: int, fault: int, switches: int, axes: Axes) -> Self:
+    def of(
+        cls, time_us: int, state: int, fault: int, switches: int, expected: int, axes: Axes
+    ) -> Self:
         """Return the telemetry of readings and commands, steps; a deviation too large is clipped.
 
         Raises
@@ -99,11 +104,15 @@ class Telemetry(Message):
         packed = b""
         for reading, command in axes:
             if not -_READING <= reading < _READING:
-                raise ProtocolError(f"telemetry: a reading of {reading} steps: 24 bits at most")
+                raise ProtocolError(
+                    message(
+                        "engine", "telemetry: a reading of {reading} steps: 24 bits at most"
+                    ).fill(reading=reading)
+                )
             deviation = min(max(command - reading, -_DEVIATION), _DEVIATION - 1)
             packed += reading.to_bytes(3, "big", signed=True)
             packed += deviation.to_bytes(2, "big", signed=True)
-        return cls(time_us, state, fault, switches, packed)
+        return cls(time_us, state, fault, switches, expected, packed)
 
     def samples(self) -> Axes:
         """Return (reading, command) of each axis, steps.
@@ -114,7 +123,11 @@ class Telemetry(Message):
             If the payload ends in the middle of an axis.
         """
         if len(self.axes) % AXIS_BYTES:
-            raise ProtocolError(f"telemetry: {len(self.axes)} bytes: must be {AXIS_BYTES} an axis")
+            raise ProtocolError(
+                message("engine", "telemetry: {count} bytes: must be {axis_bytes} an axis").fill(
+                    count=len(self.axes), axis_bytes=AXIS_BYTES
+                )
+            )
         found = []
         for begin in range(0, len(self.axes), AXIS_BYTES):
             reading = int.from_bytes(self.axes[begin : begin + 3], "big", signed=True)
@@ -145,7 +158,11 @@ class Inputs(Message):
         number = 0
         for reading in readings:
             if not 0 <= reading < 1 << _READING_BITS:
-                raise ProtocolError(f"inputs: a reading of {reading}: must be 0 to 4095")
+                raise ProtocolError(
+                    message("engine", "inputs: a reading of {reading}: must be 0 to 4095").fill(
+                        reading=reading
+                    )
+                )
             number = number << _READING_BITS | reading
         count = (len(readings) * _READING_BITS + 7) // 8
         number <<= count * 8 - len(readings) * _READING_BITS
@@ -186,13 +203,16 @@ class Captured(Message):
 class Rates(Message):
     """The greatest rates, Hz, that the board keeps up at its baud rate and on its kind of line.
 
-    Of telemetry alone and during a capture; of a capture of one axis and of three.
+    Of telemetry alone and during a capture; of a capture of one axis and of three; of segments of a
+    stream; and of its control ticks, which are what they are.
     """
 
     TYPE = 0x87
-    LAYOUT = Struct(">HHHH")
+    LAYOUT = Struct(">HHHHHH")
 
     telemetry: int
     telemetry_while_capturing: int
     capture_one: int
     capture_three: int
+    segments: int
+    tick: int

@@ -1,9 +1,18 @@
 """What a host says to a board. Positions are steps of resolution, times microseconds."""
 
+import struct
+from collections.abc import Sequence
 from dataclasses import dataclass
 from struct import Struct
+from typing import NamedTuple, Self
 
+from rotemina.drivers.errors import ProtocolError
 from rotemina.drivers.mc68hc11.message import Message
+from rotemina.sim.messages import message
+
+Differences = Sequence[tuple[int, int]]  # first and second of each axis
+_FIRST, _SECOND = 4, 3  # bytes
+_QUADRATIC = Struct(">Hii")
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,21 +106,83 @@ class MoveVelocity(Message):
 
 @dataclass(frozen=True, slots=True)
 class SetPoint(Message):
-    """Be there at this time of the board; all three axes at once.
+    """A segment of a stream, all axes at once: for so many ticks their commands change like this.
 
-    ``index`` counts them from 0, over 255 on to 0 again; a board takes them in this order only.
-    ``left`` is how many are still to come, 255 for more: at 0 the stream ends.
+    ``index`` counts segments from 0, over 255 on to 0 again; a board takes them in this order only.
+    ``axes``: :data:`Differences`, packed one after the other. At each addition the first difference
+    grows by the second one, and the command by the first.
     """
 
     TYPE = 0x12
-    LAYOUT = Struct(">BBIiii")
+    LAYOUT = Struct(">BH")
 
     index: int
-    left: int
+    ticks: int
+    axes: bytes
+
+    @classmethod
+    def of(cls, index: int, ticks: int, axes: Differences) -> Self:
+        """Return the segment with these differences.
+
+        Raises
+        ------
+        ProtocolError
+            If a first difference takes more than 32 bits, or a second one more than 24.
+        """
+        try:
+            packed = b"".join(
+                first.to_bytes(_FIRST, "big", signed=True)
+                + second.to_bytes(_SECOND, "big", signed=True)
+                for first, second in axes
+            )
+        except OverflowError as error:
+            raise ProtocolError(
+                message(
+                    "engine", "set-point {index}: differences {values}: 32 and 24 bits at most"
+                ).fill(index=index, values=str(list(axes)))
+            ) from error
+        return cls(index, ticks, packed)
+
+    def differences(self) -> Differences:
+        """Return the first and the second difference of each axis.
+
+        Raises
+        ------
+        ProtocolError
+            If the payload ends in the middle of an axis.
+        """
+        size = _FIRST + _SECOND
+        if len(self.axes) % size:
+            raise ProtocolError(
+                message("engine", "set-point: {count} bytes: must be {size} an axis").fill(
+                    count=len(self.axes), size=size
+                )
+            )
+        parts = (self.axes[begin : begin + size] for begin in range(0, len(self.axes), size))
+        return tuple(
+            (
+                int.from_bytes(part[:_FIRST], "big", signed=True),
+                int.from_bytes(part[_FIRST:], "big", signed=True),
+            )
+            for part in parts
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class BeginStream(Message):
+    """A stream of this many segments begins at this time of the board, from where the axes stand.
+
+    Commands change at its begin and every ``hold`` ticks from then on; differences have
+    ``fraction`` binary digits behind the point of a step.
+    """
+
+    TYPE = 0x15
+    LAYOUT = Struct(">IIHB")
+
     time_us: int
-    first: int
-    second: int
-    third: int
+    segments: int
+    hold: int
+    fraction: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,21 +276,62 @@ class BeginProfile(Message):
     segments: int
 
 
-@dataclass(frozen=True, slots=True)
-class Segment(Message):
-    """One segment: ``x = x0 + c1 τ + c2 τ² + c3 τ³`` with τ from 0 to 1 over its duration.
+class Quadratic(NamedTuple):
+    """A segment of a profile: what one axis does over so many ticks, from where it is.
 
-    x0 is where the one before ended.
+    At each tick the first difference grows by the second one, and the command by the first: steps
+    · 2^-16.
     """
 
+    ticks: int
+    first: int
+    second: int
+
+
+@dataclass(frozen=True, slots=True)
+class Segments(Message):
+    """One or two segments of a profile, from this index on: :class:`Quadratic`, packed."""
+
     TYPE = 0x51
-    LAYOUT = Struct(">BIiii")
+    LAYOUT = Struct(">B")
 
     index: int
-    duration_us: int
-    c1: int
-    c2: int
-    c3: int
+    packed_segments: bytes
+
+    @classmethod
+    def of(cls, index: int, segments: Sequence[Quadratic]) -> Self:
+        """Return the message that tells some segments.
+
+        Raises
+        ------
+        ProtocolError
+            If a number does not fit where it goes.
+        """
+        try:
+            return cls(index, b"".join(_QUADRATIC.pack(*one) for one in segments))
+        except struct.error as error:
+            raise ProtocolError(
+                message("engine", "profile, segments {values}: a number does not fit").fill(
+                    values=str(list(segments))
+                )
+            ) from error
+
+    def segments(self) -> tuple[Quadratic, ...]:
+        """Return the segments.
+
+        Raises
+        ------
+        ProtocolError
+            If the payload ends in the middle of one, or has none.
+        """
+        size = len(self.packed_segments)
+        if not size or size % _QUADRATIC.size:
+            raise ProtocolError(
+                message("engine", "profile: {size} bytes: must be {quadratic_size} a segment").fill(
+                    size=size, quadratic_size=_QUADRATIC.size
+                )
+            )
+        return tuple(map(Quadratic._make, _QUADRATIC.iter_unpack(self.packed_segments)))
 
 
 @dataclass(frozen=True, slots=True)

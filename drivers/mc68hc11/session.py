@@ -22,6 +22,8 @@ from rotemina.drivers.mc68hc11.sampling import Row, Sampling
 from rotemina.drivers.mc68hc11.trust import Trust
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
 
 LOST_S = 0.5  # without telemetry: the connection is lost
@@ -147,11 +149,13 @@ class Session:
 
     def held_back(self) -> list[str]:
         """Return why the gate has held motion back since the last call, other than for a stop."""
-        found = []
+        found: list[str] = []
         for link in self.links:
             error, link.held_back = link.held_back, None
             if error is not None and not isinstance(error, OvertakenError):
-                found.append(f"a motion was not sent: {error}")
+                found.append(
+                    message("engine", "a motion was not sent: {error}").fill(error=str(error))
+                )
         return found
 
     def serve(self) -> None:
@@ -233,14 +237,20 @@ class Session:
         for board in self.boards:
             if board.reset:
                 raise ConnectionLostError(
-                    f"{board.where} was reset: it does not know where it stands; connect again, "
-                    "and home it"
+                    message(
+                        "engine",
+                        "{where} was reset: it does not know where it stands; connect again, and "
+                        "home it",
+                    ).fill(where=board.where)
                 )
             quiet_s = self.served_s - board.telemetry_s
             if quiet_s > max(LOST_S, 2.0 * self._short_s):
                 raise ConnectionLostError(
-                    f"{board.where} has said nothing for {quiet_s:.2g} s; check cable and supply, "
-                    "connect again, then check where the machine stands"
+                    message(
+                        "engine",
+                        "{where} has said nothing for {quiet_s} s; check cable and supply, connect "
+                        "again, then check where the machine stands",
+                    ).fill(where=board.where, quiet_s=rounded(quiet_s, 2))
                 )
 
     def _keep_alive(self, board: Board, now_s: float) -> None:

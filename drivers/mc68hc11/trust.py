@@ -6,13 +6,14 @@ from functools import partial
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board
-from rotemina.drivers.mc68hc11.codes import VERSION
+from rotemina.drivers.mc68hc11.codes import VERSION, State
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.parameters import fingerprint, meaning, parameters_of
 from rotemina.drivers.mc68hc11.reports import Identity, Parameter
 from rotemina.drivers.mc68hc11.requests import Identify, ReadParameter, WriteParameter
 from rotemina.drivers.parameters import ParameterDifference
+from rotemina.sim.messages import joined, marked, message
 from rotemina.sim.robot.model import Robot
 
 PER_BOARD = (
@@ -86,7 +87,7 @@ class Trust:
         """Note that a stop has ended what was being written: no answers come any more."""
         if self._writing:
             self._writing = 0
-            self.failure = "a stop cut the writing off"
+            self.failure = marked("engine", "a stop cut the writing off")
 
     def demand(self, name: str, action: str) -> None:
         """Refuse to move while parameters differ and nobody has accepted that.
@@ -96,16 +97,27 @@ class Trust:
         StateError
             With what differs, and what to do.
         """
-        if self._writing:
-            raise StateError(f"{name}: cannot {action} while its parameters are written; wait")
+        if self._writing or any(board.state & State.WRITING for board in self._boards):
+            raise StateError(
+                message(
+                    "engine", "{name}: cannot {action} while its parameters are written; wait"
+                ).fill(name=name, action=action)
+            )
         differences = self.differences
         if self._accepted or not differences:
             return
-        more = f" and {len(differences) - 1} more" if len(differences) > 1 else ""
-        failed = f" ({self.failure})" if self.failure else ""
+        told = [str(differences[0])]
+        if len(differences) > 1:
+            more = message("engine", "and {count} more").fill(count=len(differences) - 1)
+            told.append(more)
+        if self.failure:
+            told.append(self.failure)
         raise StateError(
-            f"{name}: cannot {action}: the boards' parameters are not those of the robot file "
-            f"({differences[0]}{more}){failed}; accept_parameters or write_parameters first"
+            message(
+                "engine",
+                "{name}: cannot {action}: the boards' parameters are not those of the robot file "
+                "({differences}); accept_parameters or write_parameters first",
+            ).fill(name=name, action=action, differences=joined(told, "; "))
         )
 
     def _ask(self, board: Board) -> None:
@@ -143,13 +155,17 @@ class Trust:
         assert isinstance(told, Identity), "it was matched"
         board.identity = told
         if told.fingerprint != fingerprint(self._wanted[board]):
-            self.failure = f"board {board.address} did not keep what was written"
+            self.failure = message("engine", "board {address} did not keep what was written").fill(
+                address=board.address
+            )
             self._ask(board)
 
     def _refused(self, board: Board, said: WriteParameter, reason: int | None) -> None:
         self._writing -= 1
         what = meaning(self._robot, board.axes, said.index).name
-        self.failure = f"board {board.address} refused to be given {what} (reason {reason})"
+        self.failure = message(
+            "engine", "board {address} refused to be given {what} (reason {reason})"
+        ).fill(address=board.address, what=what, reason=str(reason))
 
 
 def _is(index: int, message: Message) -> bool:

@@ -2,11 +2,13 @@
 
 from typing import NamedTuple
 
-from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance, Inverse, resting_at
 from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact
+from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 _SLACK = 1e-3  # share of the span by which an axis may stand beyond what its inverse saw
 
@@ -75,8 +77,16 @@ class Compensating:
             slack = _SLACK * model.span
             if not low - slack <= at <= high + slack:
                 raise CompensationError(
-                    f"inverse of axis {model.axis}: the axis stands at {at:.6g} {model.unit}; the "
-                    f"inverse saw {low:.6g} to {high:.6g}: move the axis there first"
+                    message(
+                        "engine",
+                        "inverse of axis {axis}: the axis stands at {at}; the inverse saw {low} "
+                        "to {high}: move the axis there first",
+                    ).fill(
+                        axis=model.axis,
+                        at=exact(at, model.unit, size=high),
+                        low=exact(low, model.unit, size=high),
+                        high=exact(high, model.unit),
+                    )
                 )
         self._use(index, model)
         return min(max(at, low), high)

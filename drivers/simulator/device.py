@@ -11,7 +11,7 @@ from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.playing import Chunk, Playing, selected
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.regulating import Regulating
-from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
+from rotemina.drivers.simulator.setpoints import SetpointGenerator
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance
@@ -23,6 +23,7 @@ from rotemina.sim.plant.state import PlantState
 from rotemina.sim.plant.takeover import taken_over
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
+from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 _LASER = 7  # the stream of its noise
 _CHUNK = 8192  # samples simulated at once: bounds memory, not the result

@@ -11,6 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from rotemina.drivers.abilities import (
+    VOLTAGE_SLEW,
     Capturer,
     Homer,
     ProfileRunner,
@@ -31,7 +32,6 @@ from rotemina.drivers.simulator.device import SimulatedDevice
 from rotemina.drivers.simulator.front_panel import FrontPanel
 from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
-from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.drivers.simulator.tool import SimulatedTool
 from rotemina.drivers.simulator.true_positions import TruePositions
 from rotemina.sim.arrays import FloatArray
@@ -40,10 +40,13 @@ from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.errors import LostLoopError
 from rotemina.sim.feedback.regulation import Regulation
+from rotemina.sim.messages import message
 from rotemina.sim.plant.errors import PlantError
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect, ForceAxis, PiezoAxis, Robot, StepperAxis
 from rotemina.sim.trajectory.limits import check_target
+from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 MAX_RATE_HZ = 20_000.0
 _PORTION_S = 0.016  # device time that is simulated at once when somebody only reads
@@ -105,8 +108,11 @@ class Simulator(
         for axis in robot.axes.values():
             if isinstance(axis, ForceAxis) and axis.controller is None:
                 raise SettingError(
-                    f"simulator: robot {robot.name!r} has an axis moved by a force that no "
-                    "controller holds; give it one in the robot file"
+                    message(
+                        "engine",
+                        "simulator: robot {name} has an axis moved by a force that no controller "
+                        "holds; give it one in the robot file",
+                    ).fill(name=repr(robot.name))
                 )
         self._position = self._start_position(self._number("start_fraction", 0.0, 1.0))
         self._are_at(self._position)
@@ -197,7 +203,10 @@ class Simulator(
         described = self.robot.axes[axis]
         if not isinstance(described, PiezoAxis) or described.controller is not None:
             raise LimitError(
-                f"{self.name}: axis {axis} is no piezo in open loop; {what} is for one that is"
+                message(
+                    "engine",
+                    "{name}: axis {axis} is no piezo in open loop; {what} is for one that is",
+                ).fill(name=self.name, axis=axis, what=what)
             )
         return self.axes.index(axis)
 
@@ -205,7 +214,10 @@ class Simulator(
         value = self.settings[name]
         if isinstance(value, str) or not least <= value <= greatest:
             raise SettingError(
-                f"simulator: setting {name} = {value!r} is not between {least:g} and {greatest:g}"
+                message(
+                    "engine",
+                    "simulator: setting {name} = {value} is not between {least} and {greatest}",
+                ).fill(name=name, value=repr(value), least=least, greatest=greatest)
             )
         return value
 
@@ -283,23 +295,35 @@ class Simulator(
         model = self.robot.axes[axis]
         if not isinstance(model, PiezoAxis) or model.controller is not None:
             raise LimitError(
-                f"{self.name}: axis {axis} runs under a controller, which alone sets its voltage"
+                message(
+                    "engine",
+                    "{name}: axis {axis} runs under a controller, which alone sets its voltage",
+                ).fill(name=self.name, axis=axis)
             )
         if axis in self.compensated:
             raise LimitError(
-                f"{self.name}: axis {axis} is compensated, which sets its voltage; switch the "
-                "compensation off first"
+                message(
+                    "engine",
+                    "{name}: axis {axis} is compensated, which sets its voltage; switch the "
+                    "compensation off first",
+                ).fill(name=self.name, axis=axis)
             )
         if axis in self.regulated:
             raise LimitError(
-                f"{self.name}: axis {axis} is under a loop, which sets its voltage; take it off "
-                "first"
+                message(
+                    "engine",
+                    "{name}: axis {axis} is under a loop, which sets its voltage; take it off "
+                    "first",
+                ).fill(name=self.name, axis=axis)
             )
         try:
             check_target(self.robot, axis, voltage * model.gain)
         except InputError as error:
             raise LimitError(str(error)) from error
-        self._move_to({axis: voltage * model.gain}, {}, permit)
+        assert model.voltage_range is not None, "the voltage is within it"
+        slew = VOLTAGE_SLEW * (model.voltage_range[1] - model.voltage_range[0]) * abs(model.gain)
+        speed = min(slew, model.max_speed or slew)
+        self._move_to({axis: voltage * model.gain}, {axis: speed}, permit)
 
     def captured(self) -> Captured | None:
         """Return what the reads since it was last asked for have brought, or None: nothing."""
@@ -325,11 +349,18 @@ class Simulator(
         self._catch_up()
         profile, device = self._profile, self._running
         if profile is None:
-            raise StateError(f"{self.name}: there is no profile to run; upload one first")
+            raise StateError(
+                message("engine", "{name}: there is no profile to run; upload one first").fill(
+                    name=self.name
+                )
+            )
         if device.moving or device.command[profile.index] != profile.start:
             raise StateError(
-                f"{self.name}: the axis of the profile has moved since; wait until it rests, and "
-                "upload the profile again"
+                message(
+                    "engine",
+                    "{name}: the axis of the profile has moved since; wait until it rests, and "
+                    "upload the profile again",
+                ).fill(name=self.name)
             )
         self._profile = None
         with permit.passing():
@@ -346,8 +377,11 @@ class Simulator(
             rate_hz = 1.0 / float(np.diff(trajectory.time_s).min())
             if rate_hz > MAX_RATE_HZ * (1.0 + 1e-6):
                 raise LimitError(
-                    f"simulator: rows of the trajectory follow at {rate_hz:.6g} Hz; it plays "
-                    f"{MAX_RATE_HZ:g} Hz at most; resample the trajectory"
+                    message(
+                        "engine",
+                        "simulator: rows of the trajectory follow at {rate_hz} Hz; it plays "
+                        "{max_rate_hz} Hz at most; resample the trajectory",
+                    ).fill(rate_hz=rounded(rate_hz, 6), max_rate_hz=MAX_RATE_HZ)
                 )
         self._catch_up()
         playing = self._running.playing_of(trajectory)

@@ -11,6 +11,7 @@ from rotemina.drivers.abilities import (
 )
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import LimitError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
 _BLANK = " " * DISPLAY_COLUMNS
@@ -49,5 +50,9 @@ class FrontPanel(Display, AnalogInputs, ABC):
         """
         for reading in readings:
             if not 0.0 <= reading <= 1.0:
-                raise LimitError(f"{self.name}: a potentiometer at {reading:g}: must be 0 to 1")
+                raise LimitError(
+                    message("engine", "{name}: a potentiometer at {reading}: must be 0 to 1").fill(
+                        name=self.name, reading=reading
+                    )
+                )
         self._inputs = (tuple(readings), tuple(buttons))

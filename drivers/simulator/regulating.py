@@ -12,6 +12,7 @@ from rotemina.sim.feedback import regulated_plant
 from rotemina.sim.feedback.controller import Controller
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.regulation import Regulation
+from rotemina.sim.messages import message
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.state import Motion, PlantState
@@ -65,22 +66,33 @@ class Regulating:
             With both rates.
         """
         ticks = regulation.rate_hz * self._sample_s
-        where = f"axis {regulation.axis}: a loop at {regulation.rate_hz:g} Hz"
+        where = message("engine", "axis {axis}: a loop at {rate_hz} Hz").fill(
+            axis=regulation.axis, rate_hz=regulation.rate_hz
+        )
         if ticks < 1.0 - _WHOLE or abs(ticks - round(ticks)) > _WHOLE * ticks:
             raise FeedbackError(
-                f"{where}: the simulated machine samples at {1.0 / self._sample_s:g} Hz, and a "
-                "loop's rate must be a whole multiple of that; tune it for such a rate"
+                message(
+                    "engine",
+                    "{where}: the simulated machine samples at {sample_s} Hz, and a loop's rate "
+                    "must be a whole multiple of that; tune it for such a rate",
+                ).fill(where=where, sample_s=1.0 / self._sample_s)
             )
         others = [one for key, one in self.regulations.items() if key != index]
         if others and others[0].rate_hz != regulation.rate_hz:
             raise FeedbackError(
-                f"{where}: that of axis {others[0].axis} runs at {others[0].rate_hz:g} Hz, and "
-                "all must run at one rate; take the other one off, or tune for its rate"
+                message(
+                    "engine",
+                    "{where}: that of axis {axis} runs at {rate_hz} Hz, and all must run at one "
+                    "rate; take the other one off, or tune for its rate",
+                ).fill(where=where, axis=others[0].axis, rate_hz=others[0].rate_hz)
             )
         if not alone and round(ticks) != 1:
             raise FeedbackError(
-                f"{where}: the robot's own controllers run at {1.0 / self._sample_s:g} Hz; tune "
-                "it for that rate, or set the simulator's sample_rate_hz to the loop's"
+                message(
+                    "engine",
+                    "{where}: the robot's own controllers run at {sample_s} Hz; tune it for that "
+                    "rate, or set the simulator's sample_rate_hz to the loop's",
+                ).fill(where=where, sample_s=1.0 / self._sample_s)
             )
 
     def put(

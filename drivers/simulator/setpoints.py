@@ -7,55 +7,12 @@ between n and n + 1; solving ``f(u) = D`` for u lands on the target exactly, aft
 of ticks.
 """
 
-from dataclasses import dataclass
-from typing import Self
-
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.robot.model import Axis, PiezoAxis, Robot
-from rotemina.sim.trajectory.limits import voltage_bounds
-
-# What an axis without declared bounds is given: its range in a second, that speed in a tenth.
-_CROSSING_S = 1.0
-_STARTING_S = 0.1
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SetpointLimits:
-    """Bounds of each axis, (axes,) each: m or rad, per s, per s².
-
-    ``low`` and ``high`` are ends of the range, or nearer where the amplifier's voltage ends.
-    """
-
-    low: FloatArray
-    high: FloatArray
-    speed: FloatArray
-    acceleration: FloatArray
-
-    @classmethod
-    def of(cls, robot: Robot) -> Self:
-        """Return the limits of a robot; an axis that declares none crosses its range in 1 s."""
-        axes = robot.axes.values()
-        speed = np.array([axis.max_speed or axis.span / _CROSSING_S for axis in axes])
-        acceleration = [
-            axis.max_acceleration or fastest / _STARTING_S
-            for axis, fastest in zip(axes, speed, strict=True)
-        ]
-        low, high = np.array([_reach(axis) for axis in axes], dtype=np.float64).T
-        return cls(low.copy(), high.copy(), speed, np.array(acceleration, dtype=np.float64))
-
-
-def _reach(axis: Axis) -> tuple[float, float]:
-    """Return the part of the range that an axis' amplifier can hold it in, m or rad."""
-    low, high = axis.range
-    bounds = voltage_bounds(axis)
-    if bounds is None or not isinstance(axis, PiezoAxis):
-        return low, high
-    ends = sorted(voltage * axis.gain for voltage in bounds)
-    return max(low, ends[0]), min(high, ends[1])
+from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 
 class SetpointGenerator:

@@ -4,8 +4,9 @@ from copy import deepcopy
 
 import numpy as np
 
-from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
+from rotemina.drivers.simulator.setpoints import SetpointGenerator
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 _FAR = 1e9  # steps: farther than anything can go, where no limit is known
 

@@ -20,6 +20,7 @@ from rotemina.drivers.virtual_board.moving import press
 from rotemina.drivers.virtual_board.notes import Notes
 from rotemina.drivers.virtual_board.samples import take_samples
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
 TICK_S = 5e-4  # the announced captures of 2000 Hz need it
@@ -114,11 +115,18 @@ class VirtualBoards:
     ) -> None:
         own = board_axes(robot)
         if baud not in BAUDS:
-            raise InputError(f"baud {baud}: must be one of {', '.join(map(str, BAUDS))}")
+            raise InputError(
+                message("engine", "baud {baud}: must be one of {names}").fill(
+                    baud=baud, names=", ".join(map(str, BAUDS))
+                )
+            )
         if ports > len(own):
             raise InputError(
-                f"robot {robot.name!r}: its {len(robot.axes)} axes take one board, which has one "
-                "port; leave out the second one"
+                message(
+                    "engine",
+                    "robot {name}: its {count} axes take one board, which has one port; leave out "
+                    "the second one",
+                ).fill(name=repr(robot.name), count=len(robot.axes))
             )
         self.tick_s = tick_s
         self.notes = Notes()

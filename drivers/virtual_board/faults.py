@@ -28,6 +28,7 @@ from rotemina.drivers.virtual_board.boards import VirtualBoards
 from rotemina.drivers.virtual_board.cable import Channel, Damage
 from rotemina.drivers.virtual_board.line import SerialLine
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 _DAMAGES = {"drop": Damage.DROP, "double": Damage.DOUBLE, "corrupt": Damage.CORRUPT}
 _RESETS = {"reset": Fault.RESET, "brown-out": Fault.BROWN_OUT}
@@ -52,11 +53,19 @@ def inject(boards: VirtualBoards, command: str) -> None:
     name, *words = command.split() or [""]
     if name not in _COMMANDS:
         known = ", ".join(sorted(_COMMANDS))
-        raise FaultCommandError(f"fault {command.strip()!r}: there is no such command; say {known}")
+        raise FaultCommandError(
+            message("engine", "fault {strip}: there is no such command; say {known}").fill(
+                strip=repr(command.strip()), known=known
+            )
+        )
     try:
         _COMMANDS[name](boards, name, words)
     except FaultCommandError as error:
-        raise FaultCommandError(f"fault {command.strip()!r}: {error}") from error
+        raise FaultCommandError(
+            message("engine", "fault {strip}: {error}").fill(
+                strip=repr(command.strip()), error=str(error)
+            )
+        ) from error
     boards.notes.say(boards.now_s, f"injected: {' '.join(command.split())}")
 
 
@@ -141,7 +150,11 @@ def _freeze(boards: VirtualBoards, name: str, words: list[str]) -> None:
 def _lose(boards: VirtualBoards, _: str, words: list[str]) -> None:
     index = _axis(boards, words)
     if not boards.machine.stepper[index]:
-        raise FaultCommandError(f"{boards.machine.names[index]} is no stepper: it has no steps")
+        raise FaultCommandError(
+            message("engine", "{names} is no stepper: it has no steps").fill(
+                names=boards.machine.names[index]
+            )
+        )
     count = _count(words, _MOST_STEPS)
     board = next(one for one in boards.boards if index in one.indices)
     way = board.ways[index - board.indices.start]
@@ -154,8 +167,11 @@ def _joystick(boards: VirtualBoards, _: str, words: list[str]) -> None:
     right = len(words) == len(numbers) in (3, 4) and max(readings) <= _MOST_READING
     if not right or max(buttons, default=0) > _MOST_BUTTONS:
         raise FaultCommandError(
-            f"there must be three readings, 0 to {_MOST_READING}, and after them buttons, 0 to "
-            f"{_MOST_BUTTONS}, or none"
+            message(
+                "engine",
+                "there must be three readings, 0 to {most_reading}, and after them buttons, 0 to "
+                "{most_buttons}, or none",
+            ).fill(most_reading=_MOST_READING, most_buttons=_MOST_BUTTONS)
         )
     boards.set_inputs((readings[0], readings[1], readings[2]), sum(buttons))
 
@@ -197,7 +213,9 @@ def _lines(boards: VirtualBoards, words: list[str]) -> Sequence[SerialLine]:
 def _axis(boards: VirtualBoards, words: list[str]) -> int:
     names = boards.machine.names
     if not words or words[0] not in names:
-        raise FaultCommandError(f"there must be an axis: one of {', '.join(names)}")
+        raise FaultCommandError(
+            message("engine", "there must be an axis: one of {names}").fill(names=", ".join(names))
+        )
     return names.index(words.pop(0))
 
 
@@ -206,7 +224,11 @@ def _count(words: list[str], most: int) -> int:
     word = words.pop(0) if words else ""
     _end(words)
     if not (word.isascii() and word.isdigit() and 1 <= int(word[:9]) <= most):
-        raise FaultCommandError(f"{word!r} must be a number from 1 to {most}")
+        raise FaultCommandError(
+            message("engine", "{word} must be a number from 1 to {most}").fill(
+                word=repr(word), most=most
+            )
+        )
     return int(word)
 
 
@@ -220,11 +242,15 @@ def _duration_s(words: list[str]) -> float:
         value_s = inf
     if not (isfinite(value_s) and 0.0 <= value_s <= _MOST_S):
         raise FaultCommandError(
-            f"there must be a time as '5 ms' or '2 s', of {_MOST_S:g} s at most"
+            message(
+                "engine", "there must be a time as '5 ms' or '2 s', of {most_s} s at most"
+            ).fill(most_s=_MOST_S)
         )
     return value_s
 
 
 def _end(words: list[str]) -> None:
     if words:
-        raise FaultCommandError(f"{' '.join(words)!r} has no place here")
+        raise FaultCommandError(
+            message("engine", "{names} has no place here").fill(names=repr(" ".join(words)))
+        )

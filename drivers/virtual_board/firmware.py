@@ -14,7 +14,7 @@ from rotemina.drivers.mc68hc11.codes import LCD_COLUMNS, LCD_ROWS, Fault, State
 from rotemina.drivers.mc68hc11.framing import Frame
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.virtual_board.axis_drive import AxisDrive
-from rotemina.drivers.virtual_board.clock import BoardClock
+from rotemina.drivers.virtual_board.clock import MASK, BoardClock
 from rotemina.drivers.virtual_board.homing import HomingAxis
 from rotemina.drivers.virtual_board.machine import Machine
 from rotemina.drivers.virtual_board.notes import Notes, StopNote
@@ -109,6 +109,9 @@ class Firmware:
 
     def reset(self, fault: Fault) -> None:
         """Begin anew, as after power came: nobody knows where the steppers are."""
+        self.kept.recall(self.now_s)
+        for axis, drive in enumerate(self.drives):
+            self.rebound(axis, drive)
         self._clear_memory()
         self.clock = BoardClock(self.tick_s, since_s=self.now * self.tick_s)
         self.power_up(fault)
@@ -152,6 +155,7 @@ class Firmware:
             | State.CAPTURING * capturing
             | State.ARMED * (self.profile.trigger is not None)
             | State.POSITION_UNKNOWN * (not self.known)
+            | State.WRITING * self.kept.writing(self.now_s)
         )
 
     def stop(self, heard_s: float) -> None:
@@ -259,13 +263,19 @@ class Firmware:
         if point is not None:
             for drive, position in zip(self.drives, point.position, strict=False):
                 drive.place(position)
-        if self.stream.ran_empty:
+        if self._starving(tick):
             self.halt(Fault.LATE_SETPOINT)
+
+    def _starving(self, tick: int) -> bool:
+        """Whether the stream's next segment should begin by a tick, and is not here."""
+        return self.stream.starves and self.clock.tick_at(self.stream.starts_us, tick) <= tick
 
     def next_action(self) -> float:
         """Return the next tick at which something is due, beyond the present block."""
         ticks = [*self.leases.values()]
         ticks += [one for one in (self.watch_tick, self.stream.next_tick) if one is not None]
+        if self.stream.starves:
+            ticks.append(self.clock.tick_at(self.stream.starts_us, self.now))
         if self._steppers_move():
             ticks.append(self.now + 1 + self._until_look())
         return min(ticks, default=inf)
@@ -324,8 +334,9 @@ class Firmware:
         assert profile.since is not None, "it runs"
         begin_us = self.clock.at_tick(profile.since)
         numbers = range(self.now + 1, self.now + 1 + ticks)
-        elapsed_us = np.array([self.clock.at_tick(one) - begin_us for one in numbers]) % 2.0**32
-        positions = profile.positions(elapsed_us)
+        elapsed_us = np.array([self.clock.at_tick(one) - begin_us & MASK for one in numbers])
+        elapsed = np.rint(elapsed_us / (1e6 * self.tick_s)).astype(np.int64)
+        positions = profile.positions(elapsed)
         low, high = self.kept.limits(axis)
         beyond = np.flatnonzero((np.rint(positions) < low) | (np.rint(positions) > high))
         if len(beyond):
@@ -333,7 +344,7 @@ class Firmware:
         drive.place(float(positions[-1]))
         if len(beyond):
             self.halt(Fault.SOFT_LIMIT)
-        elif elapsed_us[-1] >= profile.duration_us:
+        elif elapsed[-1] >= profile.ticks:
             profile.end()
         return positions
 

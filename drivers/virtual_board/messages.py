@@ -9,7 +9,8 @@ from rotemina.drivers.virtual_board import moving, request_handlers
 from rotemina.drivers.virtual_board.firmware import Firmware
 from rotemina.drivers.virtual_board.refusal import RefusedError
 
-_ALWAYS = (requests.Identify.TYPE, requests.Stop.TYPE)  # executed, whatever their number
+_COUNTED = requests.SetPoint.TYPE  # by its own index
+_ALWAYS = (requests.Identify.TYPE, requests.Stop.TYPE, _COUNTED)  # executed, whatever their number
 _HANDLERS = {
     kind.TYPE: (kind, handler) for kind, handler in (*request_handlers.HANDLERS, *moving.HANDLERS)
 }
@@ -28,7 +29,11 @@ def answer(board: Firmware, frame: Frame, at_s: float) -> Frame | None:
         return None
     if board.last is not None and board.last[0] == frame.number and frame.type not in _ALWAYS:
         return board.last[1]
-    said = board.framed(_executed(board, frame, at_s))
+    report = _executed(board, frame, at_s)
+    # Telemetry tells what a stream has; on a bus a board is to answer, or nobody knows whose turn
+    # it is.
+    silent = frame.type == _COUNTED and isinstance(report, reports.Done)
+    said = None if silent and not board.line.half_duplex else board.framed(report)
     board.last = frame.number, said
     return said
 
@@ -41,10 +46,8 @@ def _executed(board: Firmware, frame: Frame, at_s: float) -> Message:
         return reports.Refused(frame.number, Refusal.UNKNOWN_TYPE)
     kind, handler = _HANDLERS[frame.type]
     try:
-        message = kind.unpacked(frame.payload)
+        return handler(board, kind.unpacked(frame.payload)) or reports.Done(frame.number)
     except ProtocolError:
         return reports.Refused(frame.number, Refusal.WRONG_LENGTH)
-    try:
-        return handler(board, message) or reports.Done(frame.number)
     except RefusedError as refused:
         return reports.Refused(frame.number, refused.reason)

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from rotemina.drivers.mc68hc11 import requests
 from rotemina.drivers.mc68hc11.codes import SEGMENTS, Fault, Refusal
 from rotemina.drivers.mc68hc11.message import Message
@@ -17,10 +19,11 @@ from rotemina.drivers.virtual_board.refusal import (
     demand_free,
     has_converter,
 )
-from rotemina.drivers.virtual_board.stream import Point
+from rotemina.sim.arrays import IntArray
 
 _MS_US = 1000
-_SLACK = 1.001  # of the greatest speed, that rounding of coefficients takes
+MOST_FRACTION = 16  # binary digits behind the point of a step
+_ROUNDING = 1.0  # steps from one command to the next, that whole steps may make
 
 
 def _move_to(board: Firmware, asked: requests.MoveTo) -> None:
@@ -41,26 +44,54 @@ def _move_velocity(board: Firmware, asked: requests.MoveVelocity) -> None:
         board.leases[axis] = board.now + board.clock.ticks(asked.lease_ms * _MS_US)
 
 
+def _begin_stream(board: Firmware, asked: requests.BeginStream) -> None:
+    demand_free(board)
+    demand(not board.moving, Refusal.BUSY)
+    demand(asked.segments > 0 and asked.hold > 0, Refusal.BAD_VALUE)
+    demand(asked.fraction <= MOST_FRACTION, Refusal.BAD_VALUE)
+    board.profile.clear()  # both lie in the same memory
+    board.stream.begin(asked, [round(drive.position) for drive in board.drives])
+
+
 def _set_point(board: Firmware, asked: requests.SetPoint) -> None:
     stream = board.stream
     if not stream.expects(asked.index):
         demand(stream.has_had(asked.index), Refusal.OUT_OF_ORDER)
         return
-    if not stream.playing:
-        demand_free(board)
-        demand(not board.moving, Refusal.BUSY)
-        board.profile.clear()  # both lie in the same memory
     demand(not stream.full, Refusal.QUEUE_FULL)
-    position = (asked.first, asked.second, asked.third)[: len(board.axes)]
-    tick = board.clock.tick_at(asked.time_us, board.now)
-    demand(stream.last_tick is None or tick >= stream.last_tick, Refusal.BAD_VALUE)
-    if tick <= board.now:
+    differences = asked.differences()
+    demand(len(differences) == len(board.axes), Refusal.WRONG_LENGTH)
+    demand(asked.ticks > 0 and asked.ticks % stream.hold == 0, Refusal.BAD_VALUE)
+    if board.clock.tick_at(stream.starts_us, board.now) <= board.now:
         board.halt(Fault.LATE_SETPOINT)
         raise RefusedError(Refusal.FAULTY)
-    if not all(board.kept.inside(axis, at) for axis, at in enumerate(position)):
+    places = stream.places(asked.ticks, differences)
+    steps = stream.steps(places)
+    ends = [board.kept.limits(axis) for axis in range(len(board.axes))]
+    low, high = np.array(ends).T
+    if ((steps < low) | (steps > high)).any():
         board.halt(Fault.SOFT_LIMIT)
         raise RefusedError(Refusal.BAD_VALUE)
-    stream.take(asked.index, asked.left, Point(tick, position))
+    if _too_fast(board, steps):
+        board.halt(Fault.TOO_FAST)
+        raise RefusedError(Refusal.BAD_VALUE)
+    stream.take(
+        places, lambda at_us: board.clock.tick_at(at_us, board.now), 1e6 * board.tick_s, asked.ticks
+    )
+
+
+def _too_fast(board: Firmware, steps: IntArray) -> bool:
+    """Return whether an axis does not get from one command (n, axes) to the next.
+
+    The first of a stream is where the axes stand. Twice the greatest speed is let pass: of rows
+    that lie between two commands both may act at once.
+    """
+    stream = board.stream
+    ways = np.abs(np.diff(np.vstack((stream.latest, steps)), axis=0))
+    ticks = np.full((len(ways), 1), stream.hold)
+    ticks[0] = stream.hold if stream.begun else 1
+    speeds = [2.0 * board.kept.speed(axis) * board.tick_s for axis in range(len(board.axes))]
+    return bool((ways > ticks * np.array(speeds) + _ROUNDING).any())
 
 
 def _set_voltage(board: Firmware, asked: requests.SetVoltage) -> None:
@@ -90,8 +121,8 @@ def _begin_profile(board: Firmware, asked: requests.BeginProfile) -> None:
     board.profile.begin(axis, asked.segments)
 
 
-def _segment(board: Firmware, asked: requests.Segment) -> None:
-    demand(asked.duration_us > 0, Refusal.BAD_VALUE)
+def _segments(board: Firmware, asked: requests.Segments) -> None:
+    demand(all(one.ticks for one in asked.segments()), Refusal.BAD_VALUE)
     demand(not board.profile.running and board.profile.trigger is None, Refusal.BUSY)
     demand(board.profile.add(asked), Refusal.OUT_OF_ORDER)
 
@@ -101,8 +132,8 @@ def _arm_profile(board: Firmware, asked: requests.ArmProfile) -> None:
     demand(profile.complete, Refusal.OUT_OF_ORDER)
     demand_free(board)
     demand(asked.trigger in (0, 1) and asked.check == profile.check, Refusal.BAD_VALUE)
-    most = _SLACK * board.kept.speed(profile.axis)
-    demand(profile.greatest_speed() <= most, Refusal.BAD_VALUE)
+    most = board.kept.speed(profile.axis) * board.tick_s
+    demand(profile.greatest_speed() <= most + _ROUNDING, Refusal.BAD_VALUE)
     profile.trigger = asked.trigger
 
 
@@ -137,11 +168,12 @@ def _abort_profile(board: Firmware, _: requests.AbortProfile) -> None:
 HANDLERS: tuple[tuple[type[Message], Callable[[Firmware, Any], Message | None]], ...] = (
     (requests.MoveTo, _move_to),
     (requests.MoveVelocity, _move_velocity),
+    (requests.BeginStream, _begin_stream),
     (requests.SetPoint, _set_point),
     (requests.SetVoltage, _set_voltage),
     (requests.Home, _home),
     (requests.BeginProfile, _begin_profile),
-    (requests.Segment, _segment),
+    (requests.Segments, _segments),
     (requests.ArmProfile, _arm_profile),
     (requests.TriggerProfile, _trigger_profile),
     (requests.AbortProfile, _abort_profile),

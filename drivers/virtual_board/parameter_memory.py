@@ -1,5 +1,6 @@
 """The parameters that a board keeps, and what follows from them."""
 
+from collections import deque
 from collections.abc import Sequence
 
 from rotemina.drivers.mc68hc11.axes import BoardAxis
@@ -9,13 +10,19 @@ from rotemina.sim.robot.model import Robot, StepperAxis
 _LOW, _HIGH, _SPEED, _ACCELERATION, _FIFTH, _SIXTH, _SEVENTH, _EIGHTH = range(PER_AXIS)
 _MOST = 1 << 23  # steps: what telemetry has room for
 _MS = 1e3
+_WRITE_S = 4 * 10e-3  # four bytes of the EEPROM, 10 ms each
 
 
 class ParameterMemory:
-    """Eight whole numbers of each axis of a board; they outlive its resets."""
+    """Eight whole numbers of each axis of a board; they outlive its resets once they are written.
+
+    A value holds at once, and goes into the EEPROM in the background.
+    """
 
     def __init__(self, robot: Robot, axes: Sequence[BoardAxis]) -> None:
         self._values = list(parameters_of(robot, axes))
+        self._written = list(self._values)
+        self._waiting: deque[tuple[float, int, int]] = deque()  # written at, index, value
         self._stepper = [isinstance(robot.axes[axis.name], StepperAxis) for axis in axes]
 
     def __len__(self) -> int:
@@ -42,9 +49,24 @@ class ParameterMemory:
             return own[_FIFTH] < own[_SIXTH]
         return value != 0 if which == _EIGHTH else value > 0
 
-    def write(self, index: int, value: int) -> None:
-        """Keep a value that is accepted."""
+    def write(self, index: int, value: int, now_s: float = 0.0) -> None:
+        """Take a value that is accepted, and begin to write it once those before are written."""
         self._values[index] = value
+        begin_s = max(now_s, self._waiting[-1][0]) if self._waiting else now_s
+        self._waiting.append((begin_s + _WRITE_S, index, value))
+
+    def writing(self, now_s: float) -> bool:
+        """Whether values have yet to be written."""
+        while self._waiting and self._waiting[0][0] <= now_s:
+            _, index, value = self._waiting.popleft()
+            self._written[index] = value
+        return bool(self._waiting)
+
+    def recall(self, now_s: float) -> None:
+        """Have what is written, as after power came: what was still to be written is lost."""
+        self.writing(now_s)
+        self._waiting.clear()
+        self._values[:] = self._written
 
     def limits(self, axis: int) -> tuple[int, int]:
         """Return the low and the high limit of an axis, steps."""

@@ -1,15 +1,14 @@
-"""A motion that a board makes alone, at its own control rate: cubic segments of one axis."""
+"""A motion that a board makes alone, at its own control rate: differences of one axis, added up."""
 
 from binascii import crc_hqx
-from collections.abc import Sequence
 
 import numpy as np
 
-from rotemina.drivers.mc68hc11.requests import Segment
-from rotemina.sim.arrays import FloatArray
+from rotemina.drivers.mc68hc11.requests import Quadratic, Segments
+from rotemina.drivers.mc68hc11.uploading import FRACTION, ticks_of
+from rotemina.sim.arrays import FloatArray, IntArray
 
 _START = 0xFFFF  # of the check
-_US = 1e6
 
 
 class Profile:
@@ -18,10 +17,12 @@ class Profile:
     def __init__(self) -> None:
         self.axis = 0
         self._announced = 0
-        self._segments: list[Segment] = []
+        self._segments: list[Quadratic] = []
+        self._told: list[bytes] = []  # payloads, for the check
         self.trigger: int | None = None  # what it waits for
         self.since: int | None = None  # the tick at which it began
         self._from = 0.0
+        self._path: IntArray | None = None  # behind each tick, kept once it was asked for
 
     @property
     def running(self) -> bool:
@@ -36,25 +37,27 @@ class Profile:
     @property
     def check(self) -> int:
         """The check over the payloads of all segments."""
-        return crc_hqx(b"".join(one.packed() for one in self._segments), _START)
+        return crc_hqx(b"".join(self._told), _START)
 
     @property
-    def duration_us(self) -> int:
+    def ticks(self) -> int:
         """How long it takes."""
-        return sum(one.duration_us for one in self._segments)
+        return sum(one.ticks for one in self._segments)
 
     def begin(self, axis: int, segments: int) -> None:
         """Announce a new one."""
         self.clear()
         self.axis, self._announced = axis, segments
 
-    def add(self, segment: Segment) -> bool:
-        """Take the segment whose turn it is, or one that is here already; tell whether it is."""
-        if segment.index < len(self._segments):
-            return self._segments[segment.index] == segment
-        if segment.index != len(self._segments) or self.complete or not self._announced:
+    def add(self, told: Segments) -> bool:
+        """Take segments whose turn it is, or that are here already; tell whether they are."""
+        segments, own = list(told.segments()), self._segments
+        if told.index < len(own):
+            return own[told.index : told.index + len(segments)] == segments
+        if told.index != len(own) or len(own) + len(segments) > self._announced:
             return False
-        self._segments.append(segment)
+        own += segments
+        self._told.append(told.packed())
         return True
 
     def start(self, tick: int, position: float) -> None:
@@ -68,28 +71,17 @@ class Profile:
     def clear(self) -> None:
         """Forget it."""
         self.end()
-        self._announced = 0
+        self._announced, self._path = 0, None
         self._segments.clear()
+        self._told.clear()
 
     def greatest_speed(self) -> float:
-        """Return the greatest speed of all segments, steps/s."""
-        return max(_fastest(one) for one in self._segments)
+        """Return the greatest speed of all segments, steps a tick."""
+        return float(np.abs(np.diff(ticks_of(self._segments), prepend=0)).max()) / FRACTION
 
-    def positions(self, elapsed_us: FloatArray) -> FloatArray:
-        """Return where the axis is to be, steps, at times (n,) after the begin, µs."""
-        found = np.full(len(elapsed_us), self._from)
-        begin_us = 0
-        for one in self._segments:
-            share = np.clip((elapsed_us - begin_us) / one.duration_us, 0.0, 1.0)
-            found += share * (one.c1 + share * (one.c2 + share * one.c3))
-            begin_us += one.duration_us
-        return found
-
-
-def _fastest(segment: Segment) -> float:
-    shares: Sequence[float] = (0.0, 1.0)
-    if segment.c3:
-        turning = -segment.c2 / (3.0 * segment.c3)
-        shares = (0.0, 1.0, min(max(turning, 0.0), 1.0))
-    slopes = [segment.c1 + s * (2.0 * segment.c2 + s * 3.0 * segment.c3) for s in shares]
-    return max(map(abs, slopes)) * _US / segment.duration_us
+    def positions(self, elapsed: IntArray) -> FloatArray:
+        """Return where the axis is to be, steps, so many ticks (n,) after the begin."""
+        if self._path is None:
+            self._path = np.append(0, ticks_of(self._segments))
+        way = self._path[np.clip(elapsed, 0, len(self._path) - 1)]
+        return np.asarray(self._from + np.floor(way / FRACTION + 0.5))

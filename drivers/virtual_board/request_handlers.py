@@ -63,13 +63,7 @@ def _ask_rates(board: Firmware, _: requests.AskRates) -> Message:
 
 
 def _rates(board: Firmware) -> reports.Rates:
-    own, most = rates(board.line), round(1.0 / board.tick_s)
-    return reports.Rates(
-        min(own.telemetry, most),
-        min(own.telemetry_while_capturing, most),
-        min(own.capture_one, most),
-        min(own.capture_three, most),
-    )
+    return rates(board.line, round(1.0 / board.tick_s))
 
 
 def _read_parameter(board: Firmware, asked: requests.ReadParameter) -> Message:
@@ -128,7 +122,7 @@ def _write_parameter(board: Firmware, asked: requests.WriteParameter) -> None:
     demand(asked.index < len(board.kept), Refusal.BAD_VALUE)
     demand(not board.moving and not board.stream.playing, Refusal.BUSY)
     demand(board.kept.accepts(asked.index, asked.value), Refusal.BAD_VALUE)
-    board.kept.write(asked.index, asked.value)
+    board.kept.write(asked.index, asked.value, board.now_s)
     for axis, drive in enumerate(board.drives):
         board.rebound(axis, drive)
 

@@ -34,6 +34,7 @@ def fresh_sample(board: Firmware) -> Telemetry:
         int(board.state),
         int(board.fault),
         _switches(board),
+        board.stream.expected,
         tuple(zip(readings, commands, strict=True)),
     )
 

@@ -4,14 +4,8 @@ from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
-    QFileDialog,
-    QFrame,
     QHBoxLayout,
-    QScrollArea,
-    QStackedWidget,
-    QTabBar,
     QVBoxLayout,
 )
 
@@ -21,10 +15,12 @@ from rotemina.app.calibration.store import Stored
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.file_dialog import ask_files
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.plugins.calibration.engine_words import spoken
+from rotemina.app.widgets.scroll import least_width, scrolled, tabbed
 from rotemina.plugins.calibration.procedure import Procedure
 from rotemina.plugins.calibration.result_view import ResultView
 from rotemina.plugins.calibration.stored_view import StoredView
@@ -59,18 +55,14 @@ class CalibrationPanel(Panel):
         self._sources: tuple[Source, ...] = ()
         self._motion: CheckedTrajectory | None = None
         self._run: CalibrationRun | None = None
-        self.views = QStackedWidget()
-        self.tabs = QTabBar()
-        self.tabs.setAccessibleName(translate("calibration", "What is shown"))
-        self.tabs.setExpanding(False)
-        self.tabs.setDrawBase(False)
-        for view, name in (
-            (self.result, translate("calibration", "Result")),
-            (self.result.iso, "ISO 230-2"),
-            (self.stored, translate("calibration", "Stored")),
-        ):
-            self.views.addWidget(view)
-            self.tabs.addTab(name)
+        self.tabs, self.views = tabbed(
+            translate("calibration", "What is shown"),
+            {
+                translate("calibration", "Result"): self.result,
+                "ISO 230-2": self.result.iso,
+                translate("calibration", "Stored"): self.stored,
+            },
+        )
         self.tabs.setTabEnabled(_ISO, False)
         self._lay_out()
         self._connect()
@@ -247,19 +239,9 @@ class CalibrationPanel(Panel):
         )
 
     def _ask_records(self) -> None:
-        settings = self.workbench.settings
-        folder = settings.get("files.folder", "")
-        dialog = QFileDialog(
-            self,
-            translate("calibration", "Records with sensor and laser"),
-            folder,
-            translate("calibration", RECORDS),
-        )
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFiles)
-        dialog.filesSelected.connect(lambda names: self.fit_files([Path(name) for name in names]))
-        dialog.show()
+        title = translate("calibration", "Records with sensor and laser")
+        kinds = translate("calibration", RECORDS)
+        ask_files(self, self.workbench, title, kinds, self.fit_files)
 
     def _close_run(self) -> None:
         if self._run is not None:
@@ -269,7 +251,6 @@ class CalibrationPanel(Panel):
         self.result.set_theme(theme)
 
     def _connect(self) -> None:
-        self.tabs.currentChanged.connect(self.views.setCurrentIndex)
         self.procedure.changed.connect(self._forget_plan)
         self.procedure.plan.clicked.connect(self.plan)
         self.procedure.run.clicked.connect(self.start)
@@ -282,14 +263,8 @@ class CalibrationPanel(Panel):
         self.workbench.closing.connect(self._close_run)
 
     def _lay_out(self) -> None:
-        scroll = QScrollArea()
-        scroll.setObjectName("panelScroll")
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(self.procedure)
-        bar = scroll.verticalScrollBar().sizeHint().width()
-        scroll.setFixedWidth(max(self.procedure.minimumSizeHint().width() + bar, _WIDTH))
+        scroll = scrolled(self.procedure)
+        scroll.setFixedWidth(max(least_width(scroll), _WIDTH))
         right = QVBoxLayout()
         right.setSpacing(4)
         right.addWidget(self.tabs)

@@ -17,10 +17,10 @@ from PySide6.QtWidgets import (
 from rotemina.app.calibration.run import Phase, RunState
 from rotemina.app.display import label
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import allow
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.calibration.engine_words import spoken
 from rotemina.plugins.calibration.words import NOTHING, cycles, progress
 from rotemina.sim.calibration.plan import RUNS, TARGETS
 from rotemina.sim.records.record import Record
@@ -57,7 +57,7 @@ class Procedure(QWidget):
                 "calibration", "5 to 101 positions that are approached from both sides (ISO 230-2)"
             )
         )
-        self.absolute = QCheckBox(translate("calibration", "the laser's zero is the axis'"))
+        self.absolute = QCheckBox(translate("calibration", "the laser's zero is the axis' zero"))
         self.absolute.setChecked(True)
         self.absolute.setToolTip(
             translate(

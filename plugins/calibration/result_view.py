@@ -5,11 +5,12 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
 
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
-from rotemina.plugins.calibration.sheet import Sheet
+from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.calibration.words import (
     FIGURES_HEAD,
     ISO_HEAD,
@@ -48,9 +49,14 @@ class ResultView(QWidget):
         self.plot = SignalPlot(theme)
         self.plot.setMinimumSize(160, 90)
         for name, role in (("before", "real"), ("after", "good"), ("", "command")):
-            self.plot.add_curve(name, role)
-        self.figures = Sheet(translate("calibration", "Figures of the sensor"), shown(FIGURES_HEAD))
-        self.iso = Sheet(translate("calibration", "Figures of ISO 230-2"), shown(ISO_HEAD))
+            self.plot.add_curve(name, Line(role))
+        self.figures, self.iso = (
+            Table(name, shown(head), choose=False)
+            for name, head in (
+                (translate("calibration", "Figures of the sensor"), FIGURES_HEAD),
+                (translate("calibration", "Figures of ISO 230-2"), ISO_HEAD),
+            )
+        )
         self.verdict = QLabel()
         self.verdict.setTextFormat(Qt.TextFormat.PlainText)
         self.verdict.setWordWrap(True)
@@ -98,10 +104,7 @@ class ResultView(QWidget):
             return
         curves = self._drawing.curves
         named = [(translate("calibration", name), role) for name, role, _ in curves if name]
-        names = ", ".join(
-            f'<span style="color:{getattr(self._theme, role)}">{escape(name)}</span>'
-            for name, role in named
-        )
+        names = legend(self._theme, named)
         self.title.setText(f"{escape(self._drawing.left)}{': ' if names else ''}{names}")
 
     def _lay_out(self) -> None:

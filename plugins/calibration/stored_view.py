@@ -6,9 +6,9 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from rotemina.app.calibration.store import Stored
-from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.calibration.sheet import Sheet
+from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.calibration.words import STORED_HEAD, shown, stored_row
 
 _NONE = marked("calibration", "choose a calibration in the table")
@@ -27,9 +27,7 @@ class StoredView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.stored: tuple[Stored, ...] = ()
-        self.table = Sheet(
-            translate("calibration", "Stored calibrations"), shown(STORED_HEAD), choose=True
-        )
+        self.table = Table(translate("calibration", "Stored calibrations"), shown(STORED_HEAD))
         self.table.itemSelectionChanged.connect(self._allow)
         self.on, self.off = (
             QPushButton(translate("calibration", "Use")),
@@ -79,7 +77,7 @@ class StoredView(QWidget):
         allow(
             self.on,
             none if chosen is None else already,
-            translate("calibration", "Correct the axis' readings by it"),
+            translate("calibration", "Correct the axis' readings with it"),
         )
         allow(
             self.off,

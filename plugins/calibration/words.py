@@ -1,6 +1,5 @@
 """What the calibration panel says and draws, free of widgets."""
 
-import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -8,15 +7,15 @@ import numpy as np
 
 from rotemina.app.calibration.run import Phase, RunState
 from rotemina.app.calibration.store import Stored
-from rotemina.app.calibration.words import amount, figure_rows, iso_rows
+from rotemina.app.calibration.words import figure_rows, iso_rows
 from rotemina.app.display import duration_text, label
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.calibration.engine_words import spoken
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.calibrating import Calibration
+from rotemina.sim.quantities import amount, scale_of
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot, StepperAxis
-from rotemina.sim.units import drawing_unit, symbol, to_unit
 
 STORED_HEAD = (
     marked("calibration", "axis"),
@@ -30,24 +29,7 @@ ISO_HEAD = (
     "ISO 230-2",
     marked("calibration", "reading before"),
     marked("calibration", "after"),
-    marked("calibration", "where it went"),
-)
-# Figures as the model and ISO 230-2 call them.
-FIGURES = (
-    marked("calibration", "offset"),
-    marked("calibration", "gain error"),
-    marked("calibration", "nonlinearity"),
-    marked("calibration", "hysteresis"),
-    marked("calibration", "interpolation error"),
-    marked("calibration", "its period"),
-    marked("calibration", "lag, time constant"),
-    marked("calibration", "lag, delay"),
-    marked("calibration", "A, accuracy"),
-    marked("calibration", "R, repeatability"),
-    marked("calibration", "B, reversal value"),
-    marked("calibration", "B̄, mean reversal"),
-    marked("calibration", "E, systematic deviation"),
-    marked("calibration", "M, mean bidirectional"),
+    marked("calibration", "position reached"),
 )
 NOTHING = marked(
     "calibration", "Plan the motion and run it, or fit records that hold the sensor and the laser."
@@ -65,23 +47,24 @@ class Drawing(NamedTuple):
 
 def planned(motion: Record, axis: str, robot: Robot) -> str:
     """Return what a motion is."""
-    runs, what = motion.metadata["calibration"].partition(": ")[2].split(" runs, ", 1)
-    targets = re.search(r"of (\d+) targets", what)
-    text = translate("calibration", "{axis}: {runs} runs, triangles and moves, {ends}, {time} min")
-    if targets is not None:
+    if cycles(robot, axis):
         text = translate(
             "calibration",
             "{axis}: {runs} runs, ISO 230-2 cycles of {targets} targets, {ends}, {time} min",
         )
+    else:
+        text = translate(
+            "calibration", "{axis}: {runs} runs, triangles and moves, {ends}, {time} min"
+        )
     low, high = (float(end(motion.signal(axis, Tap.CMD))) for end in (np.min, np.max))
     unit = robot.unit(axis) or "m"
     ends = translate("calibration", "{low} to {high}").format(
-        low=amount(low, unit, scale=high), high=amount(high, unit, scale=high)
+        low=amount(low, unit, size=high), high=amount(high, unit, size=high)
     )
     return text.format(
         axis=label(axis),
-        runs=runs,
-        targets=targets[1] if targets is not None else "",
+        runs=motion.metadata["calibration_runs"],
+        targets=motion.metadata.get("calibration_targets", ""),
         ends=ends,
         time=duration_text(motion.duration_s),
     )
@@ -90,13 +73,12 @@ def planned(motion: Record, axis: str, robot: Robot) -> str:
 def motion_drawing(motion: Record, axis: str) -> Drawing:
     """Return the motion's set-point over time."""
     command = motion.signal(axis, Tap.CMD)
-    unit = drawing_unit(motion.units[axis], float(np.abs(command).max()))
-    values = np.asarray(to_unit(command, unit))
+    scale = scale_of(motion.units[axis], float(np.abs(command).max()))
     return Drawing(
-        translate("calibration", "set-point [{unit}]").format(unit=symbol(unit)),
+        translate("calibration", "set-point [{unit}]").format(unit=scale.symbol),
         translate("calibration", "time [s]"),
         motion.time_s,
-        (("", "command", values),),
+        (("", "command", scale(command)),),
     )
 
 
@@ -104,20 +86,19 @@ def error_drawing(calibration: Calibration) -> Drawing:
     """Return the reading's errors at held-out runs, before and after, over the position."""
     order = np.argsort(calibration.position, kind="stable")
     largest = float(np.percentile(np.abs(calibration.before), 99.5)) or 1e-12
-    unit = drawing_unit(calibration.unit, largest)
-    across = drawing_unit(calibration.unit, float(np.abs(calibration.position).max()))
+    scale = scale_of(calibration.unit, largest)
+    across = scale_of(calibration.unit, float(np.abs(calibration.position).max()))
     curves = tuple(
-        (name, role, np.asarray(to_unit(error[order], unit)))
+        (name, role, scale(error[order]))
         for name, role, error in (
             (marked("calibration", "before"), "real", calibration.before),
             (marked("calibration", "after"), "good", calibration.after),
         )
     )
-    position = np.asarray(to_unit(calibration.position[order], across))
     return Drawing(
-        translate("calibration", "error of the reading [{unit}]").format(unit=symbol(unit)),
-        translate("calibration", "position [{unit}]").format(unit=symbol(across)),
-        position,
+        translate("calibration", "error of the reading [{unit}]").format(unit=scale.symbol),
+        translate("calibration", "position [{unit}]").format(unit=across.symbol),
+        across(calibration.position[order]),
         curves,
     )
 
@@ -196,4 +177,4 @@ def cycles(robot: Robot, axis: str) -> bool:
 
 def _named(rows: Iterable[tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
     """Return rows with their figures' names in the language of the window."""
-    return tuple((translate("calibration", name), *values) for name, *values in rows)
+    return tuple((spoken(name), *values) for name, *values in rows)

@@ -5,14 +5,10 @@ from html import escape
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
     QPushButton,
     QSplitter,
-    QTableWidget,
-    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
@@ -21,19 +17,20 @@ from rotemina.app.display import label
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.gap_words import RUN, size
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.plot import LINES, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
+from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.table import Table
 from rotemina.sim.comparison.comparison import TapComparison
 from rotemina.sim.comparison.gap import GapFigure, gap_text
 from rotemina.sim.comparison.table import HEAD, cells
+from rotemina.sim.quantities import scale_of
 from rotemina.sim.records.record import Tap
-from rotemina.sim.units import drawing_unit, symbol, to_unit
 
-RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 EMPTY = marked(
     "comparison",
-    "Play a trajectory, or open a record of the real machine, to see how far the model is.",
+    "Play a trajectory or open a record of the real machine to see how far the model is off.",
 )
 COLUMNS = (
     marked("comparison", "tap"),
@@ -68,12 +65,16 @@ class ComparisonPanel(Panel):
         self.summary = QLabel(translate("comparison", EMPTY))
         self.summary.setWordWrap(True)
         self.summary.setTextFormat(Qt.TextFormat.PlainText)
-        self.table = _table()
+        self.table = Table(
+            translate("comparison", "Signals and their gaps"),
+            [translate("shell" if name is RUN else "comparison", name) for name in COLUMNS],
+            row_height=24,
+        )
         self.table.itemSelectionChanged.connect(self._draw)
         self.signals, self.gap = SignalPlot(workbench.theme), SignalPlot(workbench.theme)
-        self.signals.add_curve("model", "model", width=3)
-        self.signals.add_curve("real", "real")
-        self.gap.add_curve("gap", "text")
+        self.signals.add_curve("model", LINES["model"])
+        self.signals.add_curve("real", LINES["measured"])
+        self.gap.add_curve("gap", LINES["gap"])
         self.signals_title, self.gap_title = QLabel(), QLabel()
         self.gap.setXLink(self.signals)
         self.signals.show_times(True)
@@ -107,13 +108,9 @@ class ComparisonPanel(Panel):
             + (f"  ·  {run.model_id}" if run.model_id else "")
         )
         self.save.setEnabled(True)
-        self.table.setRowCount(len(run.comparison.taps))
-        for row, tap in enumerate(run.comparison.taps):
-            for column, text in enumerate(_row(tap, run.gaps[tap.axis, Tap(tap.tap)])):
-                item = QTableWidgetItem(text)
-                if column:
-                    item.setTextAlignment(RIGHT)
-                self.table.setItem(row, column, item)
+        self.table.show_rows(
+            [_row(tap, run.gaps[tap.axis, Tap(tap.tap)]) for tap in run.comparison.taps]
+        )
         worst = _worst(run.comparison.taps)
         self.table.selectRow(worst)
         self.table.scrollToItem(self.table.item(worst, 0))
@@ -128,24 +125,22 @@ class ComparisonPanel(Panel):
         real = record.signal(tap.axis, Tap(tap.tap))
         model = run.comparison.response.signal(tap.axis, Tap(tap.tap))
         time_s = record.time_s - record.time_s[0]
-        unit = drawing_unit(tap.unit, float(abs(real).max()))
-        gap_unit = drawing_unit(tap.unit, tap.peak)
-        self.signals.show_signal("real", time_s, to_unit(real, unit))
-        self.signals.show_signal("model", time_s, to_unit(model, unit))
-        self.gap.show_signal("gap", time_s, to_unit(real - model, gap_unit))
+        scale = scale_of(tap.unit, float(abs(real).max()))
+        gap = scale_of(tap.unit, tap.peak)
+        self.signals.show_signal("real", time_s, scale(real))
+        self.signals.show_signal("model", time_s, scale(model))
+        self.gap.show_signal("gap", time_s, gap(real - model))
         self.signals.set_time(0.0, max(record.duration_s, 1e-9))
-        theme = self.workbench.theme
-        told_real, told_model = (
-            translate("comparison", "real"),
-            translate("comparison", "model in use"),
+        named = (
+            (translate("comparison", "real"), "real"),
+            (translate("comparison", "model in use"), "model"),
         )
         self.signals_title.setText(
-            f"{escape(label(tap.axis))} {tap.tap} [{symbol(unit)}]: "
-            f'<span style="color:{theme.real}">{told_real}</span>, '
-            f'<span style="color:{theme.model}">{told_model}</span>'
+            f"{escape(label(tap.axis))} {tap.tap} [{scale.symbol}]: "
+            f"{legend(self.workbench.theme, named)}"
         )
         self.gap_title.setText(
-            translate("comparison", "real − model [{symbol}]").format(symbol=symbol(gap_unit))
+            translate("comparison", "real − model [{symbol}]").format(symbol=gap.symbol)
         )
         self.signals.enableAutoRange(axis="y")
         self.gap.enableAutoRange(axis="y")
@@ -170,20 +165,6 @@ def _titled(title: QLabel, plot: SignalPlot) -> QWidget:
     column.addWidget(title)
     column.addWidget(plot, 1)
     return box
-
-
-def _table() -> QTableWidget:
-    table = QTableWidget(0, len(COLUMNS))
-    table.setHorizontalHeaderLabels(
-        [translate("shell" if name is RUN else "comparison", name) for name in COLUMNS]
-    )
-    table.verticalHeader().hide()
-    table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-    table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-    table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-    table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-    table.verticalHeader().setDefaultSectionSize(24)
-    return table
 
 
 def _row(tap: TapComparison, figure: GapFigure | None) -> list[str]:

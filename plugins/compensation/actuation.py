@@ -5,19 +5,19 @@ from collections.abc import Callable
 from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.regulation import NamedRegulation, regulation_of
 from rotemina.app.motion.state import Event, PlaybackFinished, SessionState
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.learning import Learned
-from rotemina.plugins.compensation.trial import Aid, Trial, trial_motion, trial_of
+from rotemina.plugins.compensation.trial_motion import Aid, Trial, trial_motion, trial_of
+from rotemina.plugins.compensation.typed_gains import typed_loop
 from rotemina.plugins.compensation.views import LiveView
 from rotemina.plugins.compensation.words import (
     APPLY,
     AT_A_LIMIT,
-    NO_FRONT,
     SWEEP,
     SWITCH,
     exceedance_text,
@@ -26,7 +26,9 @@ from rotemina.plugins.compensation.words import (
 )
 from rotemina.sim.compensate.conditioning import conditioning
 from rotemina.sim.compensate.judgement import NAMES
+from rotemina.sim.feedback.gains import Gains
 from rotemina.sim.records.record import Record
+from rotemina.sim.robot.model import Robot
 from rotemina.sim.tuning.result import Tuning
 
 
@@ -48,41 +50,54 @@ class Actuation:
     def switch(self, learned: Learned | None, source: str) -> None:
         """Put the chosen inverse on its axis, or take off what is on."""
         session, axis = self._workbench.session, self._controls.chosen
-        if axis in session.compensated:
-            self._workbench.ask(lambda: session.uncompensate(axis))
+        if axis in session.inverses.applied:
+            self._workbench.ask(lambda: session.inverses.remove(axis))
             return
         if learned is None or learned.axis != axis:
             return
         kind = self._controls.kind.currentData()
         name = f"{NAMES[kind]}, {source}"
         inverse = NamedInverse(learned.trained.models[kind], learned.provenance.robot, name)
-        self._workbench.ask(lambda: session.compensate(inverse))
+        self._workbench.ask(lambda: session.inverses.apply(inverse))
 
     def apply(self, tuning: Tuning | None, name: str) -> None:
-        """Close the loop of the marked point, if it is stable, or open the one that is closed."""
+        """Close the loop of the gains shown, if it is stable, or open the one that is closed.
+
+        They are those of the marked point, unless others were typed.
+        """
         workbench, axis = self._workbench, self._controls.chosen
         session, robot = workbench.session, workbench.robot
-        if axis in session.regulated:
-            workbench.ask(lambda: session.unregulate(axis))
+        if axis in session.loops.applied:
+            workbench.ask(lambda: session.loops.remove(axis))
             return
-        if tuning is None or tuning.axis != axis:
-            return
+        own = tuning if tuning is not None and tuning.axis == axis else None
         permit = session.permit()  # a stop while the loop is checked ends the wish
 
         def done(loop: NamedRegulation) -> None:
-            workbench.ask(lambda: session.regulate(loop, permit=permit))
+            workbench.ask(lambda: session.loops.apply(loop, permit=permit))
 
-        workbench.work(
-            "apply gains",
-            translate("compensation", "Checking the loop …"),
-            lambda: regulation_of(robot, tuning, name),
-            done,
-        )
+        make = self._loop_of(robot, axis, own, name)
+        if make is not None:
+            checking = translate("compensation", "Checking the loop …")
+            workbench.work("apply gains", checking, make, done)
+
+    def _loop_of(
+        self, robot: Robot, axis: str, tuning: Tuning | None, name: str
+    ) -> Callable[[], NamedRegulation] | None:
+        """Return what makes the loop; None where what was typed is none, which is told."""
+        fields = self._controls.typed
+        if tuning is not None and not fields.typed:
+            return lambda: regulation_of(robot, tuning, name)
+        found: list[Gains] = []
+        base = tuning.best.gains if tuning is not None else None
+        if not self._workbench.ask(lambda: found.append(fields.gains(axis, base))):
+            return None
+        return lambda: typed_loop(robot, axis, found[0])
 
     def sweep(self) -> None:
         """Swing over all that the inverse saw, with the inverse on."""
         session, axis = self._workbench.session, self._controls.chosen
-        inverse = session.compensated.get(axis)
+        inverse = session.inverses.applied.get(axis)
         if inverse is not None:
             start = session.snapshot().command[axis]
             self._play(lambda: conditioning(self._workbench.robot, inverse.model, start))
@@ -110,18 +125,16 @@ class Actuation:
             self.trials[trial.by] = trial
             self._live.show_trial(trial, self._unit)
 
-    def refresh(self, state: SessionState, other: str | None, tuning: Tuning | None) -> None:
+    def refresh(self, state: SessionState, other: str | None) -> None:
         """Show what is on and was left, and what can be done; ``other``: why no inverse is."""
         controls, session, axis = self._controls, self._workbench.session, self._controls.chosen
         for one, told in controls.residuals.items():
             told.setText(residual_text(self.trials.get(one), self._unit))
-        inverse_on, loop_on = axis in session.compensated, axis in session.regulated
+        inverse_on, loop_on = axis in session.inverses.applied, axis in session.loops.applied
         controls.switch.setText(translate("compensation", SWITCH[inverse_on]))
         controls.apply.setText(translate("compensation", APPLY[loop_on]))
-        said = exceedance_text(session.beyond_inverse(axis))
-        at_limit = (
-            translate("compensation", AT_A_LIMIT) if axis in session.regulation_limited else ""
-        )
+        said = exceedance_text(session.inverses.exceedance(axis))
+        at_limit = translate("compensation", AT_A_LIMIT) if axis in session.loops.limited else ""
         controls.beyond.setText(" ".join(filter(None, (said, at_limit))))
         moves = (
             None if state.activity is DeviceState.IDLE else translate("compensation", "it moves")
@@ -130,19 +143,15 @@ class Actuation:
         still = locked or moves or owners_text(state.owners)
         no_axis = None if axis else translate("compensation", "the robot has no piezo in open loop")
         allow(controls.switch, still or (None if inverse_on else other), self._switch_tip())
-        no_loop = session.no_regulation or self._no_point(tuning)
+        no_loop = session.loops.unavailable or no_axis
         tip = translate(
             "compensation",
-            "Close the marked point's loop around the axis, which stays in place, or open it",
+            "Close a loop of these gains around the axis, which stays in place, or open it",
         )
         allow(controls.apply, still or (None if loop_on else no_loop), tip)
         no_inverse = (
             None if inverse_on else translate("compensation", "no inverse is on: put one on first")
         )
-        if inverse_on and not session.compensates_all:
-            no_inverse = translate(
-                "compensation", "this device sends only trajectories through the inverse"
-            )
         allow(controls.sweep, still or no_inverse, translate("compensation", SWEEP))
         allow(
             controls.trial,
@@ -150,24 +159,16 @@ class Actuation:
             translate("compensation", "Play 6 s of swings over 60 % of the range"),
         )
 
-    def _no_point(self, tuning: Tuning | None) -> str | None:
-        """Return why no point of a front can be applied to the axis; None if one can."""
-        if tuning is None:
-            return translate("compensation", NO_FRONT)
-        if tuning.axis == self._controls.chosen:
-            return None
-        text = translate("compensation", "the gains in hand are of axis {axis}")
-        return text.format(axis=tuning.axis)
-
     def _switch_tip(self) -> str:
-        if self._workbench.session.compensates_all:
+        if self._workbench.session.inverses.live:
             return translate(
                 "compensation",
                 "Every set-point of this axis goes through the inverse; the axis stays in place",
             )
         return translate(
             "compensation",
-            "Played trajectories go through the inverse; single moves go as they are told",
+            "Ends of moves, speeds and each row of a trajectory go through the inverse; "
+            "the axis stays in place",
         )
 
     def _play(self, motion: Callable[[], Record], begun: Callable[[], None] = lambda: None) -> None:

@@ -15,7 +15,8 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.compensation.trial import Aid
+from rotemina.plugins.compensation.trial_motion import Aid
+from rotemina.plugins.compensation.typed_gains import TypedGains
 from rotemina.plugins.compensation.words import APPLY, LIVE_LOOP, SWITCH
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
@@ -83,6 +84,7 @@ class Controls(QWidget):
         self.forward.setToolTip(
             translate("compensation", "Feed the reference forward through the inverse in hand")
         )
+        self.typed = TypedGains(robot)
         self.stop = QPushButton(translate("compensation", "Stop"))
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
@@ -116,8 +118,9 @@ class Controls(QWidget):
             ((self.tune, 1), (self.generations, 1)),
             ((self.forward, 3),),
             ((self.point, 3),),
+            ((self.typed, 3),),
             ((self.apply, 1), (self.keep, 1), (self.open_gains, 1)),
-            ((_head(translate("compensation", "What is left of the error on a trial")), 3),),
+            ((_head(translate("compensation", "Remaining error of a trial")), 3),),
             *(
                 ((_plain(translate("compensation", _LEFT[one])), 1), (told, 2))
                 for one, told in self.residuals.items()

@@ -4,27 +4,24 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import (
     QDockWidget,
-    QFileDialog,
-    QFrame,
     QHBoxLayout,
-    QPushButton,
-    QScrollArea,
-    QStackedWidget,
-    QTabBar,
     QVBoxLayout,
 )
 
 from rotemina.app.motion.compensation import NamedInverse, check_belongs
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.file_dialog import ask_file, ask_files, ask_where
 from rotemina.app.shell.job import Job, Tell
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.scroll import least_width, scrolled, tabbed
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.compensation.actuation import Actuation
 from rotemina.plugins.compensation.controls import Controls
@@ -35,9 +32,9 @@ from rotemina.plugins.compensation.learning import (
     learned_simulated,
 )
 from rotemina.plugins.compensation.searching import Searching
-from rotemina.plugins.compensation.trial import NAME
+from rotemina.plugins.compensation.trial_motion import NAME
 from rotemina.plugins.compensation.views import CheckView, FrontView, LiveView
-from rotemina.plugins.compensation.words import NO_FRONT, NOTHING, kind_name, stage
+from rotemina.plugins.compensation.words import NO_FRONT, NOTHING, kind_name
 from rotemina.sim.compensate.file import read_trained, write_trained
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.model import Robot
@@ -69,17 +66,14 @@ class CompensationPanel(Panel):
         self.job = Job(self)
         self.learned: Learned | None = None
         self._source = ""
-        self.views, self.tabs = QStackedWidget(), QTabBar()
-        self.tabs.setAccessibleName(translate("compensation", "What is shown"))
-        self.tabs.setExpanding(False)
-        self.tabs.setDrawBase(False)
-        for view, name in (
-            (self.check, translate("compensation", "Check")),
-            (self.live, translate("compensation", "Live")),
-            (self.front, translate("compensation", "Tuning")),
-        ):
-            self.views.addWidget(view)
-            self.tabs.addTab(name)
+        self.tabs, self.views = tabbed(
+            translate("compensation", "What is shown"),
+            {
+                translate("compensation", "Check"): self.check,
+                translate("compensation", "Live"): self.live,
+                translate("compensation", "Tuning"): self.front,
+            },
+        )
         self._lay_out()
         self._connect()
         self._change_axis()
@@ -179,7 +173,7 @@ class CompensationPanel(Panel):
 
     def _robot(self) -> Robot:
         """Return the robot with the effects that act on the simulated machine just now."""
-        robot, effects = self.workbench.robot, self.workbench.session.effects
+        robot, effects = self.workbench.robot, self.workbench.session.service.effects
         return robot if effects is None else replace(robot, effects=effects)
 
     def _learn(self, source: str, work: Callable[[Listener], Learned]) -> None:
@@ -190,7 +184,7 @@ class CompensationPanel(Panel):
         self.job.start(named)
 
     def _told(self, what: str, share: float, _news: object) -> None:
-        self.controls.tell(stage(what), share)
+        self.controls.tell(spoken(what), share)
 
     def _finished(self, answer: tuple[str, Learned]) -> None:
         self.controls.tell("", None)
@@ -243,7 +237,7 @@ class CompensationPanel(Panel):
         none = None if self.learned is not None else translate("compensation", NOTHING)
         other = self._other(axis)
         point = None if self.search.tuning is not None else translate("compensation", NO_FRONT)
-        self.actuation.refresh(state, other, self.search.tuning)
+        self.actuation.refresh(state, other)
         allow(
             controls.simulate,
             busy,
@@ -259,8 +253,8 @@ class CompensationPanel(Panel):
             busy,
             translate("compensation", "Learn from records with cmd and meas, or ref"),
         )
-        allow(controls.open, busy, translate("compensation", "Take the inverses of a file"))
-        allow(controls.save, none, translate("compensation", "Keep these inverses in a file"))
+        allow(controls.open, busy, translate("compensation", "Load inverses from a file"))
+        allow(controls.save, none, translate("compensation", "Save these inverses to a file"))
         allow(
             controls.tune,
             busy,
@@ -279,7 +273,7 @@ class CompensationPanel(Panel):
         allow(
             controls.open_gains,
             busy,
-            translate("compensation", "Take the gains of a file, as rotemina tune writes one"),
+            translate("compensation", "Load gains from a file that rotemina tune wrote"),
         )
         working = running or state.activity is DeviceState.PLAYING
         allow(
@@ -311,38 +305,15 @@ class CompensationPanel(Panel):
         ):
             button.clicked.connect(action)
         controls.axis.currentIndexChanged.connect(lambda _: self._change_axis())
-        self._ask(controls.files, translate("compensation", "Records"), RECORDS, self.learn_files)
-        self._ask(
-            controls.open,
-            translate("compensation", "Inverses"),
-            INVERSES,
-            lambda paths: self.open_file(paths[0]),
-        )
-        self._ask(
-            controls.save,
-            translate("compensation", "Keep inverses"),
-            INVERSES,
-            lambda paths: self.save_file(paths[0]),
-            keep=True,
-        )
-        self._ask(
-            controls.keep,
-            translate("compensation", "Keep gains"),
-            TUNINGS,
-            lambda paths: self.search.keep(paths[0]),
-            keep=True,
-        )
-        self._ask(
-            controls.open_gains,
-            translate("compensation", "Gains"),
-            TUNINGS,
-            lambda paths: self.search.open(paths[0]),
-        )
+        controls.files.clicked.connect(self._ask_records)
+        controls.open.clicked.connect(self._ask_inverses)
+        controls.save.clicked.connect(self._ask_where_inverses)
+        controls.keep.clicked.connect(self._ask_where_gains)
+        controls.open_gains.clicked.connect(self._ask_gains)
         self.job.told.connect(self._told)
         self.job.finished.connect(self._finished)
         self.job.failed.connect(self._failed)
         self.search.failed.connect(self._failed)
-        self.tabs.currentChanged.connect(self.views.setCurrentIndex)
         self._happened.connect(self.actuation.heard)
         self._unsubscribe = self.workbench.session.subscribe(self._happened.emit)
         self.follow(self._refresh)
@@ -350,33 +321,26 @@ class CompensationPanel(Panel):
         self.workbench.run_changed.connect(self._come_forward)
         self.workbench.closing.connect(self._close)
 
-    def _ask(
-        self,
-        button: QPushButton,
-        title: str,
-        kinds: str,
-        done: Callable[[list[Path]], None],
-        *,
-        keep: bool = False,
-    ) -> None:
-        """Let a button ask for files of some kinds, a marked text; to ``keep`` is a new one."""
+    def _ask_records(self) -> None:
+        title, kinds = translate("compensation", "Records"), translate("compensation", RECORDS)
+        ask_files(self, self.workbench, title, kinds, self.learn_files)
 
-        def ask() -> None:
-            folder = self.workbench.settings.get("files.folder", "")
-            dialog = QFileDialog(self, title, folder, translate("compensation", kinds))
-            dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-            dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-            if keep:
-                dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-                dialog.setDefaultSuffix(kinds[kinds.index("*.") + 2 :].rstrip(")"))
-            elif kinds is RECORDS:
-                dialog.setFileMode(QFileDialog.FileMode.ExistingFiles)
-            else:
-                dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-            dialog.filesSelected.connect(lambda names: done([Path(name) for name in names]))
-            dialog.show()
+    def _ask_inverses(self) -> None:
+        title, kinds = translate("compensation", "Inverses"), translate("compensation", INVERSES)
+        ask_file(self, self.workbench, title, kinds, self.open_file)
 
-        button.clicked.connect(ask)
+    def _ask_where_inverses(self) -> None:
+        title = translate("compensation", "Save inverses")
+        kinds = translate("compensation", INVERSES)
+        ask_where(self, self.workbench, title, kinds, "inverses.json", self.save_file)
+
+    def _ask_gains(self) -> None:
+        title, kinds = translate("compensation", "Gains"), translate("compensation", TUNINGS)
+        ask_file(self, self.workbench, title, kinds, self.search.open)
+
+    def _ask_where_gains(self) -> None:
+        title, kinds = translate("compensation", "Keep gains"), translate("compensation", TUNINGS)
+        ask_where(self, self.workbench, title, kinds, "gains.toml", self.search.keep)
 
     def _change_axis(self) -> None:
         """Forget the trials of another axis; what is drawn of none yet has this one's unit."""
@@ -386,8 +350,11 @@ class CompensationPanel(Panel):
         self.live.set_unit(unit)
         if self.learned is None:
             self.check.set_unit(unit)
-        if self.search.tuning is None:
+        tuning = self.search.tuning
+        if tuning is None:
             self.front.set_unit(unit)
+        shown = tuning.best.gains if tuning is not None and tuning.axis == axis else None
+        self.controls.typed.show_gains(axis, shown)
 
     def _use_theme(self, theme: Theme) -> None:
         for view in (self.check, self.live, self.front):
@@ -399,14 +366,8 @@ class CompensationPanel(Panel):
         self.search.close()
 
     def _lay_out(self) -> None:
-        scroll = QScrollArea()
-        scroll.setObjectName("panelScroll")
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(self.controls)
-        bar = scroll.verticalScrollBar().sizeHint().width()
-        scroll.setFixedWidth(max(self.controls.minimumSizeHint().width() + bar, _WIDTH))
+        scroll = scrolled(self.controls)
+        scroll.setFixedWidth(max(least_width(scroll), _WIDTH))
         right = QVBoxLayout()
         right.setSpacing(4)
         right.addWidget(self.tabs)

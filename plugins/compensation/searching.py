@@ -78,6 +78,7 @@ class Searching(QObject):
         point = self.tuning.best
         self._front.mark(number)
         self._controls.point.setText(point_text(point, number))
+        self._controls.typed.show_gains(tuning.axis, point.gains)
         if problem is not None:
             self._trying.start(lambda _: problem.try_out(point.gains)[0])
 

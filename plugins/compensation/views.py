@@ -7,21 +7,19 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
-    QTableWidget,
-    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
 
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.compensation.learning import Learned
-from rotemina.plugins.compensation.trial import Aid, Trial
+from rotemina.plugins.compensation.trial_motion import Aid, Trial
 from rotemina.plugins.compensation.words import HEAD, NOTHING, judged, reasons
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.tuning.objectives import SecondObjective
@@ -35,7 +33,6 @@ _INVERTED, _FRONT = marked("compensation", "inverse of it"), marked("compensatio
 _MICRO = 1e6
 _AXIS_WIDTH = 52
 _NEAR_PX = 40.0  # of a click to the point that it means
-_RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
 class _Plot(SignalPlot):
@@ -65,7 +62,7 @@ class Curves(QWidget):
         item = self.plot.getPlotItem()
         item.getAxis("left").setWidth(_AXIS_WIDTH)
         for name, role in roles.items():
-            self.plot.add_curve(name, role, 1)
+            self.plot.add_curve(name, Line(role))
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(2)
@@ -97,11 +94,7 @@ class Curves(QWidget):
         )
         self.plot.getPlotItem().setLabel("bottom", bottom)
         shown = ((translate("compensation", name), role) for name, role in self._roles.items())
-        names = ", ".join(
-            f'<span style="color:{getattr(theme, role)}">{escape(name)}</span>'
-            for name, role in shown
-        )
-        self.title.setText(f"{escape(title)}: {names}")
+        self.title.setText(f"{escape(title)}: {legend(theme, shown)}")
 
 
 class CheckView(QWidget):
@@ -109,16 +102,11 @@ class CheckView(QWidget):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self.table = QTableWidget(0, len(HEAD))
-        self.table.setHorizontalHeaderLabels([translate("compensation", text) for text in HEAD])
-        self.table.setAccessibleName(
-            translate("compensation", "What each inverse leaves of the command, on unseen rows")
+        self.table = Table(
+            translate("compensation", "Residual of each inverse on unseen rows"),
+            [translate("compensation", text) for text in HEAD],
+            choose=False,
         )
-        self.table.verticalHeader().hide()
-        self.table.verticalHeader().setDefaultSectionSize(22)
-        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         self.why = QLabel(translate("compensation", NOTHING))
         self.why.setTextFormat(Qt.TextFormat.PlainText)
         self.why.setWordWrap(True)
@@ -143,14 +131,7 @@ class CheckView(QWidget):
 
     def show_learned(self, learned: Learned) -> None:
         """Show the figures of inverses, and the loop of the recommended one."""
-        rows = judged(learned.trained)
-        self.table.setRowCount(len(rows))
-        for number, texts in enumerate(rows):
-            for column, text in enumerate(texts):
-                item = QTableWidgetItem(text)
-                if column:
-                    item.setTextAlignment(_RIGHT)
-                self.table.setItem(number, column, item)
+        self.table.show_rows(judged(learned.trained))
         self.why.setText(reasons(learned.trained))
         self.loop.clear()
         self.loop.set_unit(next(iter(learned.trained.models.values())).unit)
@@ -173,15 +154,15 @@ class LiveView(QWidget):
         roles = {one.value: role for one, role in names}
         self.loop = Curves(
             theme,
-            marked("compensation", "Reading over what is wanted [{unit}]"),
+            marked("compensation", "Reading over reference [{unit}]"),
             roles,
-            marked("compensation", "wanted [{unit}]"),
+            marked("compensation", "reference [{unit}]"),
         )
         self.left = Curves(
             theme,
-            marked("compensation", "Reading − wanted, mean off [{unit}]"),
+            marked("compensation", "Reading − reference, mean removed [{unit}]"),
             roles,
-            marked("compensation", "wanted [{unit}]"),
+            marked("compensation", "reference [{unit}]"),
         )
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

@@ -1,35 +1,74 @@
 """Which driver, with which settings; connect, disconnect, reconnect."""
 
-from PySide6.QtGui import QStandardItemModel, QWheelEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QToolButton
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QStandardItemModel
+from PySide6.QtWidgets import QToolButton
+from serial.tools import list_ports
 
 from rotemina.app.driver_settings import keep, kept
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.requests import OfferedPort
-from rotemina.app.shell.workbench import Workbench
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.registry import discover_drivers
 from rotemina.plugins.connection import reasons
 from rotemina.plugins.connection.fields import SettingForm
-from rotemina.plugins.connection.ports import PortFinder
-from rotemina.plugins.connection.section import Section, button
 
 
-class DriverChoice(QComboBox):
+def serial_ports() -> list[OfferedPort]:
+    """Return the serial ports that exist; this may take a moment."""
+    return [
+        OfferedPort(str(one.device), str(one.description)) for one in sorted(list_ports.comports())
+    ]
+
+
+class PortFinder(QObject):
+    """Looks for ports in the background.
+
+    Signals
+    -------
+    found(list of OfferedPort)
+    """
+
+    found = Signal(object)
+
+    def __init__(self, workbench: Workbench, parent: QObject) -> None:
+        super().__init__(parent)
+        self._background = Background(self)
+        self._notify = workbench.notify
+        workbench.closing.connect(self._background.wait)
+
+    def look(self) -> None:
+        """Look once more."""
+        self._background.run("ports", serial_ports, self.found.emit, self._failed)
+
+    def _failed(self, message: str) -> None:
+        self._notify(
+            Level.WARNING,
+            translate("connection", "Serial ports cannot be listed: {message}").format(
+                message=message
+            ),
+            about=self,
+        )
+
+
+class DriverChoice(SteadyChoice):
     """The installed drivers; broken ones are there, with their reason, and cannot be chosen."""
 
     def __init__(self, found: dict[str, type[Driver]], broken: dict[str, str]) -> None:
-        super().__init__()
-        self.setAccessibleName(translate("connection", "Driver"))
-        self.setToolTip(
+        super().__init__(
+            translate("connection", "Driver"),
             translate(
                 "connection",
                 "What the program drives: the simulator, boards, or a device of a plugin",
-            )
+            ),
+            letters=0,
         )
-        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         for name, kind in found.items():
             self.addItem(name, kind)
         model = self.model()
@@ -39,10 +78,6 @@ class DriverChoice(QComboBox):
             item = model.item(self.count() - 1)
             item.setEnabled(False)
             item.setToolTip(plain_tip(reason))
-
-    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave the wheel to what scrolls."""
-        event.ignore()
 
 
 class DeviceSection(Section):
@@ -55,13 +90,9 @@ class DeviceSection(Section):
         self.choice = DriverChoice(discovery.found, discovery.broken)
         self.find = QToolButton()
         self.find.setText("⟳")
-        self.find.setAccessibleName(translate("connection", "Look for ports again"))
-        self.find.setToolTip(translate("connection", "Look for serial ports again"))
-        row = QHBoxLayout()
-        row.setSpacing(6)
-        row.addWidget(self.choice, 1)
-        row.addWidget(self.find)
-        self.column.addLayout(row)
+        self.find.setAccessibleName(translate("connection", "Refresh the ports"))
+        self.find.setToolTip(translate("connection", "Refresh the serial ports"))
+        self.add_row(self.choice, self.find, equal=False)
         self.broken = self.add_text()
         self.broken.setText(
             "\n".join(
@@ -106,14 +137,14 @@ class DeviceSection(Section):
         allow(
             self.connect_button,
             why,
-            translate("connection", "Connect to {name}; any other device is let go").format(
+            translate("connection", "Connect to {name}; any other device is disconnected").format(
                 name=name
             ),
         )
         allow(
             self.disconnect_button,
             reasons.against_disconnecting(state),
-            translate("connection", "Stop, and let go of the device; it holds where it stands"),
+            translate("connection", "Stop and disconnect the device; it holds its position"),
         )
         allow(
             self.reconnect_button,

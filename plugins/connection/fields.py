@@ -3,13 +3,14 @@
 from collections.abc import Sequence
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QCheckBox, QComboBox, QFormLayout, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QLineEdit, QWidget
 
 from rotemina.app.driver_settings import typed
-from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.requests import OfferedPort
+from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.drivers.settings import SettingError, SettingValue
 
 # Settings of the program's own drivers, as people say them.
@@ -28,15 +29,13 @@ NAMES = (
 _UNITS = {"s": "s", "ms": "ms", "hz": "Hz", "v": "V", "m": "m"}
 
 
-class PortChoice(QComboBox):
-    """The ports that exist, and room to type another; the wheel does not change it."""
+class PortChoice(SteadyChoice):
+    """The ports that exist, and room to type another."""
 
     def __init__(self) -> None:
-        super().__init__()
+        super().__init__(letters=12)
         self.setEditable(True)
-        self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
-        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.setMinimumContentsLength(12)
+        self.setInsertPolicy(self.InsertPolicy.NoInsert)
         edit = self.lineEdit()
         assert edit is not None
         edit.setPlaceholderText(translate("connection", "none"))
@@ -52,10 +51,6 @@ class PortChoice(QComboBox):
         self.setCurrentIndex(-1)
         self.setEditText(text)
         self.blockSignals(False)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave the wheel to what scrolls."""
-        event.ignore()
 
 
 class SettingField(QObject):
@@ -115,11 +110,8 @@ class SettingField(QObject):
         try:
             self.value()
         except SettingError as error:
-            wrong = str(error)
-        if self.widget.property("bad") != bool(wrong):
-            self.widget.setProperty("bad", bool(wrong))
-            self.widget.style().unpolish(self.widget)
-            self.widget.style().polish(self.widget)
+            wrong = error_text(error)
+        set_property(self.widget, "bad", bool(wrong))
         self.widget.setToolTip(plain_tip(self._about, wrong or ""))
         return wrong
 

@@ -3,7 +3,9 @@
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.connection.section import Figures, Section
+from rotemina.app.widgets.figures import Figures
+from rotemina.app.widgets.section import Section
+from rotemina.sim.quantities import fixed
 
 _LINE = (
     marked("connection", "Frames sent"),
@@ -29,7 +31,7 @@ class LineSection(Section):
         super().__init__(translate("connection", "Line"))
         self._session = workbench.session
         self.text = self.add_text()
-        self.figures = Figures(*_LINE)
+        self.figures = Figures({translate("connection", name): "" for name in _LINE})
         self.column.addWidget(self.figures)
 
     def refresh(self, state: SessionState) -> None:
@@ -50,7 +52,7 @@ class LineSection(Section):
             f"{link.rejected}",
             f"{link.repeated}",
             milliseconds(link.round_trip_s),
-            f"{100.0 * link.load:.0f} %",
+            f"{fixed(100.0 * link.load, 0)} %",
         )
 
 
@@ -59,7 +61,7 @@ class StopSection(Section):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(translate("connection", "Stop latency"))
-        self.figures = Figures(*_STOP)
+        self.figures = Figures({translate("connection", name): "" for name in _STOP})
         self.column.addWidget(self.figures)
 
     def refresh(self, state: SessionState) -> None:
@@ -76,4 +78,4 @@ class StopSection(Section):
 
 def milliseconds(seconds: float | None) -> str:
     """Return a short time as text."""
-    return "–" if seconds is None else f"{1e3 * seconds:.2f} ms"
+    return "–" if seconds is None else f"{fixed(1e3 * seconds, 2)} ms"

@@ -1,22 +1,23 @@
 """The device and how it stands: what an operator sees to before anything moves."""
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.scroll import least_width, scrolled
 from rotemina.plugins.connection.device import DeviceSection
 from rotemina.plugins.connection.line import LineSection, StopSection
 from rotemina.plugins.connection.parameters import ParameterSection
 from rotemina.plugins.connection.position import PositionSection
 from rotemina.plugins.connection.state_section import StateSection
 from rotemina.plugins.connection.tip import TipSection
+from rotemina.plugins.connection.voltage import VoltageSection
 
 
 class ConnectionPanel(Panel):
-    """State, device, position, parameters, tip, line and stop latency, one below the other."""
+    """State, device, position, parameters, tip, voltage, line and stop latency, in one column."""
 
     title = marked("panels", "Connection")
     area = Area.RIGHT
@@ -30,6 +31,7 @@ class ConnectionPanel(Panel):
         self.position = PositionSection(workbench)
         self.parameters = ParameterSection(workbench)
         self.tip = TipSection(workbench)
+        self.voltage = VoltageSection(workbench)
         self.line = LineSection(workbench)
         self.stop = StopSection(workbench)
         self._sections = (
@@ -38,6 +40,7 @@ class ConnectionPanel(Panel):
             self.position,
             self.parameters,
             self.tip,
+            self.voltage,
             self.line,
             self.stop,
         )
@@ -48,17 +51,11 @@ class ConnectionPanel(Panel):
         for section in self._sections:
             column.addWidget(section)
         column.addStretch(1)
-        scroll = QScrollArea()
-        scroll.setObjectName("panelScroll")
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(content)
+        scroll = scrolled(content)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.addWidget(scroll)
-        bar = scroll.verticalScrollBar().sizeHint().width()
-        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 300))
+        self.setMinimumWidth(max(least_width(scroll), 300))
         self.follow(self._refresh)
         self._refresh(workbench.session.snapshot())
 

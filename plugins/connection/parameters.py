@@ -1,16 +1,17 @@
 """Where the device's parameters differ from the robot file: write them, or accept."""
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
+from PySide6.QtWidgets import QHeaderView
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.table import Table
 from rotemina.drivers.abilities import Parameterised
 from rotemina.drivers.driver import Driver
 from rotemina.plugins.connection import reasons
-from rotemina.plugins.connection.section import Section, button
+from rotemina.sim.quantities import rounded
 
 COLUMNS = (
     marked("connection", "Parameter"),
@@ -28,14 +29,11 @@ class ParameterSection(Section):
         self._session = workbench.session
         self._shown: tuple[str, ...] = ()
         self.text = self.add_text()
-        self.table = QTableWidget(0, len(COLUMNS))
-        self.table.setAccessibleName(translate("connection", "Parameters that differ"))
-        self.table.setHorizontalHeaderLabels([translate("connection", name) for name in COLUMNS])
-        self.table.verticalHeader().hide()
-        self.table.verticalHeader().setDefaultSectionSize(24)
-        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.table.setTabKeyNavigation(False)
-        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        self.table = Table(
+            translate("connection", "Parameters that differ"),
+            [translate("connection", name) for name in COLUMNS],
+            row_height=24,
+        )
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self.table.setVisible(False)
         self.column.addWidget(self.table)
@@ -84,16 +82,7 @@ class ParameterSection(Section):
         )
 
     def _fill(self, rows: list[tuple[str, ...]]) -> None:
-        self.table.setRowCount(len(rows))
-        for row, texts in enumerate(rows):
-            for column, text in enumerate(texts):
-                item = QTableWidgetItem(text)
-                item.setToolTip(plain_tip(text))
-                if column:
-                    item.setTextAlignment(
-                        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-                    )
-                self.table.setItem(row, column, item)
+        self.table.show_rows(rows, tips=True)
         self.table.setVisible(bool(rows))
         self.table.setFixedHeight(28 + 24 * min(len(rows), _MOST_ROWS_SHOWN))
 
@@ -109,6 +98,10 @@ def _rows(driver: Driver, told: tuple[str, ...]) -> list[tuple[str, ...]]:
         rows.append(
             (text, "", "")
             if one is None
-            else (one.name, f"{one.device:g} {one.unit}", f"{one.robot:g} {one.unit}")
+            else (
+                one.name,
+                f"{rounded(one.device, 6)} {one.unit}",
+                f"{rounded(one.robot, 6)} {one.unit}",
+            )
         )
     return rows

@@ -4,13 +4,13 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton
 
 from rotemina.app.display import label
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import driven
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.section import Section
 from rotemina.drivers.abilities import Homer
 from rotemina.plugins.connection import reasons
-from rotemina.plugins.connection.section import Section, button
 
 
 class PositionSection(Section):
@@ -54,7 +54,7 @@ class PositionSection(Section):
             reasons.against_confirming(state),
             translate(
                 "connection",
-                "You have looked: the machine stands where it stood when the connection was lost",
+                "Confirm that the machine stands where it stood when the connection was lost",
             ),
         )
         allow(

@@ -2,7 +2,7 @@
 
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.shell.language import translate
-from rotemina.drivers.abilities import Homer, Parameterised
+from rotemina.drivers.abilities import Homer, Parameterised, VoltageOutput
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.kinematics.keep_out import KeepOutZone
@@ -101,7 +101,7 @@ def against_going_back(state: SessionState, *, undoable: bool) -> str | None:
     if state.locked is not None:
         return state.locked
     if not undoable:
-        return translate("connection", "there is no move to take back")
+        return translate("connection", "there is no move to undo")
     return in_motion(state)
 
 
@@ -118,17 +118,24 @@ def against_writing(state: SessionState, driver: Driver) -> str | None:
     return in_motion(state)
 
 
+def against_voltage(state: SessionState, driver: Driver) -> str | None:
+    """Why not put out an amplifier's voltage."""
+    if not isinstance(driver, VoltageOutput):
+        return translate("connection", "{name} cannot set a voltage").format(name=driver.name)
+    return state.locked if state.locked is not None else in_motion(state)
+
+
 def against_teaching(state: SessionState, zone: KeepOutZone | None) -> str | None:
     """Why not put the tip's floor where the tip is."""
     if zone is None:
-        return translate("connection", "this robot has no tip that a floor could hold")
+        return translate("connection", "this robot has no tip that a floor could bound")
     return state.locked if state.locked is not None else in_motion(state)
 
 
 def against_removing(zone: KeepOutZone | None, state: SessionState | None = None) -> str | None:
     """Why not take the tip's floor away; without a state, whether there is one to take away."""
     if zone is None:
-        return translate("connection", "this robot has no tip that a floor could hold")
+        return translate("connection", "this robot has no tip that a floor could bound")
     if zone.floor == float("-inf"):
         return translate("connection", "there is no floor")
     if state is None or state.locked is not None:

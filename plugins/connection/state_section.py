@@ -3,13 +3,13 @@
 from PySide6.QtWidgets import QHBoxLayout, QLabel
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import PhaseLabel
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.section import Section
 from rotemina.plugins.connection import reasons
-from rotemina.plugins.connection.section import Section, button
 
 
 class StateSection(Section):
@@ -26,7 +26,7 @@ class StateSection(Section):
         row.addWidget(self.device, 1)
         self.column.addLayout(row)
         self.reason = self.add_text()
-        self.emergency = button(translate("connection", "E-stop"), workbench.emergency_stop)
+        self.emergency = button(translate("connection", "Stop and lock"), workbench.emergency_stop)
         self.release = button(translate("connection", "Release"), workbench.release)
         self.clear = button(translate("connection", "Clear fault"), workbench.clear_fault)
         self.add_row(self.emergency, self.release, self.clear)
@@ -56,9 +56,7 @@ class StateSection(Section):
         )
         allow(
             self.release,
-            None
-            if state.latched is not None
-            else translate("connection", "no emergency stop is latched"),
+            None if state.latched is not None else translate("connection", "nothing is locked"),
             translate("connection", "Let the machine move again; it stands until it is told to"),
         )
         allow(

@@ -1,16 +1,16 @@
 """The tip's height above its floor: taught and taken away only after a question."""
 
-from collections.abc import Callable
 from math import isfinite
 
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout
-
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.figures import Figures
+from rotemina.app.widgets.question import Question
+from rotemina.app.widgets.section import Section
 from rotemina.plugins.connection import reasons
-from rotemina.plugins.connection.section import Figures, Section, button, quiet_text
+from rotemina.sim.quantities import fixed
 
 _STILL_M = 1e-9  # a tip that has moved more than this is not where the question was asked
 _FIGURES = (
@@ -18,42 +18,6 @@ _FIGURES = (
     marked("connection", "Floor"),
     marked("connection", "Above the floor"),
 )
-
-
-class Question(QFrame):
-    """A question inside the panel: everything else, the stop among it, stays within reach."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.setObjectName("question")
-        self.text = quiet_text()
-        self.text.setProperty("quiet", False)
-        self.yes = button(translate("connection", "Yes"), self._agree)
-        self.yes.setToolTip(translate("connection", "Do what the question asks"))
-        self.no = button(translate("connection", "Cancel"), self.hide)
-        self.no.setToolTip(translate("connection", "Leave it as it is"))
-        row = QHBoxLayout()
-        row.setSpacing(6)
-        row.addWidget(self.yes, 1)
-        row.addWidget(self.no, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(8, 6, 8, 8)
-        column.addWidget(self.text)
-        column.addLayout(row)
-        self._then: Callable[[], None] = lambda: None
-        self.hide()
-
-    def ask(self, text: str, answer: str, then: Callable[[], None]) -> None:
-        """Ask; do ``then`` if that is wanted."""
-        self.text.setText(text)
-        self.yes.setText(answer)
-        self._then = then
-        self.show()
-        self.no.setFocus()  # what Enter chooses
-
-    def _agree(self) -> None:
-        self.hide()
-        self._then()
 
 
 class TipSection(Section):
@@ -64,7 +28,7 @@ class TipSection(Section):
         self._workbench = workbench
         self._height: float | None = None
         self._asked: float | None = None  # the tip's height at which a floor is to be taught
-        self.figures = Figures(*_FIGURES)
+        self.figures = Figures({translate("connection", name): "" for name in _FIGURES})
         self.column.addWidget(self.figures)
         self.teach = button(translate("connection", "Teach floor …"), self._ask_teach)
         self.remove = button(translate("connection", "Remove floor …"), self._ask_remove)
@@ -74,7 +38,7 @@ class TipSection(Section):
 
     def refresh(self, state: SessionState) -> None:
         """Show a state."""
-        zone = self._workbench.session.keep_out
+        zone = self._workbench.session.bounds.keep_out
         known = state.tip is not None and state.position_known
         self._height = state.tip[2] if known and state.tip is not None else None
         floor = self._floor()
@@ -88,7 +52,7 @@ class TipSection(Section):
         allow(
             self.teach,
             why,
-            translate("connection", "Put the floor where the tip is now; below it nothing moves"),
+            translate("connection", "Set the floor where the tip is now; nothing moves below it"),
         )
         allow(
             self.remove,
@@ -114,7 +78,7 @@ class TipSection(Section):
             )
 
     def _floor(self) -> float | None:
-        zone = self._workbench.session.keep_out
+        zone = self._workbench.session.bounds.keep_out
         return zone.floor if zone is not None and isfinite(zone.floor) else None
 
     def _ask_teach(self) -> None:
@@ -152,4 +116,4 @@ class TipSection(Section):
 
 def height(metres: float) -> str:
     """Return a height as text."""
-    return f"{1e3 * metres:.4f} mm"
+    return f"{fixed(1e3 * metres, 4)} mm"

@@ -1,25 +1,29 @@
 """One axis of the control menu: readout, place in the range, jog, go-to."""
 
 import time
+from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton
+from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton
 
-from rotemina.app.display import Scale, axis_scale, label
+from rotemina.app.display import axis_scale, label
+from rotemina.app.motion.ranges import Range
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.control.asking import Confirmation
 from rotemina.plugins.control.holding import Holding
-from rotemina.plugins.control.parts import TargetField, set_property, text_label
 from rotemina.plugins.control.readout import RangeBar, Readout
 from rotemina.plugins.control.step_choice import SpeedChoice, StepChoice
 from rotemina.plugins.control.wording import (
+    difference_text,
     echo,
+    grade_of,
     is_little,
     is_stale,
     no_position,
@@ -29,7 +33,20 @@ from rotemina.plugins.control.wording import (
     typed,
     way,
 )
+from rotemina.sim.quantities import Scale
 from rotemina.sim.trajectory.limits import check_target
+
+_NAME = 44  # px, at least
+
+
+class TargetField(QLineEdit):
+    """A field in which a held Enter counts once."""
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
+        """Take a key, but no repetition of Enter."""
+        enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+        if not (enter and event.isAutoRepeat()):
+            super().keyPressEvent(event)
 
 
 class AxisRow(QFrame):
@@ -53,6 +70,7 @@ class AxisRow(QFrame):
         self._steps, self._speed = steps, speed
         self._described = workbench.robot.axes[axis]
         self._scale: Scale = axis_scale(self._described)
+        self._ends: Range = self._described.range
         self._command: float | None = None
         self.confirmation = Confirmation(self._described.span, workbench.session)
         self.holding = Holding(workbench, axis, self)
@@ -64,10 +82,15 @@ class AxisRow(QFrame):
         self.status.setAccessibleName(
             translate("control", "{label} state").format(label=label(axis))
         )
-        self.left = text_label()
+        self.left = plain_text()
         self.left.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.left.setAccessibleName(
             translate("control", "{label} range left").format(label=label(axis))
+        )
+        self.difference = plain_text()
+        self.difference.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self.difference.setAccessibleName(
+            translate("control", "{label}: measured minus command").format(label=label(axis))
         )
         self.minus, self.plus = self._jog_button("−", -1), self._jog_button("+", +1)
         self.target = self._target_field()
@@ -89,21 +112,55 @@ class AxisRow(QFrame):
             stale=stale or not known,
         )
         self._bar.show_position(position, self._command, stale=stale)
-        self._bar.setToolTip(
-            plain_tip(range_tip(self._axis, position, self._described, self._scale))
-        )
+        self._bar.setToolTip(plain_tip(range_tip(self._axis, position, self._ends, self._scale)))
         self._show_left(position)
         self.confirmation.follow(self._command)
         self._show_status(state)
+        self._show_difference(position, stale=stale)
         self._lock(_against(state, known=known, stale=stale))
+
+    def show_aids(self, signs: str, tip: str) -> None:
+        """Say beside the name what stands between command and machine; the tip explains it."""
+        text = f"{label(self._axis)} {signs}".rstrip()
+        if text != self.name.text():
+            self.name.setText(text)
+            self._fit()
+        self.name.setToolTip(plain_tip(tip))
+
+    def show_range(self, ends: Range, forbidden: Sequence[Range]) -> None:
+        """Hatch in the bar what lies outside of a narrowed range, and what the tip's bounds forbid.
+
+        All in m or rad.
+        """
+        self._ends = ends
+        low, high = self._described.range
+        outside = [part for part in ((low, ends[0]), (ends[1], high)) if part[0] < part[1]]
+        self._bar.show_forbidden((*outside, *forbidden))
+
+    def give_room(self, *, roomy: bool) -> None:
+        """Take four lines with large digits where there is room, else three."""
+        if roomy is self._roomy:
+            return
+        self._roomy = roomy
+        grid = self._grid
+        if roomy:
+            grid.addWidget(self._readout, 0, 1, 1, 3)
+            grid.addWidget(self.status, 1, 0, 1, 2)
+            grid.addWidget(self.difference, 1, 2, 1, 2)
+        else:
+            grid.addWidget(self.status, 0, 1)
+            grid.addWidget(self.difference, 0, 2)
+            grid.addWidget(self._readout, 0, 3)
+        self._bar.label_ends(labelled=roomy)
+        set_property(self._readout, "roomy", roomy)
 
     # --- parts ------------------------------------------------------------------------------------
 
     def _lay_out(self) -> None:
-        name = QLabel(label(self._axis))
-        name.setTextFormat(Qt.TextFormat.PlainText)  # a name from a file is no markup
-        name.setProperty("heading", True)
-        name.setMinimumWidth(44)
+        self.name = QLabel(label(self._axis))
+        self.name.setTextFormat(Qt.TextFormat.PlainText)  # a name from a file is no markup
+        self.name.setProperty("heading", True)
+        self.name.setMinimumWidth(_NAME)
         controls = QHBoxLayout()
         controls.setSpacing(4)
         controls.addWidget(self.minus)
@@ -111,15 +168,15 @@ class AxisRow(QFrame):
         controls.addWidget(self.target, 1)
         controls.addWidget(self.go)
         controls.addWidget(self.left)
-        grid = QGridLayout(self)
+        self._roomy: bool | None = None
+        grid = self._grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 3)
         grid.setVerticalSpacing(1)
-        grid.addWidget(name, 0, 0)
-        grid.addWidget(self.status, 0, 1)
-        grid.addWidget(self._readout, 0, 2)
+        grid.addWidget(self.name, 0, 0)
         grid.setColumnStretch(1, 1)
-        grid.addWidget(self._bar, 1, 0, 1, 3)
-        grid.addLayout(controls, 2, 0, 1, 3)
+        grid.addWidget(self._bar, 2, 0, 1, 4)
+        grid.addLayout(controls, 3, 0, 1, 4)
+        self.give_room(roomy=False)
 
     def _jog_button(self, text: str, sign: int) -> QPushButton:
         button = QPushButton(text)
@@ -133,9 +190,7 @@ class AxisRow(QFrame):
 
     def _target_field(self) -> TargetField:
         field = TargetField()
-        field.setPlaceholderText(
-            translate("control", "go to [{symbol}]").format(symbol=self._scale.symbol)
-        )
+        field.setPlaceholderText(f"[{self._scale.symbol}]")  # *Go* is beside it
         field.setMinimumWidth(60)
         field.setAccessibleName(
             translate("control", "{label} target in {symbol}").format(
@@ -157,15 +212,31 @@ class AxisRow(QFrame):
         self._fit()
         super().showEvent(event)
 
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave room for the widest text."""
+        super().resizeEvent(event)
+        self._fit()
+
     def _fit(self) -> None:
         self.left.setFixedWidth(
             self.left.fontMetrics().horizontalAdvance(
                 translate("control", "{way} left").format(way="8888.8 µrad")
             )
         )
+        high = self._described.range[1]
+        # Beyond the following bound motion is locked; until there, its width is that of a bound.
+        widest = difference_text(self._described.following, self._scale)
+        apart = self.difference.fontMetrics().horizontalAdvance(widest)
+        reading = self._readout.fontMetrics().horizontalAdvance(self._scale.text(high))
+        name = max(_NAME, self.name.sizeHint().width())
+        room = self.width() - name - reading - 4 * self._grid.horizontalSpacing()
+        shown = bool(self._roomy) or apart <= room  # no reading is cut for it
+        self.difference.setMinimumWidth(apart if shown else 0)
+        self.difference.setVisible(shown)
         sign = self.plus.fontMetrics().horizontalAdvance("−")
         for button in (self.minus, self.plus):
             button.setFixedWidth(max(34, 3 * sign))
+            button.setMinimumHeight(button.fontMetrics().height())
 
     # --- moves ------------------------------------------------------------------------------------
 
@@ -209,11 +280,30 @@ class AxisRow(QFrame):
 
     def _show_left(self, position: float | None) -> None:
         meant = way(self.target.text(), self._scale, self._command)
-        text = meant or room_left_text(position, self._described, self._scale)
+        text = meant or room_left_text(position, self._ends, self._scale)
         if text != self.left.text():
             self.left.setText(text)
         set_property(self.left, "quiet", not meant)
-        set_property(self.left, "bad", not meant and is_little(position, self._described))
+        set_property(self.left, "bad", not meant and is_little(position, self._ends))
+
+    def _show_difference(self, position: float | None, *, stale: bool) -> None:
+        """Show how far the reading is from the command, and how grave that is."""
+        command = self._command
+        known = position is not None and command is not None and not stale
+        apart = position - command if position is not None and command is not None else 0.0
+        text = difference_text(apart, self._scale) if known else ""
+        if text != self.difference.text():
+            self.difference.setText(text)
+        grade = str(grade_of(apart, self._described)) if known else ""
+        if set_property(self.difference, "grade", grade):
+            bound = self._scale.text(self._described.following)
+            self.difference.setToolTip(
+                plain_tip(
+                    translate("control", "Measured minus command; the bound is {bound}.").format(
+                        bound=bound
+                    )
+                )
+            )
 
     def _show_status(self, state: SessionState) -> None:
         """Show what a typed number means, or else how the axis stands."""
@@ -225,9 +315,7 @@ class AxisRow(QFrame):
         word = translate("control", "Move?") if asked else translate("control", "Go")
         if word != self.go.text():
             self.go.setText(word)
-            self.go.setProperty("primary", asked)
-            self.go.style().unpolish(self.go)
-            self.go.style().polish(self.go)
+            set_property(self.go, "primary", asked)
 
     def _lock(self, why_not: str | None) -> None:
         name, held = label(self._axis), self._steps.step(self._axis) is None
@@ -244,7 +332,7 @@ class AxisRow(QFrame):
             why_not,
             translate("control", "Move {name} up {how}").format(name=name, how=how),
         )
-        low, high = (self._scale.number(end) for end in self._described.range)
+        low, high = (self._scale.number(end) for end in self._ends)
         bounds = translate("control", "{low} to {high} {symbol}").format(
             low=low, high=high, symbol=self._scale.symbol
         )

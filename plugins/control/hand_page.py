@@ -14,12 +14,14 @@ from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.control.parts import SteadyChoice, button
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.control.wording import owners_text, taken
 from rotemina.plugins.teleoperation.wording import law_choices, mode_choice, reason_text, trust_text
+from rotemina.sim.quantities import rounded
 
 
 class HandPage(QWidget):
@@ -31,7 +33,7 @@ class HandPage(QWidget):
         steered = self._operation.teleoperator
         self.modes: dict[str, QPushButton] = {}
         self.law = SteadyChoice(
-            translate("control", "Scaling"), translate("control", "What the stick's place means")
+            translate("control", "Scaling"), translate("control", "Meaning of the stick's position")
         )
         for kind, choice in law_choices():
             self.law.addItem(choice.text, kind)
@@ -43,11 +45,11 @@ class HandPage(QWidget):
             translate("control", "Factor on way, speed and force of the stick"),
         )
         for factor in STEP_PRESETS:
-            self.preset.addItem(f"× {factor:g}", factor)
+            self.preset.addItem(f"× {rounded(factor, 6)}", factor)
         self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
         self.trust, self.reason, self.owners = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.reason.setProperty("quiet", True)
-        self.over = button(translate("control", "Take over"), "", self._take_over)
+        self.over = button(translate("control", "Take over"), self._take_over)
         scaling = QHBoxLayout()
         scaling.setSpacing(6)
         for widget, stretch in (
@@ -83,12 +85,10 @@ class HandPage(QWidget):
         others = taken(state)
         allow(
             self.over,
-            None
-            if others
-            else translate("control", "nobody else drives an axis that could be taken over"),
+            None if others else translate("control", "nobody else drives an axis"),
             translate(
                 "control",
-                "Make the axes yours that somebody else drives; they go on until told otherwise",
+                "Take over the axes that somebody else drives; they go on until you command them",
             ),
         )
 
@@ -115,4 +115,4 @@ class HandPage(QWidget):
     def _take_over(self) -> None:
         session = self._workbench.session
         axes = taken(session.snapshot())
-        self._workbench.ask(lambda: session.take_over(axes, OPERATOR))
+        self._workbench.ask(lambda: session.reservations.take_over(axes, OPERATOR))

@@ -4,11 +4,11 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWi
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.controls import ElidedLabel, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.control.parts import set_property
+from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.plugins.control.step_choice import SpeedChoice
 from rotemina.plugins.control.wording import above_floor, steering_text, tip_short, tip_text
 from rotemina.plugins.teleoperation.wording import driver_text, standing, trust_text
@@ -56,7 +56,7 @@ class Head(QWidget):
         set_tone(self.stick, tone)
         self.stick.setToolTip(plain_tip(trust_text(view)))
         self.device.show_text(steering_text(steered, driver_text(view)))
-        zone = self._workbench.session.keep_out
+        zone = self._workbench.session.bounds.keep_out
         self.tip.show_text(tip_short(state, zone))
         self.tip.setToolTip(plain_tip(tip_text(state, zone)))
         above = above_floor(state, zone)

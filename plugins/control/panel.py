@@ -1,8 +1,11 @@
 """The control menu of both stages: where each axis is, and the ways to move it."""
 
+from collections.abc import Mapping, Sequence
+
+import numpy as np
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QFrame,
     QHBoxLayout,
     QLabel,
     QScrollArea,
@@ -17,6 +20,8 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.scroll import scrolled
+from rotemina.plugins.control.axes_page import AxesPage
 from rotemina.plugins.control.axis_row import AxisRow
 from rotemina.plugins.control.hand_page import HandPage
 from rotemina.plugins.control.head import Head
@@ -24,12 +29,18 @@ from rotemina.plugins.control.penetration_page import PenetrationPage
 from rotemina.plugins.control.positions_page import PositionsPage
 from rotemina.plugins.control.step_choice import StepChoice
 from rotemina.plugins.control.tip_page import TipPage
+from rotemina.plugins.control.wording import aids
+from rotemina.sim.kinematics.keep_out import KeepOutZone
+from rotemina.sim.robot.model import Robot
 
 # All six axes are in sight in a window of 1280×800.
 _CLOSE = """
 QPushButton, QLineEdit, QComboBox { min-height: 19px; padding: 1px 6px; }
 QPushButton[jog="true"] { padding: 0; }
 """
+# Five names side by side have room in a dock of 330 px, in German too.
+_FIVE_TABS = "QTabBar::tab { padding-left: 5px; padding-right: 5px; }"
+_ROOMY_FROM = 860  # px of height
 _STAGES = {
     "micro": marked("control", "Micro stage"),
     "nano": marked("control", "Nano stage"),
@@ -37,8 +48,45 @@ _STAGES = {
 }
 
 
+_STEP = 1e-3  # of the range, over which the tip's height is differentiated
+_FLAT = 1e-9  # m over that step, below which an axis does not lift the tip
+
+
+def forbidden(
+    robot: Robot, zone: KeepOutZone | None, command: Mapping[str, float]
+) -> dict[str, tuple[tuple[float, float], ...]]:
+    """Return stretches by axis, m or rad; the tip's height is taken as linear in each axis.
+
+    It only shows what is there: what may be gone to is checked along the whole path by the guard.
+    """
+    axes = tuple(robot.axes)
+    if zone is None or any(axis not in command for axis in axes):
+        return {}
+    here = np.array([command[axis] for axis in axes])
+    height = float(zone.tip(here)[2])
+    found = {}
+    for column, axis in enumerate(axes):
+        low, high = robot.axes[axis].range
+        step = _STEP * (high - low)
+        moved = here.copy()
+        moved[column] += step
+        rise = float(zone.tip(moved)[2]) - height
+        if abs(rise) > _FLAT:
+            way = step / rise
+            ends = [here[column] + (bound - height) * way for bound in (zone.low, zone.high)]
+            found[axis] = tuple(_outside(ends, low, high))
+    return found
+
+
+def _outside(free: Sequence[float], low: float, high: float) -> list[tuple[float, float]]:
+    """Return what of a range lies outside of a free stretch."""
+    first, last = min(free), max(free)
+    parts = [(low, min(first, high)), (max(last, low), high)]
+    return [(start, end) for start, end in parts if end > start]
+
+
 class ControlPanel(Panel):
-    """Head, every axis stage by stage, and below them one page of four."""
+    """Head, every axis stage by stage, and below them one page of five."""
 
     title = marked("panels", "Control")
     area = Area.LEFT
@@ -48,14 +96,19 @@ class ControlPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.rows: dict[str, AxisRow] = {}
+        self._bounds: tuple[KeepOutZone | None, dict[str, float]] | None = None
+        self._forbidden: dict[str, tuple[tuple[float, float], ...]] = {}
         self.steps: dict[str, StepChoice] = {}
         self.head = Head(workbench)
         self.hand, self.tip = HandPage(workbench), TipPage(workbench)
-        self.positions = PositionsPage(workbench, self.head.speed)
-        self.penetration = PenetrationPage(workbench)
+        self.positions = PositionsPage(
+            workbench, self.head.speed, lambda name: self.main_window.bring_up(name)
+        )
+        self.penetration, self.axes = PenetrationPage(workbench), AxesPage(workbench)
         self.tabs, self.pages = QTabBar(), QStackedWidget()
         self.tabs.setExpanding(False)
         self.tabs.setUsesScrollButtons(False)
+        self.tabs.setStyleSheet(_FIVE_TABS)
         for name, page in self._pages():
             self.tabs.addTab(name)
             self.pages.addWidget(page)
@@ -76,6 +129,7 @@ class ControlPanel(Panel):
             (translate("control", "Positions"), self.positions),
             (translate("control", "Tip"), self.tip),
             (translate("control", "Penetration"), self.penetration),
+            (translate("control", "Axes"), self.axes),
         )
 
     def _scrolled_axes(self) -> QScrollArea:
@@ -87,15 +141,15 @@ class ControlPanel(Panel):
             self._add_stage(column, stage, axes)
         column.addStretch(1)
         content.setStyleSheet(_CLOSE)
-        scroll = QScrollArea()
-        scroll.setObjectName("panelScroll")
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(content)
-        bar = scroll.verticalScrollBar().sizeHint().width()
-        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 330))
+        scroll = scrolled(content)
+        self._rows, self._bar_width = content, scroll.verticalScrollBar().sizeHint().width()
+        self._keep_width()
         return scroll
+
+    def _keep_width(self) -> None:
+        """Be as wide as the axes need: they are not scrolled sideways."""
+        needed = self._rows.minimumSizeHint().width() + self._bar_width
+        self.setMinimumWidth(max(needed, 330))
 
     def _add_stage(self, column: QVBoxLayout, stage: str, axes: tuple[str, ...]) -> None:
         heading = QLabel(
@@ -118,8 +172,24 @@ class ControlPanel(Panel):
 
     def _show(self, state: SessionState) -> None:
         """Show what is shown: the machine, or a replay."""
-        for row in self.rows.values():
+        session = self.workbench.session
+        bounds = session.bounds.keep_out, dict(state.command)
+        if bounds != self._bounds:
+            self._bounds = bounds
+            self._forbidden = forbidden(self.workbench.robot, *bounds)
+        inverses, approaches = session.inverses.applied, session.backlash.applied
+        for axis, row in self.rows.items():
             row.refresh(state)
+            row.show_range(session.ranges.of(axis), self._forbidden.get(axis, ()))
+            taken_up = axis in approaches and session.backlash.taken_up(axis)
+            row.show_aids(*aids(inverses.get(axis), approaches.get(axis), taken_up=taken_up))
+        self._keep_width()  # fonts and texts have changed it
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Give the axes four lines with large digits where all six of them have room."""
+        super().resizeEvent(event)
+        for row in self.rows.values():
+            row.give_room(roomy=self.height() >= _ROOMY_FROM)
 
     def _turn_to(self, page: int) -> None:
         self.pages.setCurrentIndex(page)

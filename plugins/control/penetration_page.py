@@ -7,14 +7,13 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVB
 
 from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.labels import plain_text
 from rotemina.drivers.clock import Clock
-from rotemina.plugins.control.parts import text_label
-from rotemina.plugins.penetration.engine_words import spoken as phase_word
 from rotemina.plugins.penetration.plan_preview import PlanPreview
 from rotemina.plugins.penetration.words import (
     against_button,
@@ -60,8 +59,8 @@ class PenetrationPage(QWidget):
         self.phase = QLabel()
         self.phase.setAccessibleName(translate("control", "Phase of the penetration"))
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.message = text_label(lines=3)
-        self.parameters = text_label()
+        self.message = plain_text(lines=3)
+        self.parameters = plain_text()
         self.phase.setMinimumSize(130, 22)
         self.phase.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         row = QHBoxLayout()
@@ -83,7 +82,7 @@ class PenetrationPage(QWidget):
         self._shown = phase = status.phase
         self.arm.setText(translate("penetration", arm_word(phase)))
         against = (
-            translate("control", "it is in {phase}; stop it first").format(phase=phase_word(phase))
+            translate("control", "it is in {phase}; stop it first").format(phase=spoken(phase))
             if phase in UNDER_WAY
             else None
         )

@@ -3,26 +3,33 @@
 from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QVBoxLayout, QWidget
 
 from rotemina.app.display import axis_scale, label
-from rotemina.app.motion.saved_positions import LONGEST_NAME, SavedPositions
+from rotemina.app.motion.saved_positions import HOME, LOAD, LONGEST_NAME, WORK, SavedPositions
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.pending import Pending
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.connection.reasons import against_going_back, against_homing, in_motion
-from rotemina.plugins.control.parts import SteadyChoice, button, text_label
+from rotemina.plugins.control.change_guide import LIFT, ChangeGuide
 from rotemina.plugins.control.step_choice import SpeedChoice
 
 
 class PositionsPage(QWidget):
     """Keep where the robot is under a name; go there again by a safe way."""
 
-    def __init__(self, workbench: Workbench, speed: SpeedChoice) -> None:
+    def __init__(
+        self,
+        workbench: Workbench,
+        speed: SpeedChoice,
+        show_panel: Callable[[str], object] = lambda _: None,
+    ) -> None:
         super().__init__()
-        self._workbench, self._speed = workbench, speed
+        self._workbench, self._speed, self._show_panel = workbench, speed, show_panel
         self.positions = SavedPositions(workbench.settings.folder, workbench.robot)
         #: What the next press replaces or deletes.
         self._again: Pending[str] = Pending(workbench.session)
@@ -33,27 +40,39 @@ class PositionsPage(QWidget):
         self.names.setPlaceholderText(translate("control", "none saved yet"))
         self.names.currentIndexChanged.connect(lambda _: self._choose())
         self.name = QLineEdit()
-        self.name.setPlaceholderText(translate("control", "name of this place"))
+        self.name.setPlaceholderText(translate("control", "name of this position"))
         self.name.setMaxLength(LONGEST_NAME)
-        self.name.setAccessibleName(translate("control", "Name for where the robot is now"))
+        self.name.setAccessibleName(translate("control", "Name for the present position"))
         self.name.setToolTip(
-            translate(
-                "control", "What to call where the robot is now; at most {most} letters"
-            ).format(most=LONGEST_NAME)
+            translate("control", "Name for the present position; at most {most} letters").format(
+                most=LONGEST_NAME
+            )
         )
         self.name.textEdited.connect(lambda _: self._forget())
-        self.go = button(translate("control", "Go there"), "", self._go)
-        self.delete = button(translate("control", "Delete"), "", self._delete)
-        self.keep = button(translate("control", "Save"), "", self._keep)
-        self.place = text_label(lines=3)
-        self.home = button(translate("control", "Home all"), "", workbench.home)
-        self.back = button(translate("control", "Back"), "", workbench.undo)
+        self.go = button(translate("control", "Go there"), self._go)
+        self.delete = button(translate("control", "Delete"), self._delete)
+        self.keep = button(translate("control", "Save"), self._keep)
+        self.place = plain_text(lines=3)
+        self._words = {
+            HOME: translate("control", "Home"),
+            LOAD: translate("control", "Load"),
+            WORK: translate("control", "Work"),
+        }
+        self.places = {
+            name: button(word, lambda name=name: self._go_or_set(name))
+            for name, word in self._words.items()
+        }
+        self.change = button(translate("control", "Change …"), self._change)
+        self._guide: ChangeGuide | None = None
+        self.home = button(translate("control", "Home all"), workbench.home)
+        self.back = button(translate("control", "Back"), workbench.undo)
         column = QVBoxLayout(self)
-        column.setContentsMargins(10, 6, 10, 4)
-        column.setSpacing(5)
+        column.setContentsMargins(10, 3, 10, 2)
+        column.setSpacing(3)
         column.addLayout(_row((self.names, 1), (self.go, 0), (self.delete, 0)))
         column.addWidget(self.place)
         column.addLayout(_row((self.name, 1), (self.keep, 0)))
+        column.addLayout(_row(*((one, 1) for one in (*self.places.values(), self.change))))
         column.addLayout(_row((self.home, 1), (self.back, 1)))
         column.addStretch(1)
         if workbench.ask(self.positions.read):
@@ -70,7 +89,7 @@ class PositionsPage(QWidget):
             none or state.locked or moving,
             translate("control", "Lift the tip above both places, go across, come down"),
         )
-        allow(self.delete, none, translate("control", "Forget this position; asks once more"))
+        allow(self.delete, none, translate("control", "Delete this position, after a question"))
         known = (
             None
             if state.position_known and state.command
@@ -80,7 +99,15 @@ class PositionsPage(QWidget):
         allow(
             self.keep,
             known or moving or nameless,
-            translate("control", "Keep where all axes are told to be"),
+            translate("control", "Save the present target of all axes"),
+        )
+        for place, one in self.places.items():
+            self._allow_place(place, one, state, known)
+        lift = LIFT in self._workbench.robot.axes
+        allow(
+            self.change,
+            None if lift else translate("control", "this robot has no axis z to lift the tip"),
+            translate("control", "Change the pin or the dish, step by step"),
         )
         driver = self._workbench.session.driver
         allow(
@@ -97,6 +124,23 @@ class PositionsPage(QWidget):
             ),
         )
 
+    def _allow_place(
+        self, name: str, one: QPushButton, state: SessionState, unknown: str | None
+    ) -> None:
+        moving = in_motion(state)
+        if name in self.positions.kept:
+            tip = translate(
+                "control",
+                "Go to the position {name!r} by a safe way; to move it, save another one by "
+                "that name",
+            )
+            allow(one, state.locked or moving, tip.format(name=name))
+        else:
+            tip = translate(
+                "control", "Not set: press twice to save the present target of all axes"
+            )
+            allow(one, unknown or moving, tip)
+
     # --- what buttons do --------------------------------------------------------------------------
 
     def _go(self) -> None:
@@ -104,6 +148,28 @@ class PositionsPage(QWidget):
         if place is not None:
             session, speeds = self._workbench.session, self._speed.speeds(place)
             self._workbench.ask(lambda: session.go_safely(place, speeds))
+
+    def _go_or_set(self, name: str) -> None:
+        """Go to a place that has a button of its own; where it is none yet, keep it."""
+        session = self._workbench.session
+        place = self.positions.kept.get(name)
+        if place is not None:
+            speeds = self._speed.speeds(place)
+            self._workbench.ask(lambda: session.go_safely(place, speeds))
+        elif self._sure(f"set {name}", self.places[name], translate("control", "Set here?")):
+            self._forget()
+            now = session.snapshot().command
+            self._do(lambda: self.positions.keep(name, now), name)
+
+    def _change(self) -> None:
+        if self._guide is None:
+            self._guide = ChangeGuide(
+                self._workbench,
+                lambda: self.positions.kept,
+                self._show_panel,
+                self,
+            )
+        self._guide.begin()
 
     def _keep(self) -> None:
         name, place = self.name.text().strip(), self._workbench.session.snapshot().command
@@ -120,7 +186,7 @@ class PositionsPage(QWidget):
 
     def _delete(self) -> None:
         name = self.names.currentText()
-        if self._sure(f"delete {name}", self.delete, translate("control", "Sure?")):
+        if self._sure(f"delete {name}", self.delete, translate("control", "Delete it?")):
             self._forget()
             self._do(lambda: self.positions.delete(name), "")
 
@@ -142,6 +208,8 @@ class PositionsPage(QWidget):
         self._again.withdraw()
         self.keep.setText(translate("control", "Save"))
         self.delete.setText(translate("control", "Delete"))
+        for name, word in self._words.items():
+            self.places[name].setText(word)
 
     # --- what is shown ----------------------------------------------------------------------------
 

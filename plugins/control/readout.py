@@ -1,12 +1,15 @@
 """A reading that shows its age, and the bar of a range."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
+from rotemina.app.display import axis_scale
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.control.parts import set_property
+from rotemina.app.widgets.controls import set_property
 from rotemina.plugins.control.wording import LITTLE
 
 
@@ -45,7 +48,8 @@ class Readout(QLabel):
 class RangeBar(QWidget):
     """Where an axis is within its range: a line with a mark for its command and its position.
 
-    Ticks mark where little of the range is left; the stretch warns beyond them.
+    Ticks mark where little of the range is left; the stretch warns beyond them. What the tip's
+    bounds forbid is hatched. With ``ends``, both ends are labelled.
     """
 
     def __init__(self, workbench: Workbench, axis: str) -> None:
@@ -55,6 +59,11 @@ class RangeBar(QWidget):
         self._position: float | None = None
         self._command: float | None = None
         self._stale = False
+        self._forbidden: Sequence[tuple[float, float]] = ()
+        scale = axis_scale(workbench.robot.axes[axis])
+        rough = scale._replace(decimals=0)
+        self.ends = rough.number(self._low), rough.text(self._high)
+        self._labelled = False
         self.setFixedHeight(9)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
@@ -65,12 +74,44 @@ class RangeBar(QWidget):
             self._position, self._command, self._stale = shown
             self.update()
 
+    def show_forbidden(self, stretches: Sequence[tuple[float, float]]) -> None:
+        """Hatch stretches, m or rad."""
+        if tuple(stretches) != tuple(self._forbidden):
+            self._forbidden = stretches
+            self.update()
+
+    def label_ends(self, *, labelled: bool) -> None:
+        """Write the ends of the range beside the bar, or leave them to the tooltip."""
+        self._labelled = labelled
+        self.setFixedHeight(self.fontMetrics().height() if labelled else 9)
+        self.update()
+
+    def track(self) -> QRectF:
+        """Return where the range is drawn."""
+        low, high = (self.fontMetrics().horizontalAdvance(end) + 6 for end in self.ends)
+        if not self._labelled:
+            low = high = 0
+        return QRectF(low, 0, max(self.width() - low - high, 1), self.height())
+
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
         """Draw the range, the stretch up to the position, and the command's mark."""
+        painter, track = QPainter(self), self.track()
+        if self._labelled:
+            painter.setPen(QColor(self._workbench.theme.quiet))
+            sides = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight
+            for end, side in zip(self.ends, sides, strict=True):
+                painter.drawText(self.rect(), int(side | Qt.AlignmentFlag.AlignVCenter), end)
+        painter.translate(track.left(), 0)
+        self._draw(painter, track.width(), self.height() / 2)
+        painter.end()
+
+    def _draw(self, painter: QPainter, width: float, middle: float) -> None:
         theme = self._workbench.theme
-        painter = QPainter(self)
-        width, middle = self.width(), self.height() / 2
         painter.fillRect(QRectF(0, middle - 2, width, 4), QColor(theme.line))
+        hatch = QBrush(QColor(theme.danger_text), Qt.BrushStyle.BDiagPattern)
+        for start, end in self._forbidden:
+            left, right = (width * self._share(value) for value in (start, end))
+            painter.fillRect(QRectF(left, middle - 4, right - left, 8), hatch)
         if self._position is not None:
             share = self._share(self._position)
             near = min(share, 1.0 - share) < LITTLE
@@ -80,8 +121,7 @@ class RangeBar(QWidget):
             painter.fillRect(QRectF(width * end, middle - 3, 1, 6), QColor(theme.quiet))
         if self._command is not None:
             at = (width - 2) * self._share(self._command)
-            painter.fillRect(QRectF(at, 0, 2, self.height()), QColor(theme.text))
-        painter.end()
+            painter.fillRect(QRectF(at, middle - 4, 2, 9), QColor(theme.text))
 
     def _share(self, value: float) -> float:
         return min(max((value - self._low) / (self._high - self._low), 0.0), 1.0)

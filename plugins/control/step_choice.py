@@ -6,9 +6,10 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from rotemina.app.display import step_presets
 from rotemina.app.shell.language import translate
-from rotemina.plugins.control.parts import SteadyChoice
+from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.sim.quantities import rounded, scale_in
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.units import symbol, to_unit
+from rotemina.sim.units import to_unit
 
 SPEEDS = (1.0, 0.5, 0.25, 0.1, 0.05, 0.01)  # of an axis' greatest speed
 
@@ -55,7 +56,7 @@ class SpeedChoice(SteadyChoice):
         )
         self._robot = robot
         for share in SPEEDS:
-            self.addItem(f"{100 * share:g} %", share)
+            self.addItem(f"{rounded(100 * share, 6)} %", share)
 
     @property
     def share(self) -> float:
@@ -104,4 +105,4 @@ def step_text(step: float, quantity: str) -> str:
     """Return a step in the unit that needs no decimals: ``10 nm``, ``1 µm``, ``1 mm``."""
     units = ("urad",) if quantity == "rad" else ("mm", "um", "nm")
     unit = next((u for u in units if float(to_unit(step, u)) > 0.999), units[-1])
-    return f"{float(to_unit(step, unit)):g} {symbol(unit)}"
+    return scale_in(unit).text(step)

@@ -7,9 +7,10 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.control.parts import text_label
+from rotemina.app.widgets.labels import plain_text
 from rotemina.plugins.control.wording import above_floor, bounds_text, tip_text
 from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT
+from rotemina.sim.quantities import fixed
 
 _TOP = 4.0 * SLOW_HEIGHT  # what the gauge shows above the floor
 
@@ -62,7 +63,7 @@ class TipPage(QWidget):
         super().__init__()
         self._workbench = workbench
         self.gauge = HeightGauge(workbench)
-        self.height_text, self.place, self.bounds = (text_label(lines=n) for n in (2, 2, 3))
+        self.height_text, self.place, self.bounds = (plain_text(lines=n) for n in (2, 2, 3))
         column = QVBoxLayout()
         column.setSpacing(4)
         for one in (self.height_text, self.place, self.bounds):
@@ -76,10 +77,10 @@ class TipPage(QWidget):
 
     def refresh(self, state: SessionState) -> None:
         """Show a moment of the machine."""
-        zone = self._workbench.session.keep_out
+        zone = self._workbench.session.bounds.keep_out
         self.gauge.show_height(above_floor(state, zone))
         tip = state.tip if state.position_known else None
-        place = "" if tip is None else " · ".join(f"{1e3 * at:.4f}" for at in tip)
+        place = "" if tip is None else " · ".join(fixed(1e3 * at, 4) for at in tip)
         texts = (
             (self.height_text, tip_text(state, zone)),
             (

@@ -1,16 +1,20 @@
 """What the control menu says of an axis, and what a typed target means."""
 
-from rotemina.app.display import PLAIN_NUMBER, Scale, label
+from enum import StrEnum
+
+from rotemina.app.display import label, noticeable
+from rotemina.app.motion.backlash import Approach
+from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
+from rotemina.app.motion.ranges import Range
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.views import TeleoperationState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, KeepOutZone
+from rotemina.sim.quantities import Scale, exact, fixed, parsed, rounded
 from rotemina.sim.robot.model import Axis
-from rotemina.sim.trajectory.wording import readable
-from rotemina.sim.units import from_unit
 
 LITTLE = 0.1  # of the range: what is left below it is pointed at
 # Modes and laws of the stick, as the engine names them.
@@ -49,33 +53,83 @@ def age_text(age_s: float | None) -> str:
 
 
 def status_text(axis: str, state: SessionState, scale: Scale) -> str:
-    """Return the one thing that matters most of an axis, beside its reading."""
+    """Return the one thing that matters most of an axis, beside its reading.
+
+    Who drives it stands in the header: here there is room for the command alone.
+    """
     if axis in state.unhomed:
         return translate("control", "not homed")
     if is_stale(state) and state.measured:
         return age_text(state.age_s)
     if not state.position_known or axis not in state.command:
         return ""
-    owner = state.owners.get(axis)
-    told = f"→ {scale.number(state.command[axis])}"
-    return told if owner in (None, OPERATOR) else f"{spoken(owner)} {told}"
+    return f"→ {scale.number(state.command[axis])}"
 
 
-def room_left_text(position: float | None, axis: Axis, scale: Scale) -> str:
+class Grade(StrEnum):
+    """How grave it is that a reading is not where its axis was sent."""
+
+    PLAIN = "plain"
+    APART = "apart"
+    BEYOND = "beyond"
+
+
+def grade_of(apart: float, axis: Axis) -> Grade:
+    """Return how grave a difference (SI) is.
+
+    Plain is what noise makes. Beyond is what the following bound of the robot file does not allow.
+    """
+    if abs(apart) > axis.following:
+        return Grade.BEYOND
+    return Grade.APART if abs(apart) > noticeable(axis) else Grade.PLAIN
+
+
+def difference_text(apart: float, scale: Scale) -> str:
+    """Return how far a reading is from the command (SI), with its sign."""
+    text = scale.number(apart)
+    return text if text.startswith("-") else f"+{text}"
+
+
+def aids(
+    inverse: NamedInverse | None, approach: Approach | None, *, taken_up: bool
+) -> tuple[str, str]:
+    """Return signs of what stands between an axis' command and the machine, and what they mean."""
+    signs, meant = [], []
+    if inverse is not None:
+        signs.append("H⁻¹")
+        text = translate(
+            "control", "H⁻¹: commands go through the inverse {name}; take it off in Compensation."
+        )
+        meant.append(text.format(name=inverse.name))
+    if approach is not None:
+        arrow = "↑" if approach.rising else "↓"
+        signs.append(arrow if taken_up else f"({arrow})")
+        side = (
+            translate("control", "{sign}: jogs and go-to end from below.")
+            if approach.rising
+            else translate("control", "{sign}: jogs and go-to end from above.")
+        )
+        meant.append(side.format(sign=arrow))
+        if not taken_up:
+            meant.append(translate("control", "In brackets: it did not come here so."))
+    return " ".join(signs), " ".join(meant)
+
+
+def room_left_text(position: float | None, ends: Range, scale: Scale) -> str:
     """Return how far it is to the nearer end of the range."""
     if position is None:
         return ""
-    return translate("control", "{way} left").format(way=_rough(_left(position, axis), scale))
+    return translate("control", "{way} left").format(way=_rough(_left(position, ends), scale))
 
 
-def is_little(position: float | None, axis: Axis) -> bool:
+def is_little(position: float | None, ends: Range) -> bool:
     """Whether an axis is close to an end of its range."""
-    return position is not None and _left(position, axis) < LITTLE * axis.span
+    return position is not None and _left(position, ends) < LITTLE * (ends[1] - ends[0])
 
 
-def range_tip(axis: str, position: float | None, described: Axis, scale: Scale) -> str:
+def range_tip(axis: str, position: float | None, ends: Range, scale: Scale) -> str:
     """Return the range of an axis, and what is left of it on both sides."""
-    low, high = described.range
+    low, high = ends
     text = translate("control", "{label} range: {low} … {high}").format(
         label=label(axis), low=scale.text(low), high=scale.text(high)
     )
@@ -87,13 +141,13 @@ def range_tip(axis: str, position: float | None, described: Axis, scale: Scale) 
     )
 
 
-def _left(position: float, axis: Axis) -> float:
-    low, high = axis.range
+def _left(position: float, ends: Range) -> float:
+    low, high = ends
     return max(min(position - low, high - position), 0.0)
 
 
 def _rough(value: float, scale: Scale) -> str:
-    return Scale(scale.unit, 1).text(value)
+    return scale._replace(decimals=1).text(value)
 
 
 # --- typed targets --------------------------------------------------------------------------------
@@ -102,11 +156,10 @@ def _rough(value: float, scale: Scale) -> str:
 def typed(text: str, scale: Scale) -> float | None:
     """Return the position (SI) that a text means; None if it is no plain number.
 
-    A comma is refused: nobody can tell a decimal comma from a thousands separator.
+    A comma is refused where it is not the decimal sign: it may be a thousands separator.
     """
-    if PLAIN_NUMBER.fullmatch(text.strip()) is None:
-        return None
-    return float(from_unit(float(text), scale.unit))
+    number = parsed(text)
+    return None if number is None else number / scale.per_si
 
 
 def echo(text: str, scale: Scale) -> str:
@@ -186,7 +239,7 @@ def above_floor(state: SessionState, zone: KeepOutZone | None) -> float | None:
 def bounds_text(zone: KeepOutZone | None) -> str:
     """Return what bounds the tip, and what the slow zone means."""
     if zone is None:
-        return translate("control", "Only the ranges of the axes hold this robot.")
+        return translate("control", "Only the ranges of its axes bound this robot.")
     bounds = []
     if abs(zone.low) < float("inf"):
         bounds.append(
@@ -204,12 +257,13 @@ def bounds_text(zone: KeepOutZone | None) -> str:
         )
     if not bounds:
         return translate(
-            "control", "Nothing bounds the tip but its axes. Teach a floor in Connection, Tip."
+            "control",
+            "Only the ranges of the axes bound the tip. Teach a floor in Connection, Tip.",
         )
     slow = (
         translate(
-            "control", " Within {height} above the floor it goes down at {speed}/s at most."
-        ).format(height=readable(SLOW_HEIGHT, "m"), speed=readable(SLOW_SPEED, "m"))
+            "control", " Within {height} above the floor it goes down at {speed} at most."
+        ).format(height=exact(SLOW_HEIGHT, "m"), speed=exact(SLOW_SPEED, "m/s"))
         if abs(zone.low) < float("inf")
         else ""
     )
@@ -218,7 +272,7 @@ def bounds_text(zone: KeepOutZone | None) -> str:
 
 
 def _millimetres(metres: float) -> str:
-    return f"{1e3 * metres:.4f} mm"
+    return f"{fixed(1e3 * metres, 4)} mm"
 
 
 # --- owners ---------------------------------------------------------------------------------------
@@ -240,4 +294,4 @@ def owners_text(state: SessionState) -> str:
 def steering_text(state: TeleoperationState, device: str) -> str:
     """Return what drives, and how."""
     mode, law = translate("control", state.mode), translate("control", state.law)
-    return f"{device} · {mode} · {law} × {state.factor:g}"
+    return f"{device} · {mode} · {law} × {rounded(state.factor, 6)}"

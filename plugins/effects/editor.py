@@ -14,7 +14,9 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.effects.field import ParameterField, SteadyChoice, tip
+from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.plugins.effects.field import ParameterField
 from rotemina.plugins.effects.quantity import Quantity
 from rotemina.plugins.effects.words import effect_summary, effect_title, formulation_name
 from rotemina.sim.effects.attachment import Attached
@@ -46,18 +48,15 @@ class Editor(QWidget):
         self.fields: dict[str, ParameterField] = {}
         self.title = QLabel(translate("effects", NOTHING))
         self.title.setTextFormat(Qt.TextFormat.PlainText)
-        self.formulation = SteadyChoice()
-        self.formulation.setAccessibleName(translate("effects", "Formulation"))
-        self.formulation.setToolTip(
-            translate("effects", "Which equations the effect has; they stand below")
+        self.formulation = SteadyChoice(
+            translate("effects", "Formulation"),
+            translate("effects", "Which equations the effect has; they stand below"),
         )
         self.formulation.activated.connect(
             lambda: self.formulation_chosen.emit(self.formulation.currentData())
         )
         self._from = QLabel(translate("effects", "from"))
-        self.source = SteadyChoice()
-        self.source.setAccessibleName(translate("effects", "The axis that the effect comes from"))
-        self.source.setToolTip(translate("effects", "The axis that the effect comes from"))
+        self.source = SteadyChoice(translate("effects", "The axis that the effect comes from"))
         self.source.activated.connect(lambda: self.source_chosen.emit(self.source.currentData()))
         self.equation = QLabel()
         self.equation.setTextFormat(Qt.TextFormat.PlainText)
@@ -104,18 +103,16 @@ class Editor(QWidget):
             widget.setVisible(one is not None)
         for widget in (self._from, self.source):
             widget.setVisible(one is not None and one.effect.coupled)
-        self.title.setProperty("quiet", one is None)
-        self.title.setProperty("heading", one is not None)
-        self.title.style().unpolish(self.title)
-        self.title.style().polish(self.title)
+        set_property(self.title, "quiet", one is None)
+        set_property(self.title, "heading", one is not None)
         if one is None:
             self.title.setText(translate("effects", NOTHING))
             self.title.setToolTip("")
             return
         self.title.setText(f"{label(one.asked.axis)}: {effect_title(one.effect)}")
-        self.title.setToolTip(tip(effect_summary(one.effect)))
+        self.title.setToolTip(plain_tip(effect_summary(one.effect)))
         self.equation.setText(" ".join(one.formulation.equation.split()))
-        self.equation.setToolTip(tip(one.formulation.equation, one.formulation.source))
+        self.equation.setToolTip(plain_tip(one.formulation.equation, one.formulation.source))
         names = [formulation.name for formulation in one.effect.formulations]
         _offer(
             self.formulation,

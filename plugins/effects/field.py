@@ -1,44 +1,21 @@
 """One parameter of an effect: a field with its unit, a slider, and the way back to the preset."""
 
-from html import escape
-
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import (
-    QComboBox,
     QGridLayout,
     QLabel,
     QLineEdit,
-    QSlider,
     QToolButton,
     QWidget,
 )
 
+from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.steady import SteadySlider
 from rotemina.plugins.effects.meanings import meaning_of
 from rotemina.plugins.effects.quantity import SLIDER_STEPS, Quantity, ValueRefusedError
 from rotemina.plugins.effects.words import spoken
-
-
-def tip(*lines: str) -> str:
-    """Return a tooltip whose lines are no markup, whatever they hold."""
-    return f"<qt>{'<br>'.join(escape(line) for line in lines if line)}</qt>"
-
-
-class SteadySlider(QSlider):
-    """A slider that the wheel does not move: scrolling past it must change no machine."""
-
-    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave the wheel to what scrolls."""
-        event.ignore()
-
-
-class SteadyChoice(QComboBox):
-    """A choice that the wheel does not change."""
-
-    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave the wheel to what scrolls."""
-        event.ignore()
 
 
 class ParameterField(QObject):
@@ -59,7 +36,7 @@ class ParameterField(QObject):
         self._value = quantity.preset
         self._refused = ""
         preset = quantity.text(quantity.preset)
-        about = tip(
+        about = plain_tip(
             f"{spoken(name)}: {meaning_of(quantity.meaning)}",
             translate("effects", "Must be {range}").format(range=quantity.range_text),
             translate("effects", "Preset {value}").format(value=preset),
@@ -73,10 +50,8 @@ class ParameterField(QObject):
         self.edit.editingFinished.connect(self._commit)
         self._unit = QLabel(quantity.unit)
         self._unit.setTextFormat(Qt.TextFormat.PlainText)
-        self.slider = SteadySlider(Qt.Orientation.Horizontal)
-        self.slider.setRange(0, SLIDER_STEPS)
+        self.slider = SteadySlider(name, SLIDER_STEPS)
         self.slider.setPageStep(SLIDER_STEPS // 20)
-        self.slider.setAccessibleName(name)
         self.slider.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.slider.valueChanged.connect(self._slide)
         self.slider.setVisible(quantity.bounded)
@@ -86,7 +61,7 @@ class ParameterField(QObject):
             translate("effects", "{name} back to its preset").format(name=name)
         )
         self.reset.setToolTip(
-            tip(translate("effects", "Back to the preset, {value}").format(value=preset))
+            plain_tip(translate("effects", "Back to the preset, {value}").format(value=preset))
         )
         self.reset.clicked.connect(lambda: self._take(quantity.preset))
         for widget in (self._title, self.edit, self._unit, self.slider):
@@ -121,10 +96,7 @@ class ParameterField(QObject):
 
     def set_not_applied(self, state: bool) -> None:
         """Mark the field, or take the mark away."""
-        if self.not_applied != state:
-            self.edit.setProperty("bad", state)
-            self.edit.style().unpolish(self.edit)
-            self.edit.style().polish(self.edit)
+        set_property(self.edit, "bad", state)
 
     def settle(self) -> None:
         """Take the mark away where the text is what was applied."""
@@ -149,7 +121,7 @@ class ParameterField(QObject):
             self._refused = text
             self.set_not_applied(True)
             if not told:  # a field is left after its text was entered: one slip, one notice
-                self.refused.emit(self.name, str(error))
+                self.refused.emit(self.name, error_text(error))
             return
         self._take(value)
 

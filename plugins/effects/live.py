@@ -6,7 +6,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Connection, Event, SessionState
-from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import translate
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import AxisEffect
@@ -50,7 +50,7 @@ class LiveEffects(QObject):
         self._session = session
         self.apply_state = ApplyState.APPLIED
         self.reason = ""
-        self._seen = session.effects
+        self._seen = session.service.effects
         self._wanted: Effects | None = None
         self._sent: Effects | None = None
         self._told = ""
@@ -71,7 +71,7 @@ class LiveEffects(QObject):
 
     def refresh(self, state: SessionState) -> None:
         """See what became of the change that is under way; once a frame."""
-        now = self._session.effects
+        now = self._session.service.effects
         if self._sent is None:
             self._notice_others(now)
         elif now == self._sent:
@@ -91,10 +91,10 @@ class LiveEffects(QObject):
         self._tries += 1
         self._told, self._cycles = "", []
         try:
-            self._session.set_effects(effects)
+            self._session.service.set_effects(effects)
         except InputError as error:
-            self._stand(ApplyState.REFUSED, str(error))
-            self.refused.emit(str(error))
+            self._stand(ApplyState.REFUSED, error_text(error))
+            self.refused.emit(error_text(error))
             return
         self._sent = effects
         self._clock.start()
@@ -130,7 +130,7 @@ class LiveEffects(QObject):
         self._send()
 
     def _end(self, standing: ApplyState, reason: str = "") -> None:
-        self._sent, self._seen = None, self._session.effects
+        self._sent, self._seen = None, self._session.service.effects
         if self._wanted is None:
             self._stand(standing, reason)
         elif not self._pause.isActive():

@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QMenu
 
 from rotemina.app.display import label
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import plain_tip
 from rotemina.plugins.effects.chain import candidates
-from rotemina.plugins.effects.field import tip
 from rotemina.plugins.effects.words import (
     effect_summary,
     effect_title,
@@ -32,7 +32,7 @@ def fill(
         left_out = _submenu(menu, translate("effects", "Left out ({n})").format(n=len(broken)))
         for effect_id, reason in broken.items():
             action = _line(left_out, effect_id)
-            action.setToolTip(tip(reason))
+            action.setToolTip(plain_tip(reason))
 
 
 def _add_axis(
@@ -52,11 +52,11 @@ def _add_effect(menu: QMenu, axis: str, effect: Effect, names: list[str], add: A
     title = f"   {effect_title(effect)}"
     several = _submenu(menu, title) if len(formulations) > 1 else None
     if several is not None:
-        several.menuAction().setToolTip(tip(effect_summary(effect)))
+        several.menuAction().setToolTip(plain_tip(effect_summary(effect)))
     for formulation in formulations:
         text = title if several is None else formulation_name(formulation.name)
         action = (several or menu).addAction(_literal(text))
-        action.setToolTip(tip(effect_summary(effect), formulation.equation))
+        action.setToolTip(plain_tip(effect_summary(effect), formulation.equation))
         action.triggered.connect(lambda _=False, chosen=formulation: add(axis, effect, chosen))
 
 

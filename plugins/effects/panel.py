@@ -1,12 +1,10 @@
 """Effects of the running simulator: switch and tune them, live."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import (
-    QFileDialog,
     QHBoxLayout,
     QLabel,
     QMenu,
@@ -20,11 +18,13 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import label
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.engine_words import error_text
+from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.plugins.effects.chain import Chain, with_formulation, with_value
 from rotemina.plugins.effects.editor import Editor
-from rotemina.plugins.effects.field import tip
 from rotemina.plugins.effects.live import ApplyState, Effects, LiveEffects
 from rotemina.plugins.effects.menu import fill
 from rotemina.plugins.effects.table import EffectTable
@@ -42,6 +42,7 @@ REAL_MACHINE = marked(
     "Effects belong to the simulator. A real machine has its own: connect to the simulator to "
     "switch and tune any.",
 )
+FILES = marked("effects", "Robot files (*.toml)")
 MOST_PAST = 100  # lists that can be brought back
 
 
@@ -72,7 +73,7 @@ class EffectsPanel(Panel):
         self._offer_machines()
         self.live = LiveEffects(workbench.session, self)
         self._connect()
-        self._adopt(workbench.session.effects)
+        self._adopt(workbench.session.service.effects)
 
     # --- parts ------------------------------------------------------------------------------------
 
@@ -154,7 +155,7 @@ class EffectsPanel(Panel):
         self.left_out.setVisible(bool(broken))
         self.left_out.setText(translate("effects", "{n} left out").format(n=len(broken)))
         self.left_out.setToolTip(
-            tip(translate("effects", "Effects that cannot be loaded:"), *broken.values())
+            plain_tip(translate("effects", "Effects that cannot be loaded:"), *broken.values())
         )
 
     def _offer_machines(self) -> None:
@@ -225,8 +226,15 @@ class EffectsPanel(Panel):
         self._show_chosen()
 
     def _switch(self, place: int, on: bool) -> None:
+        """Have an effect act or not; where all are off, this one acts alone, as the ticks show."""
         self.place = place
-        self._change(replace(self.chain.asked[place], enabled=on))
+        if self.all_off.isChecked():
+            with QSignalBlocker(self.all_off):
+                self.all_off.setChecked(False)
+            silent = Chain.of(self.workbench.robot, self.chain.silent)
+            self._use(silent.changed(place, replace(self.chain.asked[place], enabled=on)))
+        else:
+            self._change(replace(self.chain.asked[place], enabled=on))
 
     def _tune(self, name: str, value: float) -> None:
         self._change(with_value(self.chain.effects[self.place], name, value), tuned=name)
@@ -245,7 +253,7 @@ class EffectsPanel(Panel):
         try:
             chain = self.chain.changed(self.place, asked)
         except InputError as error:
-            self.workbench.notify(Level.ERROR, str(error), about=error)
+            self.workbench.notify(Level.ERROR, error_text(error), about=error)
             self._show()
             return
         self._use(chain, tuned)
@@ -291,38 +299,14 @@ class EffectsPanel(Panel):
         )
 
     def _ask_load(self) -> None:
-        dialog = self._file_dialog(
-            translate("effects", "Load effects from a robot file"), self.load_effects
-        )
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.show()
+        title = translate("effects", "Load effects from a robot file")
+        kinds = translate("effects", FILES)
+        ask_file(self, self.workbench, title, kinds, self.load_effects)
 
     def _ask_save(self) -> None:
-        """Ask where to; the dialog asks again before a file is replaced."""
-        dialog = self._file_dialog(
-            translate("effects", "Save the robot with its effects"), self.save_robot
-        )
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("toml")
-        dialog.selectFile("robot.toml")
-        dialog.show()
-
-    def _file_dialog(self, title: str, use: Callable[[Path], None]) -> QFileDialog:
-        """Return a dialog beside which the window, and its stop button, can still be used."""
-        settings = self.workbench.settings
-        dialog = QFileDialog(
-            self,
-            title,
-            settings.get("files.folder", ""),
-            translate("effects", "Robot files (*.toml)"),
-        )
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(
-            lambda name: settings.set("files.folder", str(Path(name).parent))
-        )
-        dialog.fileSelected.connect(lambda name: use(Path(name)))
-        return dialog
+        title = translate("effects", "Save the robot with its effects")
+        kinds = translate("effects", FILES)
+        ask_where(self, self.workbench, title, kinds, "robot.toml", self.save_robot)
 
     # --- what is shown ----------------------------------------------------------------------------
 
@@ -414,10 +398,8 @@ class EffectsPanel(Panel):
 
     def _say(self, text: str, *, bad: bool = False) -> None:
         self.status.setText(text)
-        self.status.setToolTip(tip(text))
-        self.status.setProperty("bad", bad)
-        self.status.style().unpolish(self.status)
-        self.status.style().polish(self.status)
+        self.status.setToolTip(plain_tip(text))
+        set_property(self.status, "bad", bad)
 
 
 def _button(text: str, about: str) -> QPushButton:

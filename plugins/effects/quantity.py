@@ -3,16 +3,14 @@
 import math
 from dataclasses import dataclass
 
-from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.shell.language import translate
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import Parameter
-from rotemina.sim.units import drawing_unit, per_si, symbol
+from rotemina.sim.quantities import parsed, rounded, scale_of
 
 SLIDER_STEPS = 1000
 
 _RATES = ("", "/s", "/s²", "/√s")  # behind a unit of position, these leave it free to be chosen
-_SHORT_TIMES = (("s", 0.1), ("ms", 1e-4), ("us", 0.0))
 _DIGITS = 6
 _SLIDER_DIGITS = 4
 _BEND_WITHOUT_PRESET = 2.0  # where the preset is nothing
@@ -59,7 +57,7 @@ class Quantity:
 
     def number(self, value: float) -> str:
         """Return a value (SI) as digits, without its unit."""
-        return f"{value * self.per_si + 0.0:.{_DIGITS}g}"
+        return rounded(value * self.per_si, _DIGITS)
 
     def text(self, value: float) -> str:
         """Return a value (SI) with its unit."""
@@ -81,14 +79,15 @@ class Quantity:
         ValueRefusedError
             If it is no plain number, or out of bounds.
         """
-        if PLAIN_NUMBER.fullmatch(text.strip()) is None:
+        number = parsed(text)
+        if number is None:
             told = translate("effects", "{text} is no number; type one with a decimal point")
             if self.unit:
                 told = translate(
                     "effects", "{text} is no number; type one in {unit} with a decimal point"
                 )
             raise ValueRefusedError(told.format(text=repr(text), unit=self.unit))
-        value = self._snapped(float(text) / self.per_si)
+        value = self._snapped(number / self.per_si)
         if not self.low <= value <= self.high or math.isinf(value):
             typed = f"{text.strip()} {self.unit}".rstrip()
             told = translate("effects", "{value} is refused: must be {range}")
@@ -148,14 +147,10 @@ def _largest(low: float, high: float) -> float:
 
 def _shown_unit(unit: str, size: float, source_unit: str) -> tuple[str, float]:
     """Return the unit in which a value of this size reads well, and how many make one SI unit."""
-    for si_unit in ("rad", "m"):
-        rest = unit.removeprefix(si_unit)
-        if rest != unit and rest in _RATES:
-            shown = drawing_unit(si_unit, size)
-            return symbol(shown) + rest, per_si(shown)
-    if unit == "s":
-        shown = next(name for name, least in _SHORT_TIMES if size >= least)
-        return symbol(shown), per_si(shown)
+    head, slash, rest = unit.partition("/")
+    if unit == "s" or (head in ("m", "rad") and slash + rest in _RATES):
+        shown = scale_of(unit, size)
+        return shown.symbol, shown.per_si
     if unit.endswith("/…"):
         head = unit.removesuffix("/…")
         return ("" if head == source_unit else f"{head}/{source_unit}"), 1.0

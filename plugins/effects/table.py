@@ -2,13 +2,14 @@
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
+from PySide6.QtWidgets import QTableWidgetItem
 
 from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.effects.chain import Chain
-from rotemina.plugins.effects.field import tip
 from rotemina.plugins.effects.words import (
     effect_summary,
     effect_title,
@@ -27,7 +28,7 @@ COLUMNS = (
 _CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
 
 
-class EffectTable(QTableWidget):
+class EffectTable(Table):
     """One row for each effect, with its switch.
 
     Signals
@@ -40,15 +41,11 @@ class EffectTable(QTableWidget):
     chosen = Signal(int)
 
     def __init__(self) -> None:
-        super().__init__(0, len(COLUMNS))
-        self.setAccessibleName(translate("effects", "Effects in place"))
-        self.setHorizontalHeaderLabels([translate("effects", column) for column in COLUMNS])
-        self.verticalHeader().hide()
-        self.verticalHeader().setDefaultSectionSize(24)
-        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        super().__init__(
+            translate("effects", "Effects in place"),
+            [translate("effects", column) for column in COLUMNS],
+            row_height=24,
+        )
         self.horizontalHeader().setStretchLastSection(True)
         self.itemChanged.connect(self._on_change)
         self.currentCellChanged.connect(lambda row, *_: self.chosen.emit(row))
@@ -65,12 +62,12 @@ class EffectTable(QTableWidget):
             for column, text in enumerate(("", *_texts(one))):
                 item = QTableWidgetItem(text)
                 item.setForeground(QColor(theme.text if acts else theme.quiet))
-                item.setToolTip(tip(effect_summary(one.effect)))
+                item.setToolTip(plain_tip(effect_summary(one.effect)))
                 self.setItem(row, column, item)
             switch = self.item(row, 0)
             switch.setFlags(switch.flags() | Qt.ItemFlag.ItemIsUserCheckable)
-            switch.setCheckState(_CHECKS[one.asked.enabled])
-            switch.setToolTip(tip(translate("effects", "Whether the effect acts")))
+            switch.setCheckState(_CHECKS[acts])
+            switch.setToolTip(plain_tip(translate("effects", "Whether the effect acts")))
         if 0 <= place < len(chain):
             self.setCurrentCell(place, max(self.currentColumn(), 0))
         self.blockSignals(False)

@@ -16,7 +16,7 @@ STAGES = (
 # Title and summary of each effect.
 EFFECTS = (
     marked("effects", "Amplifier lag"),
-    marked("effects", "Phase and gain both fall with frequency; a tap at u shows it."),
+    marked("effects", "Phase and gain both fall with frequency; a recorded u shows it."),
     marked("effects", "Delay"),
     marked("effects", "The phase grows with frequency while the gain stays 1."),
     marked("effects", "Quantization"),

@@ -110,7 +110,7 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
         ),
         Fault(
             translate("faults", "Board"),
-            translate("faults", "A board begins anew; it does not know where its steppers are"),
+            translate("faults", "A board restarts and does not know where its steppers are"),
             (
                 Pick(
                     translate("faults", "What"),
@@ -124,7 +124,7 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
         ),
         Fault(
             translate("faults", "Sensor"),
-            translate("faults", "A sensor says the same until it is thawed"),
+            translate("faults", "A sensor repeats one reading until it is thawed"),
             (
                 Pick(
                     translate("faults", "What"),

@@ -33,7 +33,7 @@ class Kind(StrEnum):
     FAILED = marked("faults", "not connected")
     REFUSED = marked("faults", "refused")
     RECOVERED = marked("faults", "recovered")
-    STOP = marked("faults", "emergency stop")
+    STOP = marked("faults", "stop and lock")
     INJECTED = marked("faults", "injected")
     NOTE = marked("faults", "note")
 

@@ -2,12 +2,9 @@
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QLocale, Signal
-from PySide6.QtGui import QWheelEvent
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
-    QComboBox,
-    QDoubleSpinBox,
     QGridLayout,
     QHBoxLayout,
     QLabel,
@@ -16,9 +13,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.steady import SteadyChoice, SteadyNumber
 from rotemina.plugins.faults.board_process import TAKES_COMMANDS, BoardProcess
 from rotemina.plugins.faults.commands import Fault, Number, Pick, faults
 from rotemina.sim.robot.model import StepperAxis
@@ -34,8 +33,8 @@ _NO_COMMANDS = marked("faults", "on this system a virtual board takes no command
 _BOARD_AXES = 3
 
 
-class Choice(QComboBox):
-    """A parameter that is one of some words; the wheel does not change it."""
+class Choice(SteadyChoice):
+    """A parameter that is one of some words."""
 
     def __init__(self, pick: Pick) -> None:
         super().__init__()
@@ -48,20 +47,13 @@ class Choice(QComboBox):
         """Return what is sent."""
         return str(self.currentData())
 
-    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave the wheel to what scrolls."""
-        event.ignore()
 
-
-class Amount(QDoubleSpinBox):
-    """A parameter that is a number; always with a decimal point."""
+class Amount(SteadyNumber):
+    """A parameter that is a number."""
 
     def __init__(self, number: Number) -> None:
         super().__init__()
         self._number = number
-        locale = QLocale.c()
-        locale.setNumberOptions(QLocale.NumberOption.RejectGroupSeparator)
-        self.setLocale(locale)
         self.setDecimals(number.decimals)
         self.setRange(number.low, number.high)
         self.setValue(number.preset)
@@ -71,10 +63,6 @@ class Amount(QDoubleSpinBox):
     def word(self) -> str:
         """Return what is sent."""
         return self._number.word(self.value())
-
-    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave the wheel to what scrolls."""
-        event.ignore()
 
 
 class FaultRow:
@@ -133,10 +121,9 @@ class Injection(QWidget):
         super().__init__()
         self._workbench = workbench
         self.board = BoardProcess(workbench.robot, self)
-        self.lines = QComboBox()
-        self.lines.setAccessibleName(translate("faults", "Lines of the virtual board"))
-        self.lines.setToolTip(
-            translate("faults", "Whether the virtual boards share one serial line")
+        self.lines = SteadyChoice(
+            translate("faults", "Lines of the virtual board"),
+            translate("faults", "Whether the virtual boards share one serial line"),
         )
         most = 2 if len(workbench.robot.axes) > _BOARD_AXES else 1
         self._lines = most
@@ -165,9 +152,7 @@ class Injection(QWidget):
         self._show()
 
     def _lay_out(self) -> None:
-        about = QLabel(translate("faults", _ABOUT))
-        about.setWordWrap(True)
-        about.setProperty("quiet", True)
+        about = plain_text(translate("faults", _ABOUT), wrap=True)
         self.state.setProperty("quiet", True)
         buttons, options = QHBoxLayout(), QHBoxLayout()
         for widget in (self.start, self.end):

@@ -1,17 +1,12 @@
 """What went wrong and when, and faults on purpose."""
 
-from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
-    QFileDialog,
-    QFrame,
     QHBoxLayout,
-    QPushButton,
-    QScrollArea,
     QSplitter,
     QVBoxLayout,
     QWidget,
@@ -20,9 +15,11 @@ from PySide6.QtWidgets import (
 from rotemina.app.files import write_text
 from rotemina.app.motion.state import Connection, Event, SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.scroll import least_width, scrolled
 from rotemina.plugins.faults.history import Entry, History, Kind, as_text
 from rotemina.plugins.faults.injection import Injection
 from rotemina.plugins.faults.table import HistoryTable
@@ -44,10 +41,10 @@ class FaultsPanel(Panel):
         self.history, self.table = History(), HistoryTable()
         self.injection = Injection(workbench)
         self._shown: tuple[Entry, ...] = ()
-        self.clear_fault = _button(translate("faults", "Clear fault"), workbench.clear_fault)
-        self.copy = _button(translate("faults", "Copy"), self.copy_all)
-        self.save = _button(translate("faults", "Save …"), self._ask_save)
-        self.empty = _button(translate("faults", "Empty"), self._empty)
+        self.clear_fault = button(translate("faults", "Clear fault"), workbench.clear_fault)
+        self.copy = button(translate("faults", "Copy"), self.copy_all)
+        self.save = button(translate("faults", "Save …"), self._ask_save)
+        self.empty = button(translate("faults", "Empty"), self._empty)
         self._lay_out()
         # Told on the session's thread: the time is taken there, not when this window has time.
         self._unsubscribe = workbench.session.subscribe(
@@ -90,14 +87,8 @@ class FaultsPanel(Panel):
         column.setContentsMargins(0, 0, 4, 0)
         column.addLayout(buttons)
         column.addWidget(self.table, 1)
-        scroll = QScrollArea()
-        scroll.setObjectName("panelScroll")
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(self.injection)
-        bar = scroll.verticalScrollBar().sizeHint().width()
-        scroll.setMinimumWidth(self.injection.minimumSizeHint().width() + bar)
+        scroll = scrolled(self.injection)
+        scroll.setMinimumWidth(least_width(scroll))
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(left)
         split.addWidget(scroll)
@@ -141,19 +132,8 @@ class FaultsPanel(Panel):
         self.history.clear()
 
     def _ask_save(self) -> None:
-        folder = self.workbench.settings.get("files.folder", "")
-        dialog = QFileDialog(
-            self.main_window,
-            translate("faults", "Save faults"),
-            folder,
-            translate("faults", "Text (*.txt)"),
-        )
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.selectFile("faults.txt")
-        dialog.fileSelected.connect(lambda name: self.save_to(Path(name)))
-        dialog.show()
+        title, kinds = translate("faults", "Save faults"), translate("faults", "Text (*.txt)")
+        ask_where(self.main_window, self.workbench, title, kinds, "faults.txt", self.save_to)
 
 
 def against_clearing(state: SessionState) -> str | None:
@@ -166,9 +146,3 @@ def against_clearing(state: SessionState) -> str | None:
 def now() -> datetime:
     """Return the host's clock as local time."""
     return datetime.now().astimezone()
-
-
-def _button(text: str, run: Callable[[], object]) -> QPushButton:
-    made = QPushButton(text)
-    made.clicked.connect(lambda _: run())
-    return made

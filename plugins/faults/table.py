@@ -4,30 +4,29 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem
+from PySide6.QtWidgets import QHeaderView, QTableWidgetItem
 
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.faults.history import Entry, Kind, as_text
 
 COLUMNS = (marked("faults", "Time"), marked("faults", "What"), marked("faults", "Reason"))
 _CLOCK = 11  # where the time of day begins in the text of a time
 
 
-class HistoryTable(QTableWidget):
+class HistoryTable(Table):
     """One row for each entry."""
 
     def __init__(self) -> None:
-        super().__init__(0, len(COLUMNS))
+        super().__init__(
+            translate("faults", "What went wrong, newest first"),
+            [translate("faults", column) for column in COLUMNS],
+            row_height=24,
+        )
         self._shown: list[Entry] = []  # by row
-        self.setAccessibleName(translate("faults", "What went wrong, newest first"))
-        self.setHorizontalHeaderLabels([translate("faults", column) for column in COLUMNS])
-        self.verticalHeader().hide()
-        self.verticalHeader().setDefaultSectionSize(24)
-        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.setTabKeyNavigation(False)
+        self.setSelectionMode(self.SelectionMode.ExtendedSelection)
         self.setWordWrap(False)
         header = self.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)

@@ -4,12 +4,14 @@ from collections.abc import Callable, Sequence
 from html import escape
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Qt, QUrl, Signal
+from PySide6.QtCore import QObject, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
 from rotemina.app.files import json_text, write_text
 from rotemina.app.motion.run import Run
+from rotemina.app.shell.engine_words import TranslatedWording
+from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.gap_words import run_lines
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
@@ -67,19 +69,7 @@ class Actions(QObject):
         )
 
     def _ask(self, title: str, name: str, filters: str, use: Callable[[Path], None]) -> None:
-        """Ask where to, beside a window that can still be used; it asks before a file goes."""
-        settings = self._workbench.settings
-        dialog = QFileDialog(self._parent, title, settings.get("files.folder", ""), filters)
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix(Path(name).suffix[1:])
-        dialog.selectFile(name)
-        dialog.fileSelected.connect(
-            lambda chosen: settings.set("files.folder", str(Path(chosen).parent))
-        )
-        dialog.fileSelected.connect(lambda chosen: use(Path(chosen)))
-        dialog.show()
+        ask_where(self._parent, self._workbench, title, filters, name, use)
 
     # --- writing ----------------------------------------------------------------------------------
 
@@ -142,7 +132,7 @@ def write_report(
     """Write the page of a diagnosis to a file, with the gap of the run in hand at its head."""
     from rotemina.sim.gap.report import page  # drawing takes its time to import
 
-    text = page.report_text(diagnosis, records, names)
+    text = page.report_text(diagnosis, records, names, TranslatedWording())
     if run is not None:
         lines = "".join(f"<li>{escape(line)}</li>" for line in run_lines(run))
         told = f"<p>{escape(run.name)} ({escape(run.model_id)}):</p><ul>{lines}</ul>\n"

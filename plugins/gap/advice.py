@@ -6,7 +6,7 @@ from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.gap.words import any_of, effect_word
 from rotemina.sim.gap.diagnosis import CORRECTING, AxisDiagnosis, Verdict
-from rotemina.sim.gap.report.words import listed
+from rotemina.sim.messages import listed
 
 FIRST_STEPS = marked(
     "gap",
@@ -25,7 +25,7 @@ READY = marked(
 )
 NO_PROOF = marked(
     "gap",
-    "Here stands how far the gap shrinks on a motion that the diagnosis has not seen.\n"
+    "This page shows how far the gap shrinks on a motion that the diagnosis has not seen.\n"
     "Press “New motion …”, or play any trajectory of the diagnosed axes.",
 )
 
@@ -38,7 +38,9 @@ _MEANS = {
         ),
     ),
     Verdict.EXPLAINED: (
-        marked("gap", "The model lacks what is named below; with it in, it follows the machine."),
+        marked(
+            "gap", "The model lacks what is named below; with it, the model follows the machine."
+        ),
         marked(
             "gap", "Press “Use corrected model”; then “New motion …” shows how far the gap shrinks."
         ),
@@ -46,8 +48,8 @@ _MEANS = {
     Verdict.PARTLY: (
         marked(
             "gap",
-            "What is named below is there; something else, which no effect of the catalogue "
-            "accounts for, is left beside it.",
+            "What is named below is present; no effect of the catalogue explains the rest of the "
+            "gap.",
         ),
         marked(
             "gap",
@@ -97,7 +99,7 @@ def advice(one: AxisDiagnosis, *, has_experiment: bool) -> Iterator[str]:
         )
         yield open_.format(effects=any_of([effect_word(effect) for effect in sorted(rivals)]))
         if has_experiment:
-            parts = translate("gap", "Press “Play next experiment …”: it parts them.")
+            parts = translate("gap", "Press “Play next experiment …” to tell them apart.")
             do = f"{parts} {do}"
     yield translate("gap", "What to do: {advice}").format(advice=do)
 

@@ -17,17 +17,16 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.files import write_text
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.blind_result import HEAD, BlindResult
 from rotemina.plugins.gap.blind_run import BlindRun
-from rotemina.plugins.gap.hint import hint
 from rotemina.plugins.gap.robots import RobotChoice
-from rotemina.plugins.gap.table import Table
-from rotemina.plugins.gap.tips import tip
 from rotemina.plugins.gap.words import effect_title, effect_word
-from rotemina.sim.gap.report.quantities import percent
+from rotemina.sim.quantities import percent
 from rotemina.sim.robot.file import load_robot, shipped_robots
 from rotemina.sim.robot.writing import robot_text
 
@@ -83,10 +82,12 @@ class BlindPage(QDialog):
         self.doing = QLabel()
         self.doing.setTextFormat(Qt.TextFormat.PlainText)
         self.figures = Table(
-            translate("gap", "Figures beside the levels that they are to reach"), HEAD
+            translate("gap", "Figures beside the levels that they are to reach"),
+            [translate("gap", text) for text in HEAD],
         )
-        self.matrix = Table(translate("gap", "What is there, and what was named first"))
-        self.matrix.setSelectionMode(Table.SelectionMode.NoSelection)
+        self.matrix = Table(
+            translate("gap", "What is there, and what was named first"), choose=False
+        )
         self._lay_out()
         self._connect()
         self._show_state()
@@ -244,7 +245,7 @@ class BlindPage(QDialog):
             [colours[one.reached] for one in result.rows],
         )
         names = result.names
-        self.matrix.set_head((marked("gap", "what is there"), *map(title, names)))
+        self.matrix.set_head((translate("gap", "what is there"), *map(title, names)))
         self.matrix.show_rows(
             [
                 (title(there), *(str(result.counts.get((there, told), "")) for told in names))
@@ -260,7 +261,7 @@ class BlindPage(QDialog):
                 item.setBackground(colour)
                 text = translate("gap", "{truth} named {told}: {share} of its cases")
                 said = text.format(truth=title(there), told=_word(told), share=percent(share))
-                item.setToolTip(tip(said))
+                item.setToolTip(plain_tip(said))
 
 
 def title(name: str) -> str:

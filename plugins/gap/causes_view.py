@@ -7,29 +7,28 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QPlainTextEdit, QSplitter
 
 from rotemina.app.display import label
+from rotemina.app.shell.engine_words import WindowWording
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.advice import advice
 from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.sentences import reason_of, remark_of
-from rotemina.plugins.gap.table import Table
-from rotemina.plugins.gap.tips import tip
 from rotemina.plugins.gap.words import (
     AXIS_VERDICTS,
-    all_of,
     any_of,
     effect_title,
     effect_word,
     formulation_name,
 )
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Cause, FittedParameter, Ranked
-from rotemina.sim.gap.report.quantities import amount, amounts, percent, percents
 from rotemina.sim.gap.report.words import parameter_unit
+from rotemina.sim.quantities import amount, amounts, percent, percents
 
 HEAD = (
     marked("gap", "candidate"),
     marked("gap", "probability"),
-    marked("gap", "left [floors]"),
+    marked("gap", "remainder (noise floors)"),
     "95 %",
 )
 _TIPS = (
@@ -41,10 +40,10 @@ _TIPS = (
     marked("gap", "How likely it is the cause, of those tried and what is not among them"),
     marked(
         "gap",
-        "Rms of the gap that it leaves on data that its fit did not see, in noise floors: 1 is "
-        "all that noise allows",
+        "Rms of the remaining gap on data that its fit did not see, in noise floors; noise alone "
+        "is 1",
     ),
-    marked("gap", "What it leaves is between these in 95 of 100 cases, in noise floors"),
+    marked("gap", "95 % interval of the remainder, in noise floors"),
 )
 
 
@@ -55,10 +54,13 @@ class CausesView(QSplitter):
         super().__init__(Qt.Orientation.Horizontal)
         self._theme = theme
         self._shown: tuple[Answer, str] | None = None
-        self.ranking = Table(translate("gap", "Candidates, likeliest first"), HEAD)
-        self.ranking.setSelectionMode(Table.SelectionMode.NoSelection)
+        self.ranking = Table(
+            translate("gap", "Candidates, likeliest first"),
+            [translate("gap", text) for text in HEAD],
+            choose=False,
+        )
         for column, text in enumerate(_TIPS):
-            self.ranking.horizontalHeaderItem(column).setToolTip(tip(translate("gap", text)))
+            self.ranking.horizontalHeaderItem(column).setToolTip(plain_tip(translate("gap", text)))
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
         self.text.setAccessibleName(translate("gap", "What is said of the axis"))
@@ -109,15 +111,11 @@ def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
     yield from advice(one, has_experiment=bool(experiments))
     for cause in one.causes:
         yield from _cause(cause, answer)
-    yield from map(remark_of, one.remarks)
-    reasons: dict[str, list[str]] = {}
-    for each in one.untestable:
-        reasons.setdefault(each.reason, []).append(effect_word(each.effect))
-    for reason, effects in reasons.items():
-        text = translate("gap", "Not testable: {effects} ({reason}).")
-        yield text.format(effects=all_of(effects), reason=reason)
+    yield from map(WindowWording().of, one.remarks)
     for experiment in experiments:
-        yield translate("gap", "Next experiment: {why}").format(why=reason_of(experiment.why))
+        yield translate("gap", "Next experiment: {why}").format(
+            why=WindowWording().of(experiment.why)
+        )
 
 
 def _cause(cause: Cause, answer: Answer) -> Iterator[str]:

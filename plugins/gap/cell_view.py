@@ -8,10 +8,10 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.cell import Part
-from rotemina.sim.gap.report.quantities import Scale, amount
+from rotemina.sim.quantities import amount, scale_of
 
 CURVES = (("whole", "command"), ("within", "real"))
 
@@ -46,7 +46,7 @@ class CellView(QWidget):
         self.legend = QLabel()
         self.plot = SignalPlot(theme)
         for name, role in CURVES:
-            self.plot.add_curve(name, role)
+            self.plot.add_curve(name, Line(role))
         self.plot.show_times(True)
         head = QHBoxLayout()
         head.addWidget(self.back)
@@ -81,7 +81,7 @@ class CellView(QWidget):
             self.legend.setText(translate("gap", "No record has a row of this place."))
             return
         trace, theme = part.trace, self._theme
-        scale = Scale.of(trace.unit, float(np.abs(trace.before).max()))
+        scale = scale_of(trace.unit, float(np.abs(trace.before).max()))
         text = translate(
             "gap",
             'gap [{unit}]: <span style="color:{command}">the whole</span>, '

@@ -13,6 +13,7 @@ from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.diagnosis_process import DiagnosisProcess
 from rotemina.plugins.gap.words import effect_word, stage_name
 from rotemina.sim.gap.progress import Progress
+from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 
@@ -146,7 +147,7 @@ def said(progress: Progress, at_s: float, now_s: float) -> str:
         text += f": {effect_word(progress.candidate)}"
     if now_s < _FIRST_GUESS_S:
         return text
-    text += f", {now_s:.0f} s"
+    text += f", {fixed(now_s, 0)} s"
     if progress.share < _FIRST_GUESS_SHARE:
         return text
     left_s = at_s / progress.share - now_s

@@ -10,16 +10,16 @@ from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QW
 from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.cell import parts
 from rotemina.plugins.gap.cell_view import CellView
-from rotemina.plugins.gap.table import Table
-from rotemina.plugins.gap.tips import tip
 from rotemina.plugins.gap.words import regime_name
 from rotemina.sim.gap.document import shares
 from rotemina.sim.gap.report.heat import Heat
-from rotemina.sim.gap.report.quantities import NOTHING, amount, percent, percents
 from rotemina.sim.gap.where import Place
+from rotemina.sim.quantities import NOTHING, amount, percent, percents, rounded
 
 HEAD = (
     marked("gap", "axis, tap"),
@@ -36,12 +36,12 @@ _TIPS = (
         "Where it was read: u is the voltage, ref the reference sensor, meas the machine's own "
         "sensor",
     ),
-    marked("gap", "Of the gap above the noise floors of all axes and taps"),
-    marked("gap", "Of what was measured less what the model says, its mean taken out"),
-    marked("gap", "Rms of what noise and rounding of the sensor leave, which no model explains"),
+    marked("gap", "Share of the gap above the noise floors of all axes and channels"),
+    marked("gap", "Measured minus model, mean removed"),
+    marked("gap", "Rms of the sensor's noise and rounding, which no model explains"),
     marked("gap", "The band that holds most of it"),
     marked("gap", "What the axis was doing where the gap is largest"),
-    marked("gap", "The share is between these in 95 of 100 cases"),
+    marked("gap", "95 % interval of the share"),
 )
 _BANDS = 2  # columns before those of the bands
 _COLDEST = 0.3  # floors
@@ -57,14 +57,15 @@ class DistributionView(QSplitter):
         self._theme = theme
         self._answer: Answer | None = None
         self._places: list[Place] = []
-        self.places = Table(translate("gap", "Where the gap lies"), HEAD)
+        self.places = Table(
+            translate("gap", "Where the gap lies"), [translate("gap", text) for text in HEAD]
+        )
         for column, text in enumerate(_TIPS):
-            self.places.horizontalHeaderItem(column).setToolTip(tip(translate("gap", text)))
+            self.places.horizontalHeaderItem(column).setToolTip(plain_tip(translate("gap", text)))
         self.heat_title = QLabel()
         self.heat_title.setTextFormat(Qt.TextFormat.PlainText)
         self.heat_title.setWordWrap(True)
-        self.heat = Table(translate("gap", "Gap by band and regime"))
-        self.heat.setSelectionMode(Table.SelectionMode.NoSelection)
+        self.heat = Table(translate("gap", "Gap by band and regime"), choose=False)
         self.heat.setCursor(Qt.CursorShape.PointingHandCursor)
         self.heat.cellClicked.connect(self.open_cell)
         self.heat.cellActivated.connect(self.open_cell)
@@ -163,8 +164,8 @@ class DistributionView(QSplitter):
         self.heat.set_head(())
 
     def _draw(self, heat: Heat) -> None:
-        edges = [f"{edge:g}" for edge in heat.edges_hz]
-        self.heat.set_head((marked("gap", "while"), marked("gap", "share"), *edges[:-1]))
+        edges = [rounded(edge, 6) for edge in heat.edges_hz]
+        self.heat.set_head((translate("gap", "while"), translate("gap", "share"), *edges[:-1]))
         between = translate("gap", "{low} to {high} Hz")
         for column, (low, high) in enumerate(pairwise(edges), start=_BANDS):
             self.heat.horizontalHeaderItem(column).setToolTip(between.format(low=low, high=high))
@@ -185,7 +186,7 @@ class DistributionView(QSplitter):
                 share = percent(float(heat.share[row][column - _BANDS]))
                 low, high = edges[column - _BANDS], edges[column - _BANDS + 1]
                 item.setToolTip(
-                    tip(
+                    plain_tip(
                         here.format(
                             regime=regime_name(heat.regimes[row]),
                             low=low,
@@ -204,7 +205,7 @@ def warmth(floors: float) -> float:
 
 
 def _few(value: float) -> str:
-    return "< 0.01" if 0.0 < value < 0.01 else f"{float(f'{value:.2g}'):g}"
+    return "< 0.01" if 0.0 < value < 0.01 else rounded(value, 2)
 
 
 def _row(
@@ -217,7 +218,7 @@ def _row(
         percent(share[0]) if share is not None else translate("gap", "noise"),
         amount(place.gap_rms, unit),
         amount(place.noise_floor, unit),
-        NOTHING if band is None else f"{band[0]:.3g}…{band[1]:.3g} Hz",
+        NOTHING if band is None else f"{rounded(band[0], 3)}…{rounded(band[1], 3)} Hz",
         NOTHING if place.worst_regime is None else regime_name(place.worst_regime),
         percents(share[1]) if share is not None else NOTHING,
     )

@@ -1,41 +1,15 @@
-"""An answer in one line; no widgets."""
+"""How good an answer is, and why a motion may show it to be worse; no widgets."""
 
 from enum import StrEnum
 
-from rotemina.app.display import label
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import translate
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.proof import Shrunk
-from rotemina.plugins.gap.words import any_of, effect_word, within
-from rotemina.sim.gap.diagnosis import Cause, Verdict
-from rotemina.sim.gap.report.quantities import percent
+from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.records.record import Tap
 
 _CONSTANT = 0.5  # of a gap, below which what is left without its offset is not the point
 _BEYOND = 0.05  # of where records went
-
-_CALLED = {
-    Verdict.NONE: marked("gap", "No gap."),
-    Verdict.EXPLAINED: marked("gap", "Explained."),
-    Verdict.PARTLY: marked("gap", "Explained in part."),
-    Verdict.UNKNOWN: marked("gap", "Unknown gap."),
-    Verdict.INSUFFICIENT: marked("gap", "Insufficient excitation."),
-}
-
-
-def headline(answer: Answer) -> str:
-    """Return verdict and causes in one line."""
-    diagnosis = answer.diagnosis
-    parts = [translate("gap", _CALLED[diagnosis.verdict])]
-    for name, one in diagnosis.axes.items():
-        causes = [_cause(cause) for cause in one.causes]
-        if causes:
-            parts.append(f"{label(name)}: {', '.join(causes)}")
-        elif one.verdict is not Verdict.NONE:
-            called = _CALLED[one.verdict]
-            shown = within(called, translate("gap", called))
-            parts.append(f"{label(name)}: {shown}")
-    return "   ".join(parts)
 
 
 class Tone(StrEnum):
@@ -86,8 +60,3 @@ def why_worse(one: Shrunk, answer: Answer) -> str:
         "gap",
         "The motion does what no record did: choose this record too, and diagnose them together.",
     )
-
-
-def _cause(cause: Cause) -> str:
-    names = [effect_word(effect) for effect in (cause.effect, *cause.ambiguous_with)]
-    return f"{any_of(names)} {percent(cause.probability)}"

@@ -2,47 +2,64 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rotemina.app.display import label
-from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.engine_words import WindowWording
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import plain_tip
 from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.headline import TONES, Tone, change, headline, why_worse
+from rotemina.plugins.gap.headline import TONES, Tone, change, why_worse
 from rotemina.plugins.gap.proof import Proof
-from rotemina.plugins.gap.tips import tip
-from rotemina.plugins.gap.words import VERDICTS, summary
+from rotemina.plugins.gap.words import VERDICTS
+from rotemina.sim.gap.wording import details, findings
+
+HEIGHT, LITTLE = 120, 76  # px, at least, on a large page and on a small one
 
 
 class Headline(QFrame):
     """The sentence first, the remainder below it; red where a motion shows the model to be worse.
 
-    ``buttons`` stand on the right, for what is done about it.
+    On the right stands what is done about it: ``first``, and ``more`` below.
     """
 
-    def __init__(self, buttons: Sequence[QWidget]) -> None:
+    def __init__(self, first: Sequence[QWidget], more: Sequence[QWidget]) -> None:
         super().__init__()
         self.setObjectName("headline")
-        self.sentence, self.remainder = ElidedLabel(), ElidedLabel()
+        self.sentence, self.remainder = QLabel(), QLabel()
+        for text in (self.sentence, self.remainder):
+            text.setTextFormat(Qt.TextFormat.PlainText)
+            text.setWordWrap(True)
         self.sentence.setProperty("sentence", True)
         self.remainder.setProperty("remainder", True)
         words = QVBoxLayout()
         words.setSpacing(0)
         words.addWidget(self.sentence)
         words.addWidget(self.remainder)
+        words.addStretch(1)
         row = QHBoxLayout(self)
-        row.setContentsMargins(10, 2, 4, 2)
+        row.setContentsMargins(12, 6, 8, 6)
+        row.setSpacing(12)
         row.addLayout(words, 1)
-        for button in buttons:
-            row.addWidget(button)
+        buttons = QVBoxLayout()
+        for widgets in (first, more):
+            line = QHBoxLayout()
+            line.addStretch(1)
+            for widget in widgets:
+                line.addWidget(widget)
+            buttons.addLayout(line)
+        row.addLayout(buttons)
 
     def show_answer(self, answer: Answer, proof: Proof | None) -> None:
         """Show a diagnosis, and what a motion that it has not seen says of it."""
-        said = summary(answer.diagnosis, answer.records)
-        verdict = translate("gap", VERDICTS[answer.diagnosis.verdict])
+        diagnosis, wording = answer.diagnosis, WindowWording()
+        verdict = f"{translate('gap', VERDICTS[diagnosis.verdict])}."
+        found = [wording.of(message) for message in findings(diagnosis)]
+        text = "   ".join(found) or verdict
+        more = "  ".join(wording.of(message) for message in details(diagnosis, answer.records))
         worse = [one for one in proof.shrunk if one.worse] if proof is not None else []
-        tone = Tone.WORSE if worse else TONES[answer.diagnosis.verdict]
-        text, more = headline(answer), "  ".join(said) or f"{verdict}."
+        tone = Tone.WORSE if worse else TONES[diagnosis.verdict]
         if proof is not None and worse:
             listed = ", ".join(f"{label(one.trace.axis)} {change(one.times)}" for one in worse)
             worse_on = translate("gap", "Worse on {motion}: {axes}.   ")
@@ -53,10 +70,11 @@ class Headline(QFrame):
                 f"{label(one.trace.axis)} {change(one.times)}" for one in proof.shrunk
             )
             more = f"{proof.name}: {better}.  {more}"
-        self.sentence.show_text(text)
-        self.remainder.show_text(more)
+        self.sentence.setText(text)
+        self.remainder.setText(more)
         for label_ in (self.sentence, self.remainder):
-            label_.setToolTip(tip(text, more, f"{verdict}.", *said))
+            label_.setToolTip(plain_tip(*found, more, verdict))
         self.setProperty("tone", str(tone))
-        self.style().unpolish(self)
-        self.style().polish(self)
+        for widget in (self, self.sentence):  # whose colour is that of the frame's tone
+            widget.style().unpolish(widget)
+            widget.style().polish(widget)

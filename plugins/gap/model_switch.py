@@ -45,7 +45,7 @@ class ModelSwitch(QObject):
         question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         question.setWindowTitle(translate("gap", "Use corrected model"))
         question.setTextFormat(Qt.TextFormat.PlainText)
-        question.setText(translate("gap", "Make predictions with this model all the same?"))
+        question.setText(translate("gap", "Use this model for predictions anyway?"))
         safe = translate(
             "gap",
             "Predictions only. What is sent to the machine does not change, and no bound of it "
@@ -106,7 +106,7 @@ def noted_in(answer: Answer) -> Iterator[str]:
     if found:
         text = translate(
             "gap",
-            "It has learned {causes}: something may have been leant on. A penetration leaves that "
-            "out, and looks for a contact by the nominal model as well.",
+            "It has learned {causes}: the axis may have touched something. A penetration leaves "
+            "this out and looks for the contact with the nominal model as well.",
         )
         yield text.format(causes=all_of([effect_word(one.id) for one in found]))

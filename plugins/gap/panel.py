@@ -3,47 +3,47 @@
 from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QComboBox,
+    QBoxLayout,
     QHBoxLayout,
-    QLabel,
     QMenu,
-    QProgressBar,
     QPushButton,
     QStackedWidget,
     QTabBar,
     QToolButton,
     QVBoxLayout,
+    QWidget,
 )
 
-from rotemina.app.display import label
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.controls import ElidedLabel, allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.scroll import scrolled
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.gap.actions import Actions
 from rotemina.plugins.gap.advice import check_title, readiness
 from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.axis_cells import AxisCells
 from rotemina.plugins.gap.blind_page import BlindPage
 from rotemina.plugins.gap.causes_view import CausesView
 from rotemina.plugins.gap.diagnosing import Diagnosing
 from rotemina.plugins.gap.distribution_view import DistributionView
-from rotemina.plugins.gap.headline_view import Headline
+from rotemina.plugins.gap.headline_view import HEIGHT, LITTLE, Headline
 from rotemina.plugins.gap.hidden_machine import HiddenMachineTrial
-from rotemina.plugins.gap.hint import hint
 from rotemina.plugins.gap.model_switch import ModelSwitch, against, candidate
 from rotemina.plugins.gap.playing import Playing
 from rotemina.plugins.gap.proof import Proof, new_motion, prove
 from rotemina.plugins.gap.proof_view import ProofView
-from rotemina.plugins.gap.records import RecordChoice
-from rotemina.plugins.gap.robots import RobotChoice
+from rotemina.plugins.gap.rail import Rail
+from rotemina.plugins.gap.records import Records
 from rotemina.plugins.gap.running import RunningView
 from rotemina.plugins.gap.shrinkage_view import ShrinkageView
-from rotemina.plugins.gap.tips import tip
 from rotemina.plugins.gap.words import stage_name
 from rotemina.sim.gap.suggestion import suggestion
 
@@ -51,22 +51,19 @@ VIEWS = (
     marked("gap", "Where"),
     marked("gap", "Which effect"),
     marked("gap", "How far"),
-    marked("gap", "New motion"),
+    marked("gap", "Unseen motion"),
 )
 WHERE, WHICH, FAR, PROOF, RUNNING, HINT = range(6)
 TIPS = (
-    marked("gap", "On which axis, at which tap, in which frequencies and while the axis did what"),
+    marked("gap", "Axis, channel, frequencies and kind of motion in which the gap lies"),
     marked("gap", "The candidates with their probabilities, what is said of them and what to do"),
     marked("gap", "How far the gap shrinks with what was found, down to the noise floor"),
     marked("gap", "How far it shrinks on a motion that the diagnosis has not seen"),
 )
-STEPS = (
-    marked("gap", "First: the model, and records of the real machine"),
-    marked("gap", "Then: let the program look for what the model lacks"),
-    marked("gap", "In the end: use what was found"),
-)
 _HEIGHT = 240
-_NOT_FORETOLD = marked("gap", "commands foretell nothing of what was found")
+_UPRIGHT_FROM = (1400, 420)  # px of width and height, from which the rail stands at the side
+_WIDEST = 1400  # of the main column: longer lines read worse
+_NOT_FORETOLD = marked("gap", "nothing of what was found can be predicted from commands")
 _NO_ANSWER = marked("gap", "there is no answer yet; diagnose records first")
 
 
@@ -93,7 +90,10 @@ class GapPanel(Panel):
         self.actions_of = Actions(workbench, self)
         self.model_switch = ModelSwitch(workbench, self)
         self.hidden_trial = HiddenMachineTrial(workbench, self)
-        self.robots, self.records = RobotChoice(workbench), RecordChoice(workbench)
+        self.records = Records(workbench, self)
+        self.rail = Rail(workbench, self.records)
+        self.robots, self.start, self.stop = self.rail.robots, self.rail.start, self.rail.stop
+        self.progress, self.doing = self.rail.progress, self.rail.doing
         self.blind: BlindPage | None = None
         self._make_buttons()
         self._make_views()
@@ -104,14 +104,6 @@ class GapPanel(Panel):
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_buttons(self) -> None:
-        self.start = QPushButton(translate("gap", "Diagnose"))
-        self.start.setProperty("primary", True)
-        self.stop = QPushButton(translate("gap", "Stop"))
-        self.progress = QProgressBar()
-        self.progress.setRange(0, 1000)
-        self.progress.setTextVisible(False)
-        self.progress.setMaximumWidth(220)
-        self.doing = ElidedLabel()
         self.use = QPushButton(translate("gap", "Use corrected model"))
         self.twin = QPushButton(translate("gap", "Add to twin …"))
         self.motion = QPushButton(translate("gap", "New motion …"))
@@ -157,55 +149,53 @@ class GapPanel(Panel):
         for number, name in enumerate(VIEWS):
             self.tabs.addTab(translate("gap", name))
             self.tabs.setTabToolTip(number, translate("gap", TIPS[number]))
-        self.headline = Headline([self.use])
+        self.headline = Headline([self.use], [self.twin, self.report, self.more])
         self.verdict = self.headline.sentence
         self.plan = QPushButton(translate("gap", "Play next experiment …"))
         self.plan.setToolTip(
-            tip(
+            plain_tip(
                 translate(
                     "gap",
-                    "Play the motion that would tell best what these records cannot, and "
-                    "diagnose its record together with them",
+                    "Play the motion that best tells what these records cannot, and diagnose its "
+                    "record with them",
                 )
             )
         )
-        self.axis = QComboBox()
-        self.axis.setAccessibleName(translate("gap", "Axis"))
-        self.axis.setToolTip(translate("gap", "The axis of which the page speaks"))
+        self.cells = AxisCells(theme)
 
     def _lay_out(self) -> None:
-        top = QHBoxLayout()
-        top.setSpacing(6)
-        groups = (
-            (self.robots, self.records),
-            (self.start, self.stop),
-            (self.twin, self.motion, self.report, self.more),
-        )
-        for number, widgets in enumerate(groups, start=1):
-            step = QLabel(str(number))
-            step.setProperty("heading", True)
-            step.setToolTip(translate("gap", STEPS[number - 1]))
-            top.addWidget(step)
-            for widget in widgets:
-                top.addWidget(widget)
-            if number < len(groups):
-                top.addStretch(1)
         head = QHBoxLayout()
         head.setSpacing(8)
         head.addWidget(self.tabs)
         head.addStretch(1)
-        head.addWidget(self.progress)
-        head.addWidget(self.doing, 1)
         head.addWidget(self.plan)
-        head.addWidget(self.axis)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(10, 6, 10, 6)
-        outer.setSpacing(4)
-        outer.addLayout(top)
-        outer.addWidget(self.headline)
-        outer.addLayout(head)
-        outer.addWidget(self.views, 1)
+        head.addWidget(self.motion)
+        main = QWidget()
+        main.setMaximumWidth(_WIDEST)
+        column = QVBoxLayout(main)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(6)
+        for widget in (self.headline, self.cells):
+            column.addWidget(widget)
+        column.addLayout(head)
+        column.addWidget(self.views, 1)
+        self.scroll = scrolled(main, sideways=True)
+        self._outer = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
+        self._outer.setContentsMargins(10, 6, 10, 6)
+        self._outer.setSpacing(8)
+        self._outer.addWidget(self.rail)
+        self._outer.addWidget(self.scroll, 1)
         self.setMinimumHeight(_HEIGHT)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Put the rail at the side where there is room, else above."""
+        super().resizeEvent(event)
+        width, height = _UPRIGHT_FROM
+        upright = self.width() >= width and self.height() >= height
+        self.rail.stand(upright=upright)
+        way = QBoxLayout.Direction
+        self._outer.setDirection(way.LeftToRight if upright else way.TopToBottom)
+        self.headline.setMinimumHeight(HEIGHT if upright else LITTLE)
 
     def _connect(self) -> None:
         self.start.clicked.connect(self._start)
@@ -226,7 +216,7 @@ class GapPanel(Panel):
         self.records.changed.connect(self._show_state)
         self.records.complete.connect(self._go_on)
         self.tabs.currentChanged.connect(lambda _: self._show_state())
-        self.axis.activated.connect(lambda _: self._show_axis())
+        self.cells.chosen.connect(lambda _: self._show_axis())
         self.diagnosing.progressed.connect(self._show_progress)
         self.diagnosing.stepped.connect(self.running.show_step)
         self.diagnosing.finished.connect(self.take_answer)
@@ -250,7 +240,7 @@ class GapPanel(Panel):
             self.diagnose()
         else:
             self._goes_on = True
-            self.records.ask()
+            self.rail.menu.ask()
 
     def _go_on(self) -> None:
         goes_on, self._goes_on = self._goes_on, False
@@ -267,7 +257,7 @@ class GapPanel(Panel):
                 about=self,
             )
             return
-        names = [each.name for each in chosen]
+        names = [each.full for each in chosen]
         doing = (
             translate("gap", "waiting for the end of what was stopped")
             if self.diagnosing.busy
@@ -281,26 +271,22 @@ class GapPanel(Panel):
     def end(self) -> None:
         """Stop the diagnosis that runs."""
         self.diagnosing.stop()
-        self.doing.show_text(translate("gap", "The diagnosis was stopped."))
+        self.doing.setText(translate("gap", "The diagnosis was stopped."))
         self._show_state()
 
     def take_answer(self, answer: Answer) -> None:
         """Show a diagnosis."""
         self.answer, self._source = answer, self.robots.source
         self._candidate = candidate(answer)
-        self.axis.clear()
-        for name in answer.diagnosis.axes:
-            self.axis.addItem(label(name), name)
-        self.axis.setCurrentIndex(self.axis.findData(answer.first_axis))
         self.distribution.show_answer(answer)
         self.proof.show_proof(None)
-        self._show_axis()
+        self.cells.show_answer(answer)
         self.headline.show_answer(answer, None)
-        self.doing.show_text("")
+        self.doing.setText("")
         self._show_state()
 
     def _fail(self, message: str) -> None:
-        self.doing.show_text(translate("gap", "The diagnosis failed; the notice above says why."))
+        self.doing.setText(translate("gap", "The diagnosis failed; the notice above says why."))
         self.workbench.notify(Level.ERROR, message, about=self)
         self._show_state()
 
@@ -313,7 +299,7 @@ class GapPanel(Panel):
             translate("gap", "Diagnose") if chosen else translate("gap", "Diagnose …")
         )
         tip_of_start = (
-            translate("gap", "Look for what the model lacks")
+            translate("gap", "Find what the model lacks")
             if chosen
             else translate("gap", "Choose records, diagnose them")
         )
@@ -321,10 +307,11 @@ class GapPanel(Panel):
         allow(
             self.stop,
             None if running else translate("gap", "nothing runs"),
-            translate("gap", "End it now; motion goes on"),
+            translate("gap", "Stop the diagnosis; motion goes on"),
         )
         self.robots.setEnabled(not running)
-        self.records.setEnabled(not running)
+        self.rail.menu.setEnabled(not running)
+        self.rail.list.setEnabled(not running)
         self.progress.setVisible(running)
         why = translate("gap", _NO_ANSWER) if answer is None else None
         found = why or (
@@ -348,16 +335,15 @@ class GapPanel(Panel):
             translate("gap", "Write the report, a page with all figures, and open it"),
         )
         self.save.setEnabled(why is None)
-        self.plan.setVisible(answer is not None and bool(answer.diagnosis.experiments))
-        self.plan.setEnabled(not running)
         done = answer is not None and not running
+        self.plan.setVisible(done and bool(self._known.diagnosis.experiments))
         self.tabs.setVisible(done)
-        self.headline.setVisible(done)
+        for widget in (self.headline, self.cells, self.motion):
+            widget.setVisible(done)
         self.doing.setVisible(not done)
         self.hint.setText(readiness(chosen))
         shown = self.tabs.currentIndex() if done else RUNNING if running else HINT
         self.views.setCurrentIndex(shown)
-        self.axis.setVisible(shown in (WHICH, FAR))
 
     def _show_use(self) -> None:
         """Offer the corrected model: by itself where it is better, else after a question."""
@@ -372,10 +358,7 @@ class GapPanel(Panel):
         self.use.setText(
             translate("gap", "Use anyway …") if doubt else translate("gap", "Use corrected model")
         )
-        if self.use.property("primary") is not (doubt is None):
-            self.use.setProperty("primary", doubt is None)
-            self.use.style().unpolish(self.use)
-            self.use.style().polish(self.use)
+        set_property(self.use, "primary", doubt is None)
         allow(self.use, why_not, "\n".join(filter(None, (doubt, said))))
 
     def _follow_motion(self, state: SessionState) -> None:
@@ -389,16 +372,23 @@ class GapPanel(Panel):
         self.progress.setValue(round(1000 * share))
         text = translate("gap", "{share:.0f} % done")
         self.progress.setToolTip(text.format(share=100.0 * share))
-        self.doing.show_text(doing)
+        self.doing.setText(doing)
 
     def _show_axis(self) -> None:
-        if self.answer is not None:
-            axis = self.axis.currentData()
+        axis = self.cells.current
+        if self.answer is not None and axis is not None:
             self.causes.show_axis(self.answer, axis)
             self.shrinkage.show_axis(self.answer, axis)
 
     def _use_theme(self, theme: Theme) -> None:
-        for view in (self.distribution, self.causes, self.shrinkage, self.proof, self.running):
+        for view in (
+            self.distribution,
+            self.causes,
+            self.shrinkage,
+            self.proof,
+            self.running,
+            self.cells,
+        ):
             view.set_theme(theme)
 
     # --- what is played ---------------------------------------------------------------------------
@@ -406,7 +396,7 @@ class GapPanel(Panel):
     def play_experiment(self) -> None:
         """Ask whether to play the suggested experiment: of the axis in sight, or the first."""
         experiments = self._known.diagnosis.experiments
-        axis = self.axis.currentData()
+        axis = self.cells.current
         number = next((n for n, one in enumerate(experiments) if one.axis == axis), 0)
         made = suggestion(experiments[number], number + 1, "gap", self._known.units)
         self._experiment = made.names.commands
@@ -467,7 +457,7 @@ class GapPanel(Panel):
 
     def _offer_hidden(self) -> None:
         """Offer a hidden machine in the simulator's place, or to reveal the one that is there."""
-        simulated = self.workbench.session.effects is not None
+        simulated = self.workbench.session.service.effects is not None
         self.hide_machine.setEnabled(simulated and self.hidden_trial.secret is None)
         self.reveal.setEnabled(self.hidden_trial.secret is not None)
 

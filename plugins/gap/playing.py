@@ -6,7 +6,8 @@ from PySide6.QtWidgets import QMessageBox, QWidget
 from rotemina.app.display import axis_scale, label
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.pending import Pending
-from rotemina.app.shell.workbench import Plan, Run, Workbench
+from rotemina.app.shell.plan import Plan
+from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 
@@ -55,8 +56,10 @@ class Playing(QObject):
         self._workbench.plan_trajectory(name, trajectory)
 
     def _planned(self, plan: Plan) -> None:
-        wanted = plan.name == self._waiting.take()  # another one in hand is another wish
-        if wanted and plan.dry_run.allowed:
+        if plan.name != self._waiting.what:
+            return  # one from before, planned anew for another model
+        self._waiting.take()
+        if plan.dry_run.allowed:
             self._under_way = plan.name
             self._workbench.play(self._waiting.permit)
 

@@ -22,7 +22,7 @@ from rotemina.sim.robot.model import Robot
 
 _SHARE_OF_WAY = 0.8  # of where the records went: beyond it nothing was examined
 _MOTION_S = 6.0
-_SAME = 0.95  # times smaller, from which a gap is as large as before
+SAME = 0.95  # times smaller, from which a gap is as large as before
 _ATOM = 1e-6  # of the range, where a sensor's floor is not known
 _SEED = 20_261  # of its phases: no other motion has it by chance
 
@@ -53,7 +53,7 @@ class Shrunk:
     @property
     def worse(self) -> bool:
         """Whether it is larger than that of the nominal model, by enough to show."""
-        return self.trace.changed and self.times < _SAME
+        return self.trace.changed and self.times < SAME
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,22 +8,26 @@ from rotemina.app.display import label
 from rotemina.app.shell.gap_words import RUN
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.advice import NO_PROOF
 from rotemina.plugins.gap.headline import change
-from rotemina.plugins.gap.hint import hint
-from rotemina.plugins.gap.proof import Proof, Shrunk
-from rotemina.plugins.gap.table import Table
+from rotemina.plugins.gap.proof import SAME, Proof, Shrunk
 from rotemina.plugins.gap.trace_view import TraceView
 from rotemina.sim.comparison.gap import gap_text
+from rotemina.sim.quantities import rounded
 
 HEAD = (
+    marked("gap", "record"),
     marked("gap", "axis, tap"),
     marked("gap", "nominal"),
     marked("gap", "with what was found"),
-    marked("gap", "change"),
+    marked("gap", "unseen motion"),
     "95 %",
     marked("gap", "floor"),
 )
+
+_MOST = 20  # records that are shown
 
 
 class ProofView(QStackedWidget):
@@ -32,6 +36,7 @@ class ProofView(QStackedWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self.proof: Proof | None = None
+        self.proofs: list[Proof] = []  # of the answer in sight, the newest first
         self._theme = theme
         self.title = QLabel()
         self.title.setTextFormat(Qt.TextFormat.PlainText)
@@ -42,7 +47,10 @@ class ProofView(QStackedWidget):
                 "what moves and 0.5 s after; intervals by drawing blocks of the record anew",
             )
         )
-        self.table = Table(translate("gap", "How far the gap shrinks on the new motion"), HEAD)
+        self.table = Table(
+            translate("gap", "How far the gap shrinks on the new motion"),
+            [translate("gap", text) for text in HEAD],
+        )
         self.table.currentCellChanged.connect(lambda row, *_: self._choose(row))
         self.traces = TraceView(theme)
         left = QWidget()
@@ -59,40 +67,56 @@ class ProofView(QStackedWidget):
         self.addWidget(split)
 
     def show_proof(self, proof: Proof | None) -> None:
-        """Show what was worked out, or what to do where there is nothing yet."""
+        """Add what was worked out of a record; None: there is nothing yet."""
         self.proof = proof
-        self.setCurrentIndex(0 if proof is None else 1)
-        shrunk = () if proof is None else proof.shrunk
-        self.title.setText("" if proof is None else f"{proof.name}: {translate('shell', RUN)}")
-        worse = QColor(self._theme.danger_text)
-        self.table.show_rows(
-            [_row(one) for one in shrunk], [worse if one.worse else None for one in shrunk]
-        )
-        self.traces.show_traces(
-            [(f"{label(one.trace.axis)} {one.trace.tap}", one.trace) for one in shrunk]
-        )
-        if shrunk:
-            self.table.selectRow(0)
+        if proof is None:
+            self.proofs.clear()
+        else:
+            others = [one for one in self.proofs if one.name != proof.name]
+            self.proofs = [proof, *others][:_MOST]
+        self._show()
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
         self._theme = theme
-        self.show_proof(self.proof)
+        self._show()
         self.traces.set_theme(theme)
 
+    def _show(self) -> None:
+        rows = [(proof.name, one) for proof in self.proofs for one in proof.shrunk]
+        self.setCurrentIndex(1 if rows else 0)
+        self.title.setText(translate("shell", RUN) if rows else "")
+        worse = QColor(self._theme.danger_text)
+        self.table.show_rows(
+            [_row(name, one) for name, one in rows],
+            [worse if one.worse else None for _, one in rows],
+        )
+        self.traces.show_traces(
+            [(f"{name}: {label(one.trace.axis)} {one.trace.tap}", one.trace) for name, one in rows]
+        )
+
     def _choose(self, row: int) -> None:
-        if self.proof is not None and 0 <= row < len(self.proof.shrunk):
+        if 0 <= row < self.table.rowCount():
             self.traces.choose(row)
 
 
-def _row(one: Shrunk) -> tuple[str, ...]:
+def _row(name: str, one: Shrunk) -> tuple[str, ...]:
     trace = one.trace
     low, high = one.interval
     return (
+        name,
         f"{label(trace.axis)} {trace.tap}",
         gap_text(one.before, trace.unit),
         gap_text(one.after, trace.unit),
-        change(one.times),
-        f"{low:.3g} … {high:.3g}",
+        _better_or_worse(one),
+        f"{rounded(low, 3)} … {rounded(high, 3)}",
         gap_text(trace.floor, trace.unit),
     )
+
+
+def _better_or_worse(one: Shrunk) -> str:
+    if one.worse:
+        return translate("gap", "worse: {change}").format(change=change(one.times))
+    if one.trace.changed and one.times > 1.0 / SAME:
+        return translate("gap", "better: {change}").format(change=change(one.times))
+    return translate("gap", "about the same")

@@ -7,10 +7,10 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from rotemina.app.display import label
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
-from rotemina.plugins.gap.tips import tip
+from rotemina.app.widgets.controls import plain_tip
 from rotemina.plugins.gap.words import effect_title
-from rotemina.sim.gap.report.quantities import percent
 from rotemina.sim.gap.standing import Grade, Ranking, Standing
+from rotemina.sim.quantities import percent
 
 _ROW = 20  # high
 _ROOM = 6  # beside texts
@@ -40,7 +40,7 @@ class RankingView(QWidget):
         self.ranking, self._being_fitted = ranking, being_fitted
         rows = [f"{name_of(one)} {percent(one.closed)}" for one in ranking.standings[:_SHOWN]]
         self.setAccessibleName(f"{self.heading()}: {', '.join(rows)}")
-        self.setToolTip(tip(self.heading(), *rows))
+        self.setToolTip(plain_tip(self.heading(), *rows))
         self.update()
 
     def heading(self) -> str:

@@ -3,10 +3,11 @@
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QFileDialog
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QComboBox
 
 from rotemina.app.motion.model_in_use import ModelInUse
+from rotemina.app.shell.file_dialog import ask_file
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.sim.robot.file import load_robot, shipped_robots
@@ -36,7 +37,7 @@ class RobotChoice(QComboBox):
             translate("gap", "The model whose gap is looked for; at first the nominal one")
         )
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.setMinimumContentsLength(11)
+        self.setMinimumContentsLength(17)
         self.setMinimumWidth(80)  # where the window is narrow, a name is cut rather than the row
         nominal = translate("gap", "{robot}, nominal").format(robot=workbench.robot.name)
         self.addItem(nominal, None)
@@ -88,18 +89,5 @@ class RobotChoice(QComboBox):
             self.load(None)
 
     def _ask(self) -> None:
-        settings = self._workbench.settings
-        dialog = QFileDialog(
-            self.window(),
-            translate("gap", "Robot file"),
-            settings.get("files.folder", ""),
-            translate("gap", "Robot files (*.toml)"),
-        )
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.fileSelected.connect(
-            lambda name: settings.set("files.folder", str(Path(name).parent))
-        )
-        dialog.fileSelected.connect(lambda name: self.load(Path(name)))
-        dialog.show()
+        title, kinds = translate("gap", "Robot file"), translate("gap", "Robot files (*.toml)")
+        ask_file(self.window(), self._workbench, title, kinds, self.load)

@@ -12,14 +12,14 @@ from rotemina.sim.gap.progress import Progress
 STAGES = {
     "reading": marked("gap", "The records are read."),
     "where": marked(
-        "gap", "Where does the gap lie: on which axis, at which tap, in which frequencies?"
+        "gap", "Where does the gap lie: on which axis, in which channel, at which frequencies?"
     ),
-    "screening": marked("gap", "A first look at every effect that the axis may have."),
+    "screening": marked("gap", "Screening every effect that the axis may have."),
     "fitting": marked(
         "gap", "The likeliest candidates are fitted to the records, one beside the other."
     ),
-    "deciding": marked("gap", "Which of them stands on data that its fit has not seen?"),
-    "drawing": marked("gap", "What was found is drawn."),
+    "deciding": marked("gap", "Which of them holds on data that its fit has not seen?"),
+    "drawing": marked("gap", "Drawing the result."),
 }
 
 

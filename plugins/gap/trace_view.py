@@ -7,10 +7,10 @@ import numpy as np
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
-from rotemina.sim.gap.report.quantities import Scale
 from rotemina.sim.gap.report.traces import Trace
+from rotemina.sim.quantities import scale_of
 
 FLOOR = (("floor above", "good"), ("floor below", "good"))
 
@@ -23,7 +23,7 @@ class TraceView(QWidget):
         self._theme = theme
         self.choice = QComboBox()
         self.choice.setAccessibleName(translate("gap", "Record and tap"))
-        self.choice.setToolTip(translate("gap", "Which record, at which tap of the chain"))
+        self.choice.setToolTip(translate("gap", "Record and channel"))
         policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(policy)
         self.choice.setMinimumContentsLength(14)
@@ -31,7 +31,7 @@ class TraceView(QWidget):
         self.title = QLabel()
         self.plot = SignalPlot(theme)
         for name, role in (*FLOOR, ("before", "command"), ("after", "model")):
-            self.plot.add_curve(name, role)
+            self.plot.add_curve(name, Line(role))
         self.plot.show_times(True)
         head = QHBoxLayout()
         head.addWidget(self.choice)
@@ -68,7 +68,7 @@ class TraceView(QWidget):
         if trace is None:
             self.title.clear()
             return
-        scale = Scale.of(trace.unit, float(np.abs(trace.before).max()))
+        scale = scale_of(trace.unit, float(np.abs(trace.before).max()))
         theme = self._theme
         text = translate(
             "gap",

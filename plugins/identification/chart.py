@@ -7,9 +7,10 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from rotemina.app.shell.controls import plain_tip
-from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import legend
 from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.findings import Picture
 from rotemina.sim.arrays import FloatArray
@@ -46,7 +47,7 @@ class PicturePlot(SignalPlot):
         item.setLabel("bottom", localized(picture.bottom))
         for number, curve in enumerate(picture.curves):
             name = str(number)
-            self.add_curve(name, curve.role, curve.width)
+            self.add_curve(name, Line(curve.role, curve.width))
             x, y = _scaled(curve.x, picture.log_x), _scaled(curve.y, picture.log_y)
             if picture.in_time:
                 self.show_signal(name, x, y)
@@ -124,11 +125,7 @@ class Chart(QWidget):
         named = [
             (localized(curve.name), curve.role) for curve in self._picture.curves if curve.name
         ]
-        legend = ", ".join(
-            f'<span style="color:{getattr(self._theme, role)}">{escape(name)}</span>'
-            for name, role in named
-        )
-        self.title.setText(f"{title}: {legend}" if len(named) > 1 else title)
+        self.title.setText(f"{title}: {legend(self._theme, named)}" if len(named) > 1 else title)
         names = ", ".join(name for name, _ in named)  # in full, where the title is cut
         told = localized(self._picture.title)
         self.title.setToolTip(plain_tip(f"{told}: {names}" if names else told))

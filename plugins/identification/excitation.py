@@ -6,7 +6,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.display import PLAIN_NUMBER, duration_text, label
+from rotemina.app.display import duration_text, label
+from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.identification.views import View
 from rotemina.sim.errors import InputError
@@ -16,10 +17,10 @@ from rotemina.sim.excitation.quantity import Amount, ExcitationError, amount_of
 from rotemina.sim.excitation.swings import Triangle
 from rotemina.sim.excitation.tones import Multisine, Sine
 from rotemina.sim.kinematics.keep_out import KeepOutZone
+from rotemina.sim.quantities import exact, parsed, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.dry_run import DryRun, dry_run
-from rotemina.sim.trajectory.wording import readable
 
 _SAME = 1e-9  # of the swing: commands that differ by less are the same
 
@@ -94,7 +95,7 @@ class Prepared:
     def words(self) -> str:
         """What it asks of the axis, what was changed, and what the dry run says, as shown."""
         axis = self.dry_run.axes[self.request.axis]
-        low, high = (readable(end, axis.unit, scale=axis.highest) for end in _ends(self.dry_run))
+        low, high = (exact(end, axis.unit, size=axis.highest) for end in _ends(self.dry_run))
         unit = f"{axis.unit}/s"
         asks = translate("identification", "{low} to {high}, at most {speed}, {time}")
         if axis.bounds.max_speed is not None:
@@ -104,8 +105,8 @@ class Prepared:
         asks = asks.format(
             low=low,
             high=high,
-            speed=readable(axis.peak_speed, unit),
-            bound=readable(axis.bounds.max_speed or 0.0, unit),
+            speed=exact(axis.peak_speed, unit),
+            bound=exact(axis.bounds.max_speed or 0.0, unit),
             time=_lasting(self.dry_run.duration_s),
         )
         change = translate("identification", "Changed: {change}.")
@@ -205,7 +206,8 @@ def _number(name: str, text: str, unit: str) -> float | None:
     digits = text.strip().removesuffix(unit).strip()
     if not text.strip():
         return None
-    if PLAIN_NUMBER.fullmatch(digits) is None:
+    number = parsed(digits)
+    if number is None:
         raise ExcitationError(
             translate(
                 "identification",
@@ -213,11 +215,11 @@ def _number(name: str, text: str, unit: str) -> float | None:
                 "empty",
             ).format(name=translate("identification", name), text=repr(text[:40]), unit=unit)
         )
-    return float(digits)
+    return number
 
 
 def _lasting(seconds: float) -> str:
-    return f"{seconds:.3g} s" if seconds < 60.0 else f"{duration_text(seconds)} min"
+    return f"{rounded(seconds, 3)} s" if seconds < 60.0 else f"{duration_text(seconds)} min"
 
 
 def _ends(run: DryRun) -> tuple[float, float]:
@@ -237,5 +239,5 @@ def _out_of_bounds(
     try:
         zone.check_path(positions, trajectory.time_s)
     except InputError as error:
-        return str(error)
+        return error_text(error)
     return ""

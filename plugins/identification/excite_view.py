@@ -1,13 +1,12 @@
 """The section that excites an axis: what to play, what that asks of it, play, stop."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QGridLayout,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QProgressBar,
     QPushButton,
@@ -15,17 +14,20 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import PLAIN_NUMBER, label
+from rotemina.app.display import label
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow
-from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.pending import Pending
-from rotemina.app.shell.workbench import Plan, Run, Workbench
+from rotemina.app.shell.plan import Plan
+from rotemina.app.shell.workbench import Run, Workbench
+from rotemina.app.widgets.controls import allow, set_property
+from rotemina.app.widgets.labels import plain_text
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.identification.excitation import ExcitationRequest, Prepared, Wave, prepared
 from rotemina.sim.errors import InputError
+from rotemina.sim.quantities import parsed
 from rotemina.sim.records.record import Record
 
 CHECKING = marked("identification", "Making the motion, and trying it on the model …")
@@ -83,8 +85,7 @@ class ExciteView(QWidget):
                 "Move about where the axis stands; off: about the middle of its range",
             )
         )
-        self.told, self.owner = _text(), _text()
-        self.owner.setProperty("quiet", True)
+        self.told, self.owner = plain_text(quiet=False, wrap=True), plain_text(wrap=True)
         self.play, self.stop = (
             QPushButton(translate("identification", "Play")),
             QPushButton(translate("identification", "Stop")),
@@ -119,14 +120,14 @@ class ExciteView(QWidget):
         self.motion = None
         self.told.setText(translate("identification", CHECKING))
         request, robot, session = self.request(), self._workbench.robot, self._workbench.session
-        period_s, zone = session.setpoint_period_s, session.keep_out
+        period_s, zone = session.setpoint_period_s, session.bounds.keep_out
         command = session.snapshot().command
 
         def work() -> Prepared | str:
             try:
                 return prepared(robot, request, period_s, zone, command)
             except InputError as error:
-                return str(error)
+                return error_text(error)
 
         self._workbench.work("excitation", translate("identification", CHECKING), work, self._take)
 
@@ -217,8 +218,7 @@ class ExciteView(QWidget):
         else:
             self.motion = answer
             self.told.setText(answer.words)
-        self.told.setProperty("bad", isinstance(answer, str) or answer.digest is None)
-        self.told.style().polish(self.told)
+        set_property(self.told, "bad", isinstance(answer, str) or answer.digest is None)
 
     def _changed(self) -> None:
         self._name_fields()
@@ -258,7 +258,7 @@ class ExciteView(QWidget):
     def _typed(self) -> None:
         """Make the motion anew where a text is another; leaving a field alone changes nothing."""
         for field, unit in ((self.frequency, "Hz"), (self.time, "s")):
-            if PLAIN_NUMBER.fullmatch(field.text().strip()):
+            if parsed(field.text()) is not None:
                 field.setText(f"{field.text().strip()} {unit}")  # its name is covered by the number
         if self.motion is None or self.request() != self.motion.request:
             self.prepare()
@@ -302,10 +302,3 @@ def _field(name: str, tip: str) -> QLineEdit:
         translate("identification", "{tip}; empty: what suits the axis").format(tip=tip)
     )
     return field
-
-
-def _text() -> QLabel:
-    text = QLabel()
-    text.setTextFormat(Qt.TextFormat.PlainText)
-    text.setWordWrap(True)
-    return text

@@ -10,7 +10,7 @@ from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.question import Question
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
-from rotemina.sim.units import drawing_unit, per_si, symbol
+from rotemina.sim.quantities import Scale, scale_of
 
 logger = logging.getLogger(__name__)
 
@@ -71,25 +71,6 @@ class Findings:
     notices: tuple[str, ...] = ()
 
 
-class Scale(NamedTuple):
-    """A unit that reads well: ``symbol`` and how many of it make one SI unit."""
-
-    symbol: str
-    per_si: float
-
-    def text(self, value: float | None) -> str:
-        """Return an SI value in this unit."""
-        if value is None:
-            return NONE
-        return f"{value * self.per_si:.4g} {self.symbol}".rstrip()
-
-
-def scale_of(si_unit: str, largest: float) -> Scale:
-    """Return the unit in which values up to ``largest`` (SI) read best."""
-    unit = drawing_unit(si_unit, largest)
-    return Scale(symbol(unit), per_si(unit))
-
-
 def ratio_scale(question: Question, largest: float) -> Scale:
     """Return the unit of output over input, none where both are of one kind."""
     over, under = question.unit(question.answer), question.unit(question.drive)
@@ -98,8 +79,8 @@ def ratio_scale(question: Question, largest: float) -> Scale:
     if under == "V":
         top = scale_of(over, largest)
         return Scale(f"{top.symbol}/V", top.per_si)
-    bottom = drawing_unit(under, 1e-6 if under == "m" else 0.0)  # volts a µm or a µrad
-    return Scale(f"V/{symbol(bottom)}", 1.0 / per_si(bottom))
+    bottom = scale_of(under, 1e-6)  # volts a µm or a µrad
+    return Scale(f"V/{bottom.symbol}", 1.0 / bottom.per_si)
 
 
 def answered(look: Callable[[Question], Findings], question: Question) -> Findings:

@@ -12,9 +12,7 @@ from rotemina.plugins.identification.findings import (
     Curve,
     Findings,
     Picture,
-    Scale,
     ratio_scale,
-    scale_of,
 )
 from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
@@ -24,6 +22,7 @@ from rotemina.sim.identification.model import IdentifiedModel, Orders, simulate
 from rotemina.sim.identification.natural_modes import BAND_SHARE, NaturalMode, natural_modes
 from rotemina.sim.identification.output_error import identify_oe
 from rotemina.sim.identification.signals import Signals
+from rotemina.sim.quantities import Scale, fixed, scale_of, uncertain
 
 MOST_ROWS = 100_000  # fitted within a second; a mode is known well long before
 METHODS = {"oe": identify_oe, "arx": identify_arx}
@@ -136,13 +135,13 @@ def _rows(
     gain = model.transfer_function.static_gain
     scale = ratio_scale(question, abs(gain))
     rows: list[tuple[str, ...]] = [
-        (marked("identification", "fit"), f"{model.fit_percent:.2f} %", "")
+        (marked("identification", "fit"), f"{fixed(model.fit_percent, 2)} %", "")
     ]
     if model.prediction_percent is not None:
         rows.append(
             (
                 marked("identification", "fit of one step ahead"),
-                f"{model.prediction_percent:.2f} %",
+                f"{fixed(model.prediction_percent, 2)} %",
                 "",
             )
         )
@@ -165,16 +164,17 @@ def _rows(
 
 
 def _mode_rows(mode: NaturalMode) -> list[tuple[str, ...]]:
-    frequency = (f"{mode.frequency_hz:.5g} Hz", f"{mode.frequency_deviation:.2g} Hz")
+    frequency, doubt = uncertain(mode.frequency_hz, mode.frequency_deviation)
+    found = (f"{frequency} Hz", f"{doubt} Hz")
     if mode.oscillates:
-        ratio = (f"{mode.damping_ratio:.4g}", f"{mode.damping_deviation:.2g}")
+        ratio = uncertain(mode.damping_ratio, mode.damping_deviation)
         return [
-            (marked("identification", "natural frequency"), *frequency),
+            (marked("identification", "natural frequency"), *found),
             (marked("identification", "damping ratio"), *ratio),
         ]
     lag_s = 1.0 / (2.0 * np.pi * mode.frequency_hz) if mode.frequency_hz else np.inf
     return [
-        (marked("identification", "corner frequency"), *frequency),
+        (marked("identification", "corner frequency"), *found),
         (marked("identification", "time constant"), Scale("ms", 1e3).text(lag_s), NONE),
     ]
 

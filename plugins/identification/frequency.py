@@ -6,14 +6,7 @@ import numpy as np
 
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.identification.filled_template import FilledTemplate
-from rotemina.plugins.identification.findings import (
-    Column,
-    Curve,
-    Findings,
-    Picture,
-    Scale,
-    ratio_scale,
-)
+from rotemina.plugins.identification.findings import Column, Curve, Findings, Picture, ratio_scale
 from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
 from rotemina.sim.arrays import FloatArray
@@ -24,6 +17,7 @@ from rotemina.sim.identification.multisine import periodic_response
 from rotemina.sim.identification.resonance import Resonance, fit_resonance
 from rotemina.sim.identification.signals import Signals
 from rotemina.sim.identification.welch import welch_response
+from rotemina.sim.quantities import Scale, fixed, rounded, uncertain
 
 INTERVAL = 0.95
 WELCH, MULTISINE = "Welch", marked("identification", "multisine")
@@ -138,7 +132,7 @@ def _pictures(
     low, high = np.maximum(size - measured.radius, 0.01 * size), size + measured.radius
     magnitude = [
         Curve("", "quiet", frequency_hz, scale.per_si * low),
-        Curve(f"{100 * INTERVAL:.0f} %", "quiet", frequency_hz, scale.per_si * high),
+        Curve(f"{fixed(100 * INTERVAL, 0)} %", "quiet", frequency_hz, scale.per_si * high),
         Curve(marked("identification", "measured"), "real", frequency_hz, scale.per_si * size),
     ]
     phase = [
@@ -190,25 +184,26 @@ def _rows(
     rows = [
         (marked("identification", "gain, lowest line"), scale.text(size[0])),
         (marked("identification", "largest gain"), scale.text(size[peak])),
-        (marked("identification", "at"), f"{frequency_hz[peak]:.5g} Hz"),
+        (marked("identification", "at"), f"{rounded(frequency_hz[peak], 5)} Hz"),
         (
             marked("identification", "median coherence"),
-            f"{np.median(measured.lines.coherence):.4f}",
+            fixed(np.median(measured.lines.coherence), 4),
         ),
         (marked("identification", "estimator"), measured.method),
         (marked("identification", "averages"), measured.averages),
         (marked("identification", "lines"), str(len(size))),
-        (marked("identification", "lowest line"), f"{frequency_hz[0]:.5g} Hz"),
-        (marked("identification", "highest line"), f"{frequency_hz[-1]:.5g} Hz"),
-        (marked("identification", "resolution"), f"{measured.resolution_hz:.4g} Hz"),
+        (marked("identification", "lowest line"), f"{rounded(frequency_hz[0], 5)} Hz"),
+        (marked("identification", "highest line"), f"{rounded(frequency_hz[-1], 5)} Hz"),
+        (marked("identification", "resolution"), f"{rounded(measured.resolution_hz)} Hz"),
         (marked("identification", "samples"), str(signals.count)),
-        (marked("identification", "sampling rate"), f"{signals.rate_hz:.6g} Hz"),
+        (marked("identification", "sampling rate"), f"{rounded(signals.rate_hz, 6)} Hz"),
     ]
     if resonance is None:
         return tuple(rows)
-    frequency = f"{resonance.frequency_hz:.5g} ± {resonance.frequency_deviation:.2g} Hz"
-    ratio = f"{resonance.damping_ratio:.4g} ± {resonance.damping_deviation:.2g}"
-    misfit = f"{100.0 * resonance.misfit:.3g} %"
+    known = uncertain(resonance.frequency_hz, resonance.frequency_deviation)
+    frequency = f"{' ± '.join(known)} Hz"
+    ratio = " ± ".join(uncertain(resonance.damping_ratio, resonance.damping_deviation))
+    misfit = f"{rounded(100.0 * resonance.misfit, 3)} %"
     mode = [
         (marked("identification", "resonance"), frequency),
         (marked("identification", "damping ratio"), ratio),

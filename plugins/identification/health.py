@@ -4,12 +4,13 @@ from datetime import datetime
 
 from rotemina.app.calibration.health import Compared, card_of, compared_cards
 from rotemina.app.calibration.health_book import HealthBook
-from rotemina.app.calibration.words import amount
+from rotemina.app.calibration.words import figure_text
 from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import NONE, Column, Findings
 from rotemina.plugins.identification.question import Question
 from rotemina.sim.calibration.calibrating import Figure
+from rotemina.sim.quantities import uncertain
 
 HEAD = (
     marked("identification", "figure"),
@@ -82,11 +83,12 @@ def _row(row: Compared) -> tuple[str, ...]:
 
 def _words(figure: Figure) -> tuple[str, str]:
     if figure.unit == "Hz":
-        return f"{figure.value:.5g} Hz", f"{figure.half_width:.2g} Hz"
-    scale = max(abs(figure.value), figure.half_width)
+        value, half_width = uncertain(figure.value, figure.half_width)
+        return f"{value} Hz", f"{half_width} Hz"
+    size = max(abs(figure.value), figure.half_width)
     return (
-        amount(figure.value, figure.unit, scale=scale),
-        amount(figure.half_width, figure.unit, scale=scale, digits=2),
+        figure_text(figure.value, figure.unit, size=size),
+        figure_text(figure.half_width, figure.unit, size=size, digits=2),
     )
 
 

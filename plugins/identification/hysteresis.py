@@ -6,14 +6,7 @@ import numpy as np
 
 from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.filled_template import FilledTemplate
-from rotemina.plugins.identification.findings import (
-    Column,
-    Curve,
-    Findings,
-    Picture,
-    Scale,
-    scale_of,
-)
+from rotemina.plugins.identification.findings import Column, Curve, Findings, Picture
 from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
 from rotemina.plugins.identification.question import Question
 from rotemina.plugins.identification.statistics import HEAD, Figure, largest
@@ -22,6 +15,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import ExcitationError
 from rotemina.sim.identification.loop import Loop, amplitude_exponent, loops
 from rotemina.sim.identification.signals import Signals
+from rotemina.sim.quantities import Scale, rounded, scale_of
 
 _MOST_DRAWN = 20_000  # rows; more of a loop is a blot, and slow
 _MOST_CYCLES = 1000
@@ -207,7 +201,7 @@ def _sheet(
 def _exponent(found: tuple[Loop, ...]) -> str:
     """Return p, or nothing where the cycles are too alike to tell it."""
     try:
-        return f"p = {amplitude_exponent(found):.3g}"
+        return f"p = {rounded(amplitude_exponent(found), 3)}"
     except ExcitationError:
         return marked("identification", "too alike")
 

@@ -5,8 +5,6 @@ from pathlib import Path
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import (
-    QFileDialog,
-    QFrame,
     QHBoxLayout,
     QLabel,
     QPlainTextEdit,
@@ -19,9 +17,13 @@ from PySide6.QtWidgets import (
 from rotemina.app.files import write_text
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.column_mapping import ask_columns
+from rotemina.app.shell.engine_words import error_text
+from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.widgets.scroll import scrolled
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.identification.chart import Chart
 from rotemina.plugins.identification.controls import Controls
 from rotemina.plugins.identification.excitation import VIEWS, steady
@@ -31,7 +33,6 @@ from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.findings import Findings, answered
 from rotemina.plugins.identification.health import keep_card
 from rotemina.plugins.identification.question import Question
-from rotemina.plugins.identification.sheet import Sheet
 from rotemina.plugins.identification.views import LOOKS, View
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
@@ -68,7 +69,7 @@ class IdentificationPanel(Panel):
         self.summary.setWordWrap(True)
         self.notices = _notices()
         self.charts = tuple(Chart(workbench.theme) for _ in range(CHARTS))
-        self.sheet = Sheet()
+        self.sheet = Table(translate("identification", "Figures"), choose=False)
         self.findings: Findings | None = None
         self._name = ""
         self._question: Question | None = None
@@ -134,7 +135,7 @@ class IdentificationPanel(Panel):
             try:
                 return read_record(path, columns=columns, robot=self.workbench.robot)
             except InputError as error:
-                return str(error)
+                return error_text(error)
 
         def done(answer: Record | str) -> None:
             if isinstance(answer, str):
@@ -167,14 +168,13 @@ class IdentificationPanel(Panel):
         self.main_window.bring_up("identification")
 
     def _ask_record(self) -> None:
-        dialog = self._file_dialog(
-            translate("identification", "Open record"), translate("identification", RECORDS)
-        )
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.fileSelected.connect(
-            lambda name: ask_columns(Path(name), self.workbench, self, self.open_record)
-        )
-        dialog.show()
+        title = translate("identification", "Open record")
+        kinds = translate("identification", RECORDS)
+
+        def use(path: Path) -> None:
+            ask_columns(path, self.workbench, self, self.open_record)
+
+        ask_file(self, self.workbench, title, kinds, use)
 
     # --- the question and its answer --------------------------------------------------------------
 
@@ -235,7 +235,10 @@ class IdentificationPanel(Panel):
             chart.setVisible(number < len(pictures))
             if number < len(pictures):
                 chart.show_picture(pictures[number])
-        self.sheet.show_rows(*((findings.head, findings.rows) if findings else ((), ())))
+        self.sheet.set_head(list(map(localized, findings.head)) if findings else ())
+        self.sheet.show_rows(
+            [list(map(localized, row)) for row in findings.rows] if findings else ()
+        )
         self._say(findings.notices if findings is not None else ())
         for button in (self.controls.copy, self.controls.save):
             button.setEnabled(findings is not None)
@@ -300,17 +303,20 @@ class IdentificationPanel(Panel):
     def _ask_save(self) -> None:
         if self.findings is None:
             return
-        dialog = self._file_dialog(
+        title, kinds = (
             translate("identification", "Save results"),
             translate("identification", "Tables (*.csv)"),
         )
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("csv")
-        dialog.selectFile("identification.csv")
         # What is in sight now, whatever comes in while the dialog is open.
         text = as_csv(self.findings, self.controls.shown)
-        dialog.fileSelected.connect(lambda name: self.save_text(Path(name), text))
-        dialog.show()
+        ask_where(
+            self,
+            self.workbench,
+            title,
+            kinds,
+            "identification.csv",
+            lambda path: self.save_text(path, text),
+        )
 
     def save_text(self, path: Path, text: str) -> None:
         """Write results to a file."""
@@ -323,17 +329,6 @@ class IdentificationPanel(Panel):
             ),
         )
 
-    def _file_dialog(self, title: str, filters: str) -> QFileDialog:
-        """Return a dialog beside which the window, and its stop button, can still be used."""
-        settings = self.workbench.settings
-        dialog = QFileDialog(self, title, settings.get("files.folder", ""), filters)
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(
-            lambda name: settings.set("files.folder", str(Path(name).parent))
-        )
-        return dialog
-
     def _use_theme(self, theme: Theme) -> None:
         self.notices.setStyleSheet(f"color: {theme.warning};")
         for chart in self.charts:
@@ -341,12 +336,7 @@ class IdentificationPanel(Panel):
 
 
 def _scrolled(section: QWidget) -> QScrollArea:
-    scroll = QScrollArea()
-    scroll.setObjectName("panelScroll")
-    scroll.setFrameShape(QFrame.Shape.NoFrame)
-    scroll.setWidgetResizable(True)
-    scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    scroll.setWidget(section)
+    scroll = scrolled(section)
     scroll.setFixedWidth(EXCITE_WIDTH)
     return scroll
 

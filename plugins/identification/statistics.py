@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.app.shell.language import marked
-from rotemina.plugins.identification.findings import NONE, Column, Scale
+from rotemina.plugins.identification.findings import NONE, Column
+from rotemina.sim.quantities import Scale
 
 HEAD = (
     marked("identification", "figure"),

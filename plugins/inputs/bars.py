@@ -5,9 +5,9 @@ from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent, QPen, QPoly
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from rotemina.app.motion.teleoperation.calibration import AxisCalibration
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import plain_tip
 from rotemina.plugins.inputs.words import control_name
 
 _BAR_HEIGHT = 18

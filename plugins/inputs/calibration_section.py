@@ -5,15 +5,16 @@ from PySide6.QtWidgets import QCheckBox, QFormLayout, QWidget
 from rotemina.app.motion.teleoperation.calibration import AxisCalibration
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.inputs.bars import Curve
 from rotemina.plugins.inputs.calibrating import Calibrating, summary
 from rotemina.plugins.inputs.measuring import Measuring
 from rotemina.plugins.inputs.number_field import NumberField
-from rotemina.plugins.inputs.section import Section, SteadyChoice, button
 from rotemina.plugins.inputs.words import device_name
 
 _MM = 1e3
@@ -31,7 +32,7 @@ class CalibrationSection(Section):
         self.measuring = Measuring(workbench)
         self.measuring.measured.connect(self._show_axis)
         self.column.addWidget(self.measuring)
-        self.axis = SteadyChoice(translate("inputs", "Axis"))
+        self.axis = SteadyChoice(translate("inputs", "Axis"), letters=8)
         self.axis.currentIndexChanged.connect(lambda _: self._show_axis())
         self.column.addWidget(self.axis)
         self.summary = self.add_text()
@@ -43,7 +44,7 @@ class CalibrationSection(Section):
         self.discard = button(translate("inputs", "Discard"), self._discard)
         self.defaults = button(translate("inputs", "Defaults"), self._forget)
         self.defaults.setToolTip(translate("inputs", "This axis as one that was never calibrated"))
-        self.add_row(self.keep, self.discard, self.defaults)
+        self.add_row(self.keep, self.discard, self.defaults, equal=False)
 
     def _make_fields(self) -> None:
         about = translate(

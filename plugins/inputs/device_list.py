@@ -10,9 +10,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import translate
-from rotemina.plugins.inputs.section import Section, clear, quiet_text, show_text
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import plain_text, show_text
+from rotemina.app.widgets.section import Section, clear
 from rotemina.plugins.inputs.words import Entry, Trouble
 
 _MOST_ROWS = 4
@@ -112,7 +113,7 @@ def _frame(trouble: Trouble) -> QFrame:
 
 
 def _selectable(words: str) -> QLabel:
-    text = quiet_text()
+    text = plain_text(wrap=True)
     text.setProperty("quiet", False)
     text.setText(words)
     text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

@@ -6,13 +6,14 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QVBoxLayout
 from rotemina.app.motion.teleoperation.calibration import Calibration
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
-from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.labels import ElidedLabel, show_text
+from rotemina.app.widgets.section import Section, clear
 from rotemina.plugins.inputs.bars import AxisBar, Lamps
-from rotemina.plugins.inputs.engine_words import spoken
-from rotemina.plugins.inputs.section import Section, clear, show_text
 from rotemina.plugins.inputs.words import target_name
+from rotemina.sim.quantities import formatted
 
 _NAME_WIDTH, _NUMBER_WIDTH = 72, 104
 
@@ -52,7 +53,7 @@ class AxisRow(QFrame):
         """Show what the axis says; ``stale``: that is old."""
         trusted = axis.reason is None and not stale
         self.bar.show_axis(axis.raw, axis.deflection, trusted, calibration.axis(axis.control))
-        said = "–" if axis.raw is None else f"{axis.raw:+.2f}"
+        said = "–" if axis.raw is None else formatted(axis.raw, "+.2f")
         # 0 without a sign: one that flickers between +0 and -0 is at rest.
         percent = f"{100.0 * axis.deflection:+.0f}".replace("-0", "0") if axis.deflection else "0"
         self.numbers.setText(f"{said}   {percent} %")

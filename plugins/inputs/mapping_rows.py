@@ -5,8 +5,9 @@ from PySide6.QtWidgets import QGridLayout, QPushButton, QToolButton, QWidget
 
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.profile import ActionMapping
-from rotemina.app.shell.controls import ElidedLabel, allow, plain_tip
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.plugins.inputs.edits import Edited
 from rotemina.plugins.inputs.number_field import NumberField
 from rotemina.plugins.inputs.words import (

@@ -9,15 +9,17 @@ from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.motion.teleoperation.profile import OperatorRole, Profile
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.inputs.edits import Edited, exchanged, threshold, turned
-from rotemina.plugins.inputs.engine_words import spoken
 from rotemina.plugins.inputs.finding import Finding
 from rotemina.plugins.inputs.mapping_rows import ActionRow, Row, TargetRow
 from rotemina.plugins.inputs.profiles import ProfileChoice
-from rotemina.plugins.inputs.section import Section, SteadyChoice, button, quiet_text
 from rotemina.plugins.inputs.words import ACTIONS, axis_targets, device_name, way_of
 from rotemina.sim.errors import InputError
 
@@ -44,13 +46,13 @@ class MappingSection(Section):
         self._view = DevicesView()
         self._finding: Finding | None = None
         self._row: Row | None = None
-        self.seat = SteadyChoice(translate("inputs", "Seat of the device"))
+        self.seat = SteadyChoice(translate("inputs", "Seat of the device"), letters=8)
         for name, seat in _SEATS.items():
             self.seat.addItem(translate("inputs", name), seat)
         self.seat.activated.connect(lambda _: self._choose_seat())
         self.exchange = button(translate("inputs", "Exchange seats"), self._exchange)
-        self.add_row(self.seat, self.exchange)
-        self.message = quiet_text()  # placed where it stays in sight
+        self.add_row(self.seat, self.exchange, equal=False)
+        self.message = plain_text(wrap=True)  # placed where it stays in sight
         self.message.setText(translate("inputs", HINT))
         grid = QGridLayout()
         grid.setHorizontalSpacing(5)
@@ -197,7 +199,7 @@ class MappingSection(Section):
             self._profiles.edit(change(self._edited))
         except InputError as error:
             self._tell(translate("inputs", "Refused: {error}").format(error=error))
-            self._workbench.notify(Level.ERROR, str(error), about=error)
+            self._workbench.notify(Level.ERROR, error_text(error), about=error)
             return False
         self._tell(translate("inputs", HINT))
         return True

@@ -4,12 +4,13 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
 
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.labels import plain_text, show_text
+from rotemina.app.widgets.section import clear
 from rotemina.plugins.inputs.calibrating import Calibrating, Step
-from rotemina.plugins.inputs.engine_words import spoken
-from rotemina.plugins.inputs.section import button, clear, quiet_text, show_text
 
 _TEXTS = {
     Step.EDIT: marked(
@@ -36,14 +37,14 @@ class Measuring(QWidget):
         self._now: Calibrating | None = None
         self._device: DeviceView | None = None
         self._now_s = 0.0
-        self.text = quiet_text()
+        self.text = plain_text(wrap=True)
         self.wanted: dict[str, QCheckBox] = {}
         self.one_sided: dict[str, QCheckBox] = {}
         self.choice = QWidget()
         self._grid = QGridLayout(self.choice)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setVerticalSpacing(2)
-        self.problems = quiet_text()
+        self.problems = plain_text(wrap=True)
         self.next = button(translate("inputs", "Measure …"), self._next)
         self.cancel = button(translate("inputs", "Cancel"), self._cancel)
         row = QHBoxLayout()

@@ -3,9 +3,9 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLineEdit, QWidget
 
-from rotemina.app.display import PLAIN_NUMBER
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.sim.quantities import parsed, rounded
 
 
 class NumberField(QLineEdit):
@@ -68,29 +68,30 @@ class NumberField(QLineEdit):
         self.setText(self._shown())
 
     def _shown(self) -> str:
-        return "" if self._value is None else f"{self._value:.4g}"
+        return "" if self._value is None else rounded(self._value)
 
     def _commit(self) -> None:
         text = self.text().strip()
         if text == self._shown():
             self._mark("")
             return
+        number = parsed(text)
         if not text and self._optional:
             self._take(None)
-        elif PLAIN_NUMBER.fullmatch(text) is None:
+        elif number is None:
             self._mark(
                 translate(
                     "inputs", "{text!r} is no number; type one with a decimal point, {bounds}"
                 ).format(text=text, bounds=self._bounds)
             )
-        elif not self._low <= float(text) <= self._high:
+        elif not self._low <= number <= self._high:
             self._mark(
                 translate("inputs", "{value} is refused: must be {bounds}").format(
                     value=f"{text} {self._unit}".rstrip(), bounds=self._bounds
                 )
             )
         else:
-            self._take(float(text))
+            self._take(number)
 
     def _take(self, value: float | None) -> None:
         self._value = value
@@ -99,8 +100,5 @@ class NumberField(QLineEdit):
 
     def _mark(self, wrong: str) -> None:
         self._wrong = wrong
-        if self.property("bad") != bool(wrong):
-            self.setProperty("bad", bool(wrong))
-            self.style().unpolish(self)
-            self.style().polish(self)
+        set_property(self, "bad", bool(wrong))
         self.setToolTip(plain_tip(self._about, wrong))

@@ -4,13 +4,11 @@ from collections import deque
 from collections.abc import Callable
 from enum import StrEnum
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QTimer
 from PySide6.QtGui import QHideEvent
 from PySide6.QtWidgets import (
-    QFrame,
     QHBoxLayout,
     QPushButton,
-    QScrollArea,
     QTabBar,
     QVBoxLayout,
     QWidget,
@@ -25,13 +23,14 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.scroll import scrolled
 from rotemina.plugins.inputs.calibration_section import CalibrationSection
 from rotemina.plugins.inputs.device_list import DeviceList, Troubles
 from rotemina.plugins.inputs.live import LiveSection
 from rotemina.plugins.inputs.mapping_section import MappingSection
 from rotemina.plugins.inputs.profile_section import ProfileSection
 from rotemina.plugins.inputs.profiles import ProfileChoice
-from rotemina.plugins.inputs.section import quiet_text
 from rotemina.plugins.inputs.words import NOTHING_SENT, entries, headline, troubles
 
 _MOST_HEARD = 2000  # steps between two frames: some seconds
@@ -72,8 +71,8 @@ class InputsPanel(Panel):
 
     def _make_parts(self) -> None:
         bench = self.workbench
-        self.headline = quiet_text()
-        self.banner = quiet_text()
+        self.headline = plain_text(wrap=True)
+        self.banner = plain_text(wrap=True)
         self.banner.setText(translate("inputs", NOTHING_SENT))
         set_tone(self.banner, Tone.WARNING)
         self.set_up = QPushButton(translate("inputs", "Set up …"))
@@ -114,12 +113,7 @@ class InputsPanel(Panel):
         for part in (self.list, self.live, self.troubles, self.profile):
             column.addWidget(part)
         column.addStretch(1)
-        self._scroll = QScrollArea()
-        self._scroll.setObjectName("panelScroll")
-        self._scroll.setFrameShape(QFrame.Shape.NoFrame)
-        self._scroll.setWidgetResizable(True)
-        self._scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self._scroll.setWidget(content)
+        self._scroll = scrolled(content)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.setSpacing(0)

@@ -1,15 +1,18 @@
 """Which profile is used; keeping a changed one."""
 
 from PySide6.QtGui import QStandardItemModel
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
 
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
-from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.plugins.inputs.engine_words import spoken
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import show_text
+from rotemina.app.widgets.question import Question
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.inputs.profiles import AUTOMATIC, Offer, ProfileChoice
-from rotemina.plugins.inputs.section import Section, SteadyChoice, button, quiet_text, show_text
 
 _FIRST = marked("inputs", "save or discard the changes first")
 
@@ -21,12 +24,12 @@ class ProfileSection(Section):
         super().__init__(translate("inputs", "Profile"))
         self._workbench = workbench
         self.profiles = profiles
-        self.choice = SteadyChoice(translate("inputs", "Profile"))
+        self.choice = SteadyChoice(translate("inputs", "Profile"), letters=8)
         self.again = QToolButton()
         self.again.setText("⟳")
-        self.again.setAccessibleName(translate("inputs", "Look for profiles again"))
-        self.again.setToolTip(translate("inputs", "Look into the folder of profiles again"))
-        self.add_row(self.choice, self.again)
+        self.again.setAccessibleName(translate("inputs", "Refresh the profiles"))
+        self.again.setToolTip(translate("inputs", "Refresh the folder of profiles"))
+        self.add_row(self.choice, self.again, equal=False)
         self.state = self.add_text()
         self.name = QLineEdit()
         self.name.setAccessibleName(translate("inputs", "Name to keep the profile under"))
@@ -48,8 +51,7 @@ class ProfileSection(Section):
         row.addWidget(self.save)
         row.addWidget(self.discard)
         self.column.addWidget(self.keeping)
-        self.question = _Overwrite()
-        self.question.yes.clicked.connect(lambda _: self._save())
+        self.question = Question()
         self.column.addWidget(self.question)
         self._offers: tuple[Offer, ...] = ()
         self.choice.activated.connect(lambda _: self._choose())
@@ -118,7 +120,8 @@ class ProfileSection(Section):
     def _ask_save(self) -> None:
         name = self.name.text().strip()
         if name != self.profiles.chosen and self.profiles.exists(name):
-            self.question.ask(name)
+            asked = translate("inputs", "There is a profile {name!r} already. Overwrite it?")
+            self.question.ask(asked.format(name=name), translate("inputs", "Overwrite"), self._save)
         else:
             self._save()
 
@@ -134,39 +137,6 @@ class ProfileSection(Section):
 
     def _discard(self) -> None:
         self._workbench.ask(self.profiles.discard)
-
-
-class _Overwrite(QFrame):
-    """Asks whether another profile is to be overwritten."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.setObjectName("question")
-        self.text = quiet_text()
-        self.yes = button(translate("inputs", "Overwrite"), self.hide)
-        self.yes.setToolTip(
-            translate("inputs", "Put this profile in the place of the one of that name")
-        )
-        self.no = button(translate("inputs", "Cancel"), self.hide)
-        self.no.setToolTip(translate("inputs", "Keep nothing"))
-        row = QHBoxLayout()
-        row.addWidget(self.yes, 1)
-        row.addWidget(self.no, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(8, 6, 8, 8)
-        column.addWidget(self.text)
-        column.addLayout(row)
-        self.hide()
-
-    def ask(self, name: str) -> None:
-        """Ask about a name."""
-        self.text.setText(
-            translate("inputs", "There is a profile {name!r} already. Overwrite it?").format(
-                name=name
-            )
-        )
-        self.show()
-        self.no.setFocus()  # what Enter chooses
 
 
 def _state(view: DevicesView, profiles: ProfileChoice) -> str:

@@ -8,6 +8,7 @@ from rotemina.app.motion.teleoperation.input_devices import InputDevices
 from rotemina.app.motion.teleoperation.mapping import check_profile
 from rotemina.app.motion.teleoperation.profile import ListedProfile, Profile, ProfileError
 from rotemina.app.settings import Settings
+from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import translate
 from rotemina.plugins.inputs.words import device_name
 
@@ -186,7 +187,7 @@ class ProfileChoice:
             return Offer(
                 name,
                 translate("inputs", "{name} – not for this robot").format(name=name),
-                str(error),
+                error_text(error),
             )
         return Offer(name, name)
 

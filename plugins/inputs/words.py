@@ -10,15 +10,16 @@ from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM
 from rotemina.app.motion.teleoperation.profile import OperatorRole
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.drivers.inputs.hub import InputHub
-from rotemina.plugins.inputs.engine_words import spoken
+from rotemina.sim.quantities import fixed
 
 NOTHING_SENT = marked("inputs", "Nothing is sent to the robot while you set up, but stops.")
 ACTIONS = {
     Action.STOP: marked("inputs", "Stop"),
-    Action.EMERGENCY_STOP: marked("inputs", "E-stop"),
+    Action.EMERGENCY_STOP: marked("inputs", "Stop and lock"),
     Action.DEAD_MAN: marked("inputs", "Dead-man"),
     Action.CLUTCH: marked("inputs", "Clutch"),
     Action.FINE: marked("inputs", "Fine"),
@@ -204,7 +205,7 @@ def _drivers(view: DevicesView) -> str:
 def control_text(controls: Mapping[str, float | None]) -> str:
     """Return controls as a row of the mapping shows them, with thresholds of axes."""
     return ", ".join(
-        name if at is None else f"{name} {'>' if at > 0 else '<'} {100 * at:.0f} %"
+        name if at is None else f"{name} {'>' if at > 0 else '<'} {fixed(100 * at, 0)} %"
         for name, at in ((control_name(control), at) for control, at in controls.items())
     )
 

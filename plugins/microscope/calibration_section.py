@@ -9,11 +9,12 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import Activity, MicroscopeStatus
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import show_text
+from rotemina.app.widgets.section import Section
 from rotemina.plugins.microscope.feed_notice import against_moving
-from rotemina.plugins.microscope.section import Section, button, show_text
 from rotemina.plugins.microscope.words import (
     ENDED,
     calibration_text,
@@ -25,7 +26,7 @@ _GUIDE = marked(
     "microscope",
     "1. Bring the tip into the middle of the picture and into focus.\n"
     "2. Choose the objective under Camera: it has a calibration of its own.\n"
-    "3. Calibrate the micro stage, then the nano stage: the tip goes small ways about where it is "
+    "3. Calibrate the micro stage, then the nano stage: the tip makes small moves around its place "
     "and comes back.",
 )
 

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.cameras.errors import CameraSettingError
 from rotemina.drivers.cameras.frame import Region
@@ -12,6 +11,7 @@ from rotemina.drivers.cameras.settings import (
     PixelType,
     Trigger,
 )
+from rotemina.sim.quantities import parsed, rounded
 
 WHOLE = marked("microscope", "whole")
 
@@ -78,7 +78,7 @@ def pixel_types(can: CameraDescription) -> tuple[PixelType, ...]:
 def bounds_text(bounds: tuple[float, float] | None, scale: float, unit: str) -> str:
     """Return what may be typed, in words."""
     if bounds is None:
-        return translate("microscope", "this camera does not let it be set")
+        return translate("microscope", "this camera cannot set it")
     return (
         translate("microscope", "{low:g} to {high:g} {unit}")
         .format(low=scale * bounds[0], high=scale * bounds[1], unit=unit)
@@ -87,20 +87,20 @@ def bounds_text(bounds: tuple[float, float] | None, scale: float, unit: str) -> 
 
 
 def _text(value: float | None) -> str:
-    return "" if value is None else f"{value:.6g}"
+    return "" if value is None else rounded(value, 6)
 
 
 def _number(name: str, text: str, unit: str) -> float | None:
-    plain = text.strip().replace(",", ".")
-    if not plain:
+    if not text.strip():
         return None
-    if not PLAIN_NUMBER.fullmatch(plain):
+    number = parsed(text)
+    if number is None:
         raise CameraSettingError(
             translate("microscope", "{name}: {text!r} is no number; write one, {unit}").format(
                 name=name, text=text.strip(), unit=unit or "1"
             )
         )
-    return float(plain)
+    return number
 
 
 def _region(text: str) -> Region | None:

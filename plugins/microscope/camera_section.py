@@ -6,9 +6,13 @@ from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QLineEdit, QWidget
 from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import MicroscopeStatus
-from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import show_text
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, Trigger
 from rotemina.plugins.microscope.camera_form import (
     WHOLE,
@@ -19,9 +23,7 @@ from rotemina.plugins.microscope.camera_form import (
     settings_of,
     texts_of,
 )
-from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.picture_view import PictureView
-from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
 
 _OPEN = (FeedState.CLOSED, FeedState.LOST)
 
@@ -32,7 +34,7 @@ class CameraSection(Section):
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
         super().__init__(translate("microscope", "Camera"))
         self._workbench, self._microscope = workbench, microscope
-        self.choice = SteadyChoice(translate("microscope", "Camera"))
+        self.choice = SteadyChoice(translate("microscope", "Camera"), letters=6)
         self.address = QLineEdit()
         self.address.setPlaceholderText(translate("microscope", "e.g. opencv:film.avi"))
         self.address.setAccessibleName(
@@ -55,20 +57,19 @@ class CameraSection(Section):
         self.open.setProperty("primary", True)
         self.close_button = button(
             translate("microscope", "Close"),
-            lambda: workbench.ask(microscope.close_camera),
-            translate("microscope", "Let go of the camera"),
+            lambda: workbench.ask(microscope.camera.let_go),
+            translate("microscope", "Close the camera"),
         )
-        self.objective = SteadyChoice(translate("microscope", "Objective"))
+        self.objective = SteadyChoice(
+            translate("microscope", "Objective"),
+            translate(
+                "microscope",
+                "The objective in use: each has a calibration of its own; write a new name",
+            ),
+            letters=6,
+        )
         self.objective.setEditable(True)
         self.objective.setInsertPolicy(SteadyChoice.InsertPolicy.NoInsert)
-        self.objective.setToolTip(
-            plain_tip(
-                translate(
-                    "microscope",
-                    "The objective in use: each has a calibration of its own; write a new name",
-                )
-            )
-        )
         edit = self.objective.lineEdit()
         assert edit is not None
         edit.editingFinished.connect(self._choose_objective)
@@ -104,16 +105,16 @@ class CameraSection(Section):
         closed = (
             translate("microscope", "no camera is open") if status.feed.state in _OPEN else None
         )
-        allow(self.close_button, closed, translate("microscope", "Let go of the camera"))
+        allow(self.close_button, closed, translate("microscope", "Close the camera"))
         problems = [f"{source}: {spoken(why)}" for source, why in status.camera_problems.items()]
         show_text(self.said, "\n".join([one for one in (spoken(status.truth), *problems) if one]))
 
     def _open(self) -> None:
         source, colon, address = self.address.text().strip().partition(":")
         if colon:
-            self._workbench.ask(lambda: self._microscope.open_address(source, address))
+            self._workbench.ask(lambda: self._microscope.camera.open_address(source, address))
         elif self.choice.currentData() is not None:
-            self._workbench.ask(lambda: self._microscope.open_camera(self.choice.currentData()))
+            self._workbench.ask(lambda: self._microscope.camera.open(self.choice.currentData()))
 
     def _choose_objective(self) -> None:
         name = self.objective.currentText().strip()
@@ -136,8 +137,8 @@ class SettingsSection(Section):
         rows.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self.exposure, self.gain, self.rate, self.region = (QLineEdit() for _ in range(4))
         self.pixel_type, self.trigger = (
-            SteadyChoice(translate("microscope", "Kind of pixels")),
-            SteadyChoice(translate("microscope", "Trigger")),
+            SteadyChoice(translate("microscope", "Kind of pixels"), letters=6),
+            SteadyChoice(translate("microscope", "Trigger"), letters=6),
         )
         self.repeat = QCheckBox(translate("microscope", "Loop at the end"))
         self.repeat.setToolTip(
@@ -166,7 +167,7 @@ class SettingsSection(Section):
         self.apply = button(
             translate("microscope", "Set"),
             self._apply,
-            translate("microscope", "Set the camera so; what it refuses is said below"),
+            translate("microscope", "Apply these settings; refusals appear below"),
         )
         self.cut = button(
             translate("microscope", "Use visible region"),
@@ -176,7 +177,7 @@ class SettingsSection(Section):
         self.add_row(self.apply, self.cut)
         self.shoot = button(
             translate("microscope", "Save picture"),
-            lambda: workbench.ask(microscope.trigger),
+            lambda: workbench.ask(microscope.camera.trigger),
             translate("microscope", "Trigger the camera once"),
         )
         self.column.addWidget(self.shoot)
@@ -194,7 +195,7 @@ class SettingsSection(Section):
         allow(
             self.apply,
             why,
-            translate("microscope", "Set the camera so; what it refuses is said below"),
+            translate("microscope", "Apply these settings; refusals appear below"),
         )
         no_frame = why or (
             translate("microscope", "there is no picture yet") if feed.frame is None else None
@@ -262,7 +263,7 @@ class SettingsSection(Section):
             self.trigger.currentData() or Trigger.FREE.value,
             self.repeat.isChecked(),
         )
-        self._workbench.ask(lambda: self._microscope.configure(settings_of(texts)))
+        self._workbench.ask(lambda: self._microscope.camera.configure(settings_of(texts)))
 
     def _cut(self) -> None:
         region = self._view.region_in_sight()

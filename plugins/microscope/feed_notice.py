@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from rotemina.app.cameras.feed import FeedState, FeedView
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.microscope.engine_words import spoken
+from rotemina.sim.quantities import fixed
 
 TONES = {
     FeedState.CLOSED: "quiet",
@@ -66,7 +67,7 @@ def feed_notice(view: FeedView) -> FeedNotice:
         # One picture has no rate yet.
         parts = [
             translate("microscope", "live"),
-            *([f"{view.rate_hz:.0f} Hz"] if view.rate_hz > 0.0 else []),
+            *([f"{fixed(view.rate_hz, 0)} Hz"] if view.rate_hz > 0.0 else []),
         ]
         return FeedNotice(tone, " · ".join((*parts, age(view.age_s))))
     badge = spoken(state)

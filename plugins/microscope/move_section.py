@@ -8,13 +8,15 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import Activity, MicroscopeStatus
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.microscope.engine_words import spoken
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.labels import show_text
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.microscope.feed_notice import against_clicking
 from rotemina.plugins.microscope.overlays import ghost_text
-from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
 from rotemina.plugins.microscope.words import target_text, visit_text
 
 STAGES = (
@@ -37,14 +39,13 @@ class MoveSection(Section):
                 "stop, ends that.",
             )
         )
-        self.stage = SteadyChoice(translate("microscope", "Stage that a click moves"))
+        self.stage = SteadyChoice(
+            translate("microscope", "Stage that a click moves"),
+            translate("microscope", "The stage that a click moves; nano where it reaches"),
+            letters=6,
+        )
         for text, value in STAGES:
             self.stage.addItem(translate("microscope", text), value)
-        self.stage.setToolTip(
-            plain_tip(
-                translate("microscope", "The stage that a click moves; nano where it reaches")
-            )
-        )
         self.column.addWidget(self.stage)
         self.back = button(
             translate("microscope", "Go back"), lambda: workbench.ask(microscope.go_back)
@@ -129,9 +130,9 @@ class TargetSection(Section):
         allow(
             self.remove,
             none or chosen or under_way,
-            translate("microscope", "Forget the chosen target"),
+            translate("microscope", "Delete the chosen target"),
         )
-        allow(self.clear, none or under_way, translate("microscope", "Forget all targets"))
+        allow(self.clear, none or under_way, translate("microscope", "Delete all targets"))
 
     def _remove(self) -> None:
         row = self.list.currentRow()

@@ -7,11 +7,11 @@ import numpy as np
 
 from rotemina.app.microscope.click_run import Visit
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.readout import measured_text
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.quantities import exact, fixed
 
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 49)
 _BODY_PX = 60.0  # how far the pipette's direction is drawn
@@ -110,9 +110,9 @@ def ghost_text(status: MicroscopeStatus) -> str:
     if plan is None:
         return ""
     text = translate("microscope", "{distance} with the {stage} stage").format(
-        distance=readable(plan.distance, "m"), stage=spoken(plan.stage)
+        distance=exact(plan.distance, "m"), stage=spoken(plan.stage)
     )
-    return f"{text}, ± {plan.uncertainty_px:.1f} px"
+    return f"{text}, ± {fixed(plan.uncertainty_px, 1)} px"
 
 
 def _ghost(status: MicroscopeStatus) -> list[Shape]:
@@ -121,7 +121,7 @@ def _ghost(status: MicroscopeStatus) -> list[Shape]:
         return []
     found: list[Shape] = [
         Ring(Look.GHOST, plan.ghost, _SURE * plan.uncertainty_px),
-        Cross(Look.GHOST, plan.ghost, readable(plan.distance, "m")),
+        Cross(Look.GHOST, plan.ghost, exact(plan.distance, "m")),
     ]
     if status.tip.pixel is not None:
         way = np.array([status.tip.pixel, plan.ghost])
@@ -176,10 +176,10 @@ def membrane_text(status: MicroscopeStatus) -> str:
     cell = status.cell
     if cell.ahead is None:
         return ""
-    text = f"{cell.ahead.distance:.1f} ± {cell.ahead.distance_uncertainty:.1f} px"
+    text = f"{fixed(cell.ahead.distance, 1)} ± {fixed(cell.ahead.distance_uncertainty, 1)} px"
     if cell.distance_m is not None and cell.sigma_m is not None:
-        text = f"{1e6 * cell.distance_m:.2f} ± {1e6 * cell.sigma_m:.2f} µm"
-    return f"{text}, {np.degrees(cell.ahead.angle):.0f}°"
+        text = f"{fixed(1e6 * cell.distance_m, 2)} ± {fixed(1e6 * cell.sigma_m, 2)} µm"
+    return f"{text}, {fixed(np.degrees(cell.ahead.angle), 0)}°"
 
 
 def _targets(status: MicroscopeStatus) -> list[Shape]:

@@ -4,7 +4,6 @@ from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
-    QFrame,
     QHBoxLayout,
     QScrollArea,
     QStackedWidget,
@@ -15,14 +14,15 @@ from PySide6.QtWidgets import (
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.controls import ElidedLabel
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.scroll import scrolled
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.plugins.microscope.calibration_section import CalibrationSection
 from rotemina.plugins.microscope.camera_section import CameraSection, SettingsSection
-from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.move_section import MoveSection, TargetSection
 from rotemina.plugins.microscope.picture_section import LayerSection, PictureSection
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
@@ -30,6 +30,7 @@ from rotemina.plugins.microscope.pointer_tools import PointerTools
 from rotemina.plugins.microscope.question import Question
 from rotemina.plugins.microscope.readout import cursor_text
 from rotemina.plugins.microscope.saving_section import SavingSection
+from rotemina.plugins.microscope.stack_section import StackSection
 from rotemina.plugins.microscope.top_bar import TopBar
 from rotemina.plugins.microscope.vision_section import CellSection, FocusSection, TipSection
 
@@ -70,11 +71,12 @@ class MicroscopePanel(Panel):
 
     def refresh(self, state: SessionState) -> None:
         """Show this moment of the microscope."""
-        if not (self.isVisible() or self.saving.needed):
+        if not (self.isVisible() or self.saving.needed or self.stack.needed):
             return  # reading the status keeps a camera working
         status = self.microscope.status
         self.pointer.refresh(status)
         self.saving.refresh(status, state)  # a video goes on while nobody looks
+        self.stack.write(status, state)
         if not self.isVisible():
             return
         self._show(status)
@@ -97,6 +99,7 @@ class MicroscopePanel(Panel):
         self.tip = TipSection(bench, microscope)
         self.cell = CellSection(bench, microscope)
         self.focus = FocusSection(bench, microscope)
+        self.stack = StackSection(bench, microscope)
         self.saving = SavingSection(bench, microscope, view)
         self._pages = (
             (self.camera, self.settings),
@@ -104,7 +107,7 @@ class MicroscopePanel(Panel):
             (self.calibration,),
             (self.move, self.targets),
             (self.tip, self.cell, self.focus),
-            (self.saving,),
+            (self.stack, self.saving),
         )
         self._refreshing: tuple[Callable[[MicroscopeStatus, SessionState], None], ...] = (
             lambda status, _: (self.camera.refresh(status), self.settings.refresh(status)),
@@ -116,7 +119,7 @@ class MicroscopePanel(Panel):
                 self.cell.refresh(status),
                 self.focus.refresh(status, state),
             ),
-            lambda *_: None,
+            self.stack.refresh,
         )
 
     def _lay_out(self) -> None:
@@ -149,7 +152,7 @@ class MicroscopePanel(Panel):
         )
         self.view.hovered.connect(self._show_readout)
         self._came.connect(self._take, Qt.ConnectionType.QueuedConnection)
-        leave = self.microscope.listen(self._hear)
+        leave = self.microscope.camera.listen(self._hear)
         bench.closing.connect(leave)
         bench.refreshed.connect(self.refresh)
         bench.theme_changed.connect(self._use_theme)
@@ -199,10 +202,5 @@ def _page(sections: tuple[QWidget, ...]) -> QScrollArea:
     for section in sections:
         column.addWidget(section)
     column.addStretch(1)
-    scroll = QScrollArea()
-    scroll.setObjectName("panelScroll")
-    scroll.setFrameShape(QFrame.Shape.NoFrame)
-    scroll.setWidgetResizable(True)
-    scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    scroll.setWidget(content)
+    scroll = scrolled(content)
     return scroll

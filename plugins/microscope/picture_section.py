@@ -7,15 +7,16 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QSlider
 
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.settings import Settings
-from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import button, plain_tip
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.microscope.contrast import GAMMA, Contrast, Table, histogram
-from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.histogram_view import HistogramView
 from rotemina.plugins.microscope.overlays import Layer
 from rotemina.plugins.microscope.picture_view import PictureView
-from rotemina.plugins.microscope.section import Section, SteadyChoice, button
 
 _STEPS = 100.0  # of the slider, from the least gamma to the greatest, by its logarithm
 
@@ -28,7 +29,7 @@ class PictureSection(Section):
         self._view = view
         self.histogram = HistogramView(theme)
         self.histogram.moved.connect(self._set_levels)
-        self.auto = QCheckBox(translate("microscope", "levels by themselves"))
+        self.auto = QCheckBox(translate("microscope", "automatic levels"))
         self.auto.setToolTip(
             plain_tip(translate("microscope", "Black and white at 0.1 and 99.9 % of the pixels"))
         )
@@ -46,7 +47,7 @@ class PictureSection(Section):
         self.gamma.setAccessibleName(translate("microscope", "Gamma"))
         self.gamma.valueChanged.connect(lambda step: self._change(gamma=_gamma(step)))
         self._gamma_text = QLabel()
-        self.table = SteadyChoice(translate("microscope", "Colours"))
+        self.table = SteadyChoice(translate("microscope", "Colours"), letters=6)
         for table in Table:
             self.table.addItem(spoken(table), table)
         self.table.currentIndexChanged.connect(

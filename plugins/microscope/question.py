@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel
 
 from rotemina.app.shell.language import translate
-from rotemina.plugins.microscope.section import button
+from rotemina.app.widgets.controls import button
 
 
 class Question(QFrame):

@@ -8,7 +8,7 @@ from rotemina.app.microscope.measurements import tip_in_plane
 from rotemina.app.microscope.status import Measured, MicroscopeStatus
 from rotemina.app.shell.language import translate
 from rotemina.drivers.cameras.frame import Frame
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.quantities import exact, fixed
 
 
 def cursor_text(status: MicroscopeStatus, place: tuple[float, float] | None) -> str:
@@ -24,7 +24,7 @@ def cursor_text(status: MicroscopeStatus, place: tuple[float, float] | None) -> 
     micro = status.calibration.micro if status.calibration is not None else None
     if micro is not None:
         place_m, _ = tip_in_plane(np.array(place), np.zeros((2, 2)), micro)
-        parts.append(f"x {1e6 * place_m[0]:.2f}, y {1e6 * place_m[1]:.2f} µm")
+        parts.append(f"x {fixed(1e6 * place_m[0], 2)}, y {fixed(1e6 * place_m[1], 2)} µm")
     elif status.pixel_m is not None:
         across, down = (1e6 * status.pixel_m * one for one in place)
         parts.append(
@@ -47,10 +47,10 @@ def value_text(frame: Frame, column: int, row: int) -> str:
 
 def measured_text(line: Measured) -> str:
     """Return length and angles of a drawn line."""
-    length = f"{line.length_px:.1f} px"
+    length = f"{fixed(line.length_px, 1)} px"
     if line.length_m is not None:
-        length = f"{readable(line.length_m, 'm')} ({length})"
-    text = f"{length}, {degrees(line.angle):.1f}°"
+        length = f"{exact(line.length_m, 'm')} ({length})"
+    text = f"{length}, {fixed(degrees(line.angle), 1)}°"
     if line.to_body is not None:
         text += translate("microscope", ", {angle:.1f}° to the pipette").format(
             angle=degrees(line.to_body)

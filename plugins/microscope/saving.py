@@ -133,7 +133,7 @@ class VideoCapture:
         }
         video = Video(path, facts, pixel_m=status.pixel_m, tell=self._tell)
         video.start()
-        self._leave = self._microscope.listen(video.take)
+        self._leave = self._microscope.camera.listen(video.take)
         self.video = video
         if recorder is not None:
             recorder.note(f"video {path.name}")

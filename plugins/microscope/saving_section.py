@@ -9,9 +9,12 @@ from rotemina.app.cameras.video import VideoStatus
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import show_text
+from rotemina.app.widgets.section import Section
 from rotemina.plugins.microscope.picture_view import PictureView
 from rotemina.plugins.microscope.saving import (
     STAMP,
@@ -21,7 +24,6 @@ from rotemina.plugins.microscope.saving import (
     summary,
     write_pictures,
 )
-from rotemina.plugins.microscope.section import Section, button, show_text
 from rotemina.sim.errors import InputError
 
 FOLLOWS = "microscope.video_with_recording"
@@ -157,4 +159,4 @@ class SavingSection(Section):
             try:
                 self.filming.end().close()
             except InputError as error:
-                self._workbench.notify(Level.ERROR, str(error), about=error)
+                self._workbench.notify(Level.ERROR, error_text(error), about=error)

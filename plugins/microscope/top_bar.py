@@ -3,10 +3,11 @@
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
-from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
-from rotemina.plugins.microscope.section import SteadyChoice, button
+from rotemina.sim.quantities import fixed
 
 TOOLS = {
     PointerTool.MOVE: (
@@ -68,14 +69,19 @@ class TopBar(QWidget):
         self.one = button(
             "1:1",
             view.show_one_to_one,
-            translate("microscope", "A pixel is one of the screen's (1)"),
+            translate("microscope", "One camera pixel per screen pixel (1)"),
         )
-        self.tools = SteadyChoice(translate("microscope", "Tools beside the picture"))
+        self.tools = SteadyChoice(translate("microscope", "Tools beside the picture"), letters=6)
         for name in tools:
             self.tools.addItem(name)
         for widget in (self.zoom, self.fit, self.one, self.tools):
             row.addWidget(widget)
-        view.zoomed.connect(lambda: self.zoom.setText(f"{100.0 * view.viewport.zoom:.0f} %"))
+        view.zoomed.connect(lambda: self._show_zoom(view))
+
+    def _show_zoom(self, view: PictureView) -> None:
+        """Show how large the picture is; before the first one there is nothing to tell."""
+        shown = view.frame is not None
+        self.zoom.setText(f"{fixed(100.0 * view.viewport.zoom, 0)} %" if shown else "")
 
     def show_tool(self, tool: PointerTool) -> None:
         """Show what the left button does."""

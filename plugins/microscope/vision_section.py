@@ -2,17 +2,18 @@
 
 from PySide6.QtWidgets import QCheckBox, QLineEdit
 
-from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.microscope.engine_words import spoken
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import show_text
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.microscope.feed_notice import against_moving
-from rotemina.plugins.microscope.section import Section, SteadyChoice, button, show_text
 from rotemina.plugins.microscope.words import (
     cell_text,
     drift_text,
@@ -20,6 +21,7 @@ from rotemina.plugins.microscope.words import (
     focus_text,
     tip_text,
 )
+from rotemina.sim.quantities import parsed, rounded
 
 _PRESET_M = 50e-6  # each way from where it is
 
@@ -42,7 +44,7 @@ class TipSection(Section):
         self.background = button(
             translate("microscope", "Take background"),
             lambda: workbench.ask(microscope.take_background),
-            translate("microscope", "Keep what lies beneath, with the tip out of the way"),
+            translate("microscope", "Save the background, with the tip out of the way"),
         )
         self.drift = QCheckBox(translate("microscope", "watch the drift"))
         self.drift.setToolTip(
@@ -108,7 +110,7 @@ class CellSection(Section):
         self.forget = button(
             translate("microscope", "Forget the cell"),
             lambda: workbench.ask(microscope.forget_cell),
-            translate("microscope", "Take the outline away"),
+            translate("microscope", "Remove the outline"),
         )
         self.column.addWidget(self.forget)
 
@@ -118,7 +120,7 @@ class CellSection(Section):
         none = (
             translate("microscope", "no cell is outlined") if status.cell.outline is None else None
         )
-        allow(self.forget, none, translate("microscope", "Take the outline away"))
+        allow(self.forget, none, translate("microscope", "Remove the outline"))
 
 
 class FocusSection(Section):
@@ -128,8 +130,8 @@ class FocusSection(Section):
         super().__init__(translate("microscope", "Focus"))
         self._workbench, self._microscope = workbench, microscope
         self._status = MicroscopeStatus()
-        self.place = SteadyChoice(translate("microscope", "What is focused with"))
-        self.reach = QLineEdit(f"{1e6 * _PRESET_M:g}")
+        self.place = SteadyChoice(translate("microscope", "What is focused with"), letters=6)
+        self.reach = QLineEdit(rounded(1e6 * _PRESET_M))
         self.reach.setAccessibleName(translate("microscope", "How far to search each way, µm"))
         self.reach.setToolTip(
             plain_tip(
@@ -139,15 +141,15 @@ class FocusSection(Section):
         self.search = button(
             translate("microscope", "Autofocus"),
             self._autofocus,
-            translate("microscope", "Look for the sharpest place, and stay there"),
+            translate("microscope", "Find the sharpest focus and stay there"),
         )
         self.column.addWidget(self.place)
         self.add_row(self.reach, self.search)
         self.goal = QLineEdit()
         self.goal.setPlaceholderText(translate("microscope", "focus at, µm"))
-        self.goal.setAccessibleName(translate("microscope", "Place of the focus drive, µm"))
+        self.goal.setAccessibleName(translate("microscope", "Position of the focus drive, µm"))
         self.goal.setToolTip(
-            plain_tip(translate("microscope", "Where the drive is to go, µm, within its own range"))
+            plain_tip(translate("microscope", "Target of the drive, µm, within its range"))
         )
         self.move = button(
             translate("microscope", "Move focus"),
@@ -176,9 +178,7 @@ class FocusSection(Section):
             )
         )
         why = none or against_moving(status, state)
-        allow(
-            self.search, why, translate("microscope", "Look for the sharpest place, and stay there")
-        )
+        allow(self.search, why, translate("microscope", "Find the sharpest focus and stay there"))
         drive = (
             None if "focus" in names else translate("microscope", "this camera has no focus drive")
         )
@@ -222,11 +222,11 @@ class FocusSection(Section):
 
 
 def _micrometres(name: str, text: str) -> float:
-    plain = text.strip().replace(",", ".")
-    if not PLAIN_NUMBER.fullmatch(plain):
+    number = parsed(text)
+    if number is None:
         raise MicroscopeError(
             translate("microscope", "{name}: {text!r} is no number; write one in µm").format(
                 name=name, text=text.strip()
             )
         )
-    return 1e-6 * float(plain)
+    return 1e-6 * number

@@ -16,10 +16,10 @@ from rotemina.app.microscope.status import (
     TipState,
 )
 from rotemina.app.microscope.targets import Target
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.microscope.engine_words import spoken
 from rotemina.plugins.microscope.overlays import membrane_text
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.quantities import exact, fixed
 from rotemina.sim.vision.calibration import Geometry, StageFit
 
 ENDED = (Phase.DONE, Phase.FAILED)
@@ -43,7 +43,7 @@ def stage_text(name: str, stage: StageCalibration | None) -> str:
 
 def geometry_text(found: Geometry) -> str:
     """Return pixel sizes, rotation, handedness and skew with their uncertainties."""
-    sizes = " × ".join(f"{1e9 * size:.2f}" for size in found.pixel_size)
+    sizes = " × ".join(fixed(1e9 * size, 2) for size in found.pixel_size)
     doubts = max(1e9 * one for one in found.pixel_size_uncertainty)
     hand = "" if found.handedness > 0 else translate("microscope", ", mirrored")
     return translate(
@@ -112,7 +112,7 @@ def visit_text(status: VisitStatus | None) -> str:
 
 def target_text(number: int, target: Target) -> str:
     """Return a line of the list of targets."""
-    text = f"{number}   {target.column:.0f}, {target.row:.0f} px"
+    text = f"{number}   {fixed(target.column, 0)}, {fixed(target.row, 0)} px"
     if target.visit is not None:
         text = f"{text}   {spoken(target.visit)}"
     return f"{text}: {spoken(target.note)}" if target.note else text
@@ -127,16 +127,17 @@ def tip_text(tip: TipSeen) -> str:
     if tip.state is not TipState.TRACKED:
         return lines[0]
     if tip.pixel is not None:
-        doubt = "" if tip.sigma_px is None else f" ± {tip.sigma_px:.2f}"
-        lines.append(f"{tip.pixel[0]:.2f}, {tip.pixel[1]:.2f}{doubt} px")
+        doubt = "" if tip.sigma_px is None else f" ± {fixed(tip.sigma_px, 2)}"
+        lines.append(f"{fixed(tip.pixel[0], 2)}, {fixed(tip.pixel[1], 2)}{doubt} px")
     if tip.place_m is not None and tip.sigma_m is not None:
         pairs = zip("xy", 1e6 * tip.place_m, 1e6 * tip.sigma_m, strict=True)
         lines.append(
-            ", ".join(f"{axis} {at:.3f} ± {doubt:.3f}" for axis, at, doubt in pairs) + " µm"
+            ", ".join(f"{axis} {fixed(at, 3)} ± {fixed(doubt, 3)}" for axis, at, doubt in pairs)
+            + " µm"
         )
     if tip.depth is not None:
         sign = "" if tip.depth.sign_known else "±"
-        distance = f"{sign}{1e6 * tip.depth.distance:.2f}"
+        distance = f"{sign}{fixed(1e6 * tip.depth.distance, 2)}"
         lines.append(
             translate("microscope", "{distance} ± {uncertainty:.2f} µm from focus").format(
                 distance=distance, uncertainty=1e6 * tip.depth.uncertainty
@@ -154,9 +155,11 @@ def cell_text(status: MicroscopeStatus) -> str:
     if cell.outline is None:
         return spoken(cell.reason)
     long, short = cell.outline.figures[2:4]
-    size = f"{2 * long:.0f} × {2 * short:.0f} px"
+    size = f"{fixed(2 * long, 0)} × {fixed(2 * short, 0)} px"
     if status.pixel_m is not None:
-        size = f"{2e6 * long * status.pixel_m:.1f} × {2e6 * short * status.pixel_m:.1f} µm"
+        size = (
+            f"{fixed(2e6 * long * status.pixel_m, 1)} × {fixed(2e6 * short * status.pixel_m, 1)} µm"
+        )
     ahead = membrane_text(status)
     return (
         translate("microscope", "{size}\nmembrane: {ahead} from head on").format(
@@ -202,4 +205,4 @@ def focus_name(axis: FocusAxis) -> str:
         if axis.name == "focus"
         else translate("microscope", "axis {name}").format(name=axis.name)
     )
-    return name if axis.position is None else f"{name}: {readable(axis.position, 'm')}"
+    return name if axis.position is None else f"{name}: {exact(axis.position, 'm')}"

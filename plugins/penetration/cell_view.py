@@ -3,21 +3,19 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
 
-from rotemina.app.display import PLAIN_NUMBER
+from rotemina.app.display import label
+from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.penetration.cells import (
-    AHEAD,
-    STIFFNESS,
-    cells_text,
-    with_cell,
-    without_cell,
-)
-from rotemina.plugins.penetration.fields import mark
+from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.labels import plain_text
+from rotemina.plugins.penetration.plan_preview import way_text
 from rotemina.plugins.penetration.quantities import TypedError
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.quantities import parsed, rounded
+from rotemina.sim.robot.model import AxisEffect, Robot
 
 REAL_MACHINE = marked(
     "penetration",
@@ -31,6 +29,88 @@ _ABOUT = marked(
 )
 
 
+Effects = tuple[AxisEffect, ...]
+
+CONTACT = "contact"
+#: Where a cell is put and how stiff it is beside the axis itself, unless told otherwise.
+AHEAD, STIFFNESS = 5e-6, 0.1
+
+
+def with_cell(
+    robot: Robot, effects: Effects, axis: str, at: float, sign: float, stiffness: float
+) -> Effects:
+    """Return effects with one cell on an axis; others are kept, another cell there is moved.
+
+    Parameters
+    ----------
+    at : float
+        Position of the axis at which the tip meets it, m.
+    sign : float
+        Which way the tip goes then.
+    stiffness : float
+        Over the axis' own.
+
+    Raises
+    ------
+    PenetrationError
+        If it would not be within the axis' range.
+    EffectError
+        If the effect does not take such values.
+    """
+    low, _ = robot.axes[axis].range
+    bare = Attached.of(robot, AxisEffect(axis=axis, id=CONTACT))
+    place, parameter = at - low, bare.formulation.parameter("place")
+    assert parameter is not None, "every contact is somewhere"
+    least, most = parameter.bounds(bare.facts)
+    if not least <= place <= most:
+        raise PenetrationError(
+            translate(
+                "penetration",
+                "a cell at {at} of {axis}: must be {least} to {most}; move the axis away "
+                "from its end first",
+            ).format(
+                at=way_text(at),
+                axis=label(axis),
+                least=way_text(low + least),
+                most=way_text(low + most),
+            )
+        )
+    values = {"place": place, "stiffness": sign * stiffness}
+    asked = AxisEffect(axis=axis, id=CONTACT, parameters=values)
+    Attached.of(robot, asked)
+    return (*without_cell(effects, axis), asked)
+
+
+def without_cell(effects: Effects, axis: str) -> Effects:
+    """Return effects without the cells on an axis."""
+    return tuple(one for one in effects if not _is_cell(one, axis))
+
+
+def cells_text(robot: Robot, effects: Effects, axis: str) -> str:
+    """Return where the cells on an axis are, in words."""
+    low, _ = robot.axes[axis].range
+    places = []
+    for one in effects:
+        if _is_cell(one, axis) and one.enabled:
+            values = Attached.of(robot, one).values
+            places.append(
+                translate("penetration", "{at} of {axis}").format(
+                    at=way_text(low + values["place"]), axis=label(axis)
+                )
+            )
+    return (
+        translate("penetration", "A cell at {places}.").format(
+            places=translate("penetration", " and ").join(places)
+        )
+        if places
+        else translate("penetration", "There is no cell.")
+    )
+
+
+def _is_cell(one: AxisEffect, axis: str) -> bool:
+    return one.id == CONTACT and one.axis == axis
+
+
 class CellView(QWidget):
     """Where the simulated cell is, and two buttons."""
 
@@ -39,14 +119,14 @@ class CellView(QWidget):
         self._workbench = workbench
         self._parameters = PenetrationParameters()
         self._known: object = ()
-        self.where, self.about = _text(), _text()
+        self.where, self.about = plain_text(wrap=True), plain_text(wrap=True)
         self.where.setProperty("quiet", False)
         about = translate("penetration", "From where the axis stands, above 0 µm")
         self.ahead = _field(
-            f"{1e6 * AHEAD:g}", translate("penetration", "Way to the cell, µm"), about
+            rounded(1e6 * AHEAD), translate("penetration", "Way to the cell, µm"), about
         )
         self.stiffness = _field(
-            f"{STIFFNESS:g}",
+            rounded(STIFFNESS),
             translate("penetration", "Stiffness of the cell"),
             translate("penetration", "Over that of the axis itself, up to 30"),
         )
@@ -77,7 +157,7 @@ class CellView(QWidget):
     def refresh(self, state: SessionState, parameters: PenetrationParameters) -> None:
         """Show a state, for the axis and direction of some parameters."""
         session, self._parameters = self._workbench.session, parameters
-        effects, axis = session.effects, parameters.axis
+        effects, axis = session.service.effects, parameters.axis
         if (effects, axis) != self._known:
             self._known = effects, axis
             simulated = effects is not None
@@ -86,8 +166,8 @@ class CellView(QWidget):
             self.where.setVisible(simulated)
             if effects is not None and axis in session.robot.axes:
                 self.where.setText(cells_text(session.robot, effects, axis))
-        at = state.command.get(axis)
-        why = None if at is not None else translate("penetration", "nobody knows where the axis is")
+        at = state.measured.get(axis)
+        why = None if at is not None else translate("penetration", "the axis' position is unknown")
         allow(
             self.put,
             why,
@@ -97,7 +177,7 @@ class CellView(QWidget):
         allow(
             self.take,
             None if has else translate("penetration", "there is none"),
-            translate("penetration", "Let the tip meet nothing any more"),
+            translate("penetration", "Remove the simulated cell"),
         )
 
     def _put(self) -> None:
@@ -106,28 +186,35 @@ class CellView(QWidget):
         def put() -> None:
             ahead = _value(self.ahead, translate("penetration", "way to the cell")) / 1e6
             stiffness = _value(self.stiffness, translate("penetration", "stiffness"))
-            at = session.snapshot().command[p.axis] + p.sign * ahead
-            effects = session.effects or ()
-            session.set_effects(with_cell(session.robot, effects, p.axis, at, p.sign, stiffness))
+            # Where the tip is, not where it was sent: hysteresis and creep part the two.
+            tip = session.snapshot().measured[p.axis] - session.robot.axes[p.axis].offset
+            at = tip + p.sign * ahead
+            effects = session.service.effects or ()
+            session.service.set_effects(
+                with_cell(session.robot, effects, p.axis, at, p.sign, stiffness)
+            )
 
         self._workbench.ask(put)
 
     def _take(self) -> None:
         session, axis = self._workbench.session, self._parameters.axis
-        self._workbench.ask(lambda: session.set_effects(without_cell(session.effects or (), axis)))
+        self._workbench.ask(
+            lambda: session.service.set_effects(without_cell(session.service.effects or (), axis))
+        )
 
 
 def _value(field: QLineEdit, name: str) -> float:
     text = field.text().strip()
-    good = PLAIN_NUMBER.fullmatch(text) is not None and float(text) > 0.0
-    mark(field, not good)
-    if not good:
+    number = parsed(text)
+    good = number is not None and number > 0.0
+    set_property(field, "bad", not good)
+    if number is None or not good:
         raise TypedError(
             translate(
                 "penetration", "{name}: {text!r}; type a number above 0, with a decimal point"
             ).format(name=name, text=text)
         )
-    return float(text)
+    return number
 
 
 def _field(text: str, name: str, tip: str) -> QLineEdit:
@@ -137,11 +224,3 @@ def _field(text: str, name: str, tip: str) -> QLineEdit:
     field.setAccessibleName(name)
     field.setToolTip(plain_tip(f"{name}. {tip}."))
     return field
-
-
-def _text() -> QLabel:
-    label = QLabel()
-    label.setProperty("quiet", True)
-    label.setWordWrap(True)
-    label.setTextFormat(Qt.TextFormat.PlainText)
-    return label

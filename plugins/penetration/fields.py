@@ -1,40 +1,11 @@
 """Fields of the form: numbers with units, and choices that the wheel leaves alone."""
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit
+from PySide6.QtWidgets import QLabel, QLineEdit
 
-from rotemina.app.shell.controls import plain_tip
+from rotemina.app.shell.engine_words import error_text
+from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.plugins.penetration.quantities import Quantity, TypedError
-
-
-def mark(widget: QLineEdit, bad: bool) -> None:
-    """Mark a field whose text is not taken, or take the mark away."""
-    if bool(widget.property("bad")) != bad:
-        widget.setProperty("bad", bad)
-        widget.style().unpolish(widget)
-        widget.style().polish(widget)
-
-
-class SteadyChoice(QComboBox):
-    """A choice that the wheel does not change."""
-
-    def __init__(self, name: str, *tip: str) -> None:
-        super().__init__()
-        self.setAccessibleName(name)
-        self.setToolTip(plain_tip(*tip))
-        self.setMinimumContentsLength(8)
-        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-
-    def choose(self, data: str) -> None:
-        """Choose what stands for some data; offer it if it was not."""
-        if self.findData(data) < 0:
-            self.addItem(data, data)
-        self.setCurrentIndex(self.findData(data))
-
-    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave the wheel to what scrolls."""
-        event.ignore()
 
 
 class NumberField(QObject):
@@ -91,8 +62,8 @@ class NumberField(QObject):
         try:
             self.value  # noqa: B018 (whether it can be read)
         except TypedError as error:
-            wrong = str(error)
-        mark(self.edit, wrong is not None)
+            wrong = error_text(error)
+        set_property(self.edit, "bad", wrong is not None)
         self.edit.setToolTip(plain_tip(*self.quantity.tip, wrong or ""))
         return wrong
 

@@ -23,10 +23,11 @@ from rotemina.app.motion.penetration.parameters import (
     Shaping,
     ThrustShape,
 )
-from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.penetration.engine_words import spoken
-from rotemina.plugins.penetration.fields import NumberField, SteadyChoice
+from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.plugins.penetration.fields import NumberField
 from rotemina.plugins.penetration.quantities import QUANTITIES, Group, TypedError, in_group
 from rotemina.plugins.penetration.table_text import EXAMPLE, read_table, table_text
 from rotemina.sim.errors import InputError
@@ -86,7 +87,10 @@ class ParameterForm(QScrollArea):
         for key, field in self.fields.items():
             field.show_value(getattr(parameters, key))
         for key, choice in self.choices.items():
-            choice.choose(str(getattr(parameters, key)))
+            value = str(getattr(parameters, key))
+            if choice.findData(value) < 0:  # an axis of another robot
+                choice.addItem(value, value)
+            choice.select(value)
         self.table.blockSignals(True)
         self.table.setPlainText(table_text(parameters.table or EXAMPLE))
         self.table.blockSignals(False)
@@ -101,19 +105,14 @@ class ParameterForm(QScrollArea):
             try:
                 self.parameters = self._read()
             except InputError as error:
-                self.complaint = str(error)
+                self.complaint = error_text(error)
         self._show_what_counts()
         if (self.parameters, self.complaint) != before:
             self.changed.emit()
 
     def allow(self, why_not: str | None) -> None:
         """Let the fields be changed, or say why not; they can be read all the same."""
-        self._body.setEnabled(why_not is None)
-        self._body.setToolTip(
-            plain_tip(translate("penetration", "Not now: {why_not}").format(why_not=why_not))
-            if why_not
-            else ""
-        )
+        allow(self._body, why_not, "")
         allow(
             self.load,
             why_not,
@@ -145,6 +144,7 @@ class ParameterForm(QScrollArea):
         axis = SteadyChoice(
             translate("penetration", "Axis of the penetration"),
             translate("penetration", "The axis that goes into the cell"),
+            letters=8,
         )
         for name in robot.axes:
             if robot.unit(name) == "m":
@@ -154,10 +154,12 @@ class ParameterForm(QScrollArea):
             translate(
                 "penetration", "Where the cell is along the axis; down: towards smaller positions"
             ),
+            letters=8,
         )
         shape = SteadyChoice(
             translate("penetration", "Shape of the thrust"),
             translate("penetration", "Its profile of speed"),
+            letters=8,
         )
         shaping = SteadyChoice(
             translate("penetration", "Input shaping"),
@@ -166,6 +168,7 @@ class ParameterForm(QScrollArea):
                 "Against the axis' resonance, as of the robot file. ZV, ZVD, ZVDD: impulses, each "
                 "slower and surer; inverse model: follows best",
             ),
+            letters=8,
         )
         for direct in Direction:
             direction.addItem(spoken(direct), str(direct))
@@ -263,7 +266,7 @@ class ParameterForm(QScrollArea):
             read_table(self.table.toPlainText())
             wrong = ""
         except TypedError as error:
-            wrong = str(error)
+            wrong = error_text(error)
         self.table.setToolTip(plain_tip(*_table_tip(), wrong))
 
     def _show_more(self, shown: bool) -> None:

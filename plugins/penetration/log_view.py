@@ -3,24 +3,17 @@
 from collections.abc import Iterable
 from datetime import datetime
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QHeaderView,
-    QPlainTextEdit,
-    QSplitter,
-    QTableWidget,
-    QTableWidgetItem,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtWidgets import QPlainTextEdit, QSplitter, QVBoxLayout, QWidget
 
 from rotemina.app.motion.penetration.run_log import PenetrationRun
-from rotemina.app.shell.controls import ElidedLabel, plain_tip
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.table import Table
 from rotemina.plugins.penetration.runs import COLUMN_TIPS, COLUMNS, RunList, in_full, row
 
-_NUMBERS = slice(2, 7)
+_NUMBERS = range(2, 7)
 
 
 class LogView(QWidget):
@@ -29,22 +22,16 @@ class LogView(QWidget):
     def __init__(self, path: str) -> None:
         super().__init__()
         self.list = RunList()
-        self.table = QTableWidget(0, len(COLUMNS))
-        self.table.setAccessibleName(translate("penetration", "Runs, the latest first"))
-        self.table.setHorizontalHeaderLabels([translate("penetration", one) for one in COLUMNS])
+        self.table = Table(
+            translate("penetration", "Runs, the latest first"),
+            [translate("penetration", one) for one in COLUMNS],
+            row_height=24,
+        )
         for column, tip in enumerate(COLUMN_TIPS):
             self.table.horizontalHeaderItem(column).setToolTip(
                 plain_tip(translate("penetration", tip))
             )
-        self.table.verticalHeader().hide()
-        self.table.verticalHeader().setDefaultSectionSize(24)
-        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.table.setTabKeyNavigation(False)
-        header = self.table.horizontalHeader()
-        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setStretchLastSection(True)
+        self.table.horizontalHeader().setStretchLastSection(True)
         self.table.setMinimumSize(200, 60)
         self.table.itemSelectionChanged.connect(self._show_chosen)
         self.text = QPlainTextEdit()
@@ -81,19 +68,9 @@ class LogView(QWidget):
 
     def _fill(self) -> None:
         now = datetime.now().astimezone()
-        self.table.blockSignals(True)
-        self.table.clearSelection()
-        self.table.setRowCount(len(self.list.runs))
-        for number, run in enumerate(self.list.runs):
-            for column, text in enumerate(row(run, now)):
-                item = QTableWidgetItem(text)
-                item.setToolTip(plain_tip(text))
-                if column in range(*_NUMBERS.indices(len(COLUMNS))):
-                    item.setTextAlignment(
-                        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-                    )
-                self.table.setItem(number, column, item)
-        self.table.blockSignals(False)
+        with QSignalBlocker(self.table):
+            self.table.clearSelection()
+        self.table.show_rows([row(run, now) for run in self.list.runs], numbers=_NUMBERS, tips=True)
         self.text.clear()
         count, ours = len(self.list.runs), self.list.of_this_start
         self.file.show_text(

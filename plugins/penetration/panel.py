@@ -1,12 +1,9 @@
 """Automatic cell penetration: what it is to be like, the run, and the log of runs."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import (
-    QFileDialog,
-    QFrame,
     QHBoxLayout,
     QLabel,
     QScrollArea,
@@ -22,8 +19,11 @@ from rotemina.app.motion.penetration.status import PenetrationStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.scroll import scrolled
+from rotemina.plugins.penetration.cell_list_view import CellListView
 from rotemina.plugins.penetration.cell_view import CellView
 from rotemina.plugins.penetration.form import ParameterForm
 from rotemina.plugins.penetration.log_view import LogView
@@ -61,7 +61,7 @@ class PenetrationPanel(Panel):
         self._plan()
         self.readouts, self.preview = Readouts(workbench), ThrustPreview(workbench.theme)
         self.log = LogView(self._operation.penetration_log.path)
-        self.cell = CellView(workbench)
+        self.cell, self.cells = CellView(workbench), CellListView(workbench)
         self._keep = QTimer(self, interval=KEEP_MS, singleShot=True)
         self._shown_trace: object = ()
         self._lay_out()
@@ -84,6 +84,7 @@ class PenetrationPanel(Panel):
             (translate("penetration", "Thrust"), thrust),
             (translate("penetration", "Runs"), self.log),
             (translate("penetration", "Simulated cell"), self.cell),
+            (translate("penetration", "Cells"), self.cells),
         ):
             self.tabs.addTab(name)
             self.views.addWidget(view)
@@ -101,6 +102,8 @@ class PenetrationPanel(Panel):
 
     def _connect(self) -> None:
         self.bar.arm_asked.connect(self.arm)
+        self.bar.prepare_asked.connect(self.prepare)
+        self.cells.penetrate_asked.connect(self.arm_for_cell)
         self.form.changed.connect(self._change)
         self.form.load.clicked.connect(lambda _: self._ask_load())
         self.form.save.clicked.connect(lambda _: self._ask_save())
@@ -111,14 +114,25 @@ class PenetrationPanel(Panel):
 
     # --- what the operator does -------------------------------------------------------------------
 
-    def arm(self) -> None:
-        """Arm the parameters as they are shown, or say why not."""
+    def arm(self) -> bool:
+        """Arm the parameters as they are shown, or say why not; return whether it was done."""
         self.form.take()  # a field that is still being edited counts too
         if self.form.complaint:
             self.workbench.notify(Level.ERROR, self.form.complaint, about=self)
-            return
+            return False
         parameters = self.form.parameters
-        self.workbench.ask(lambda: self._operation.arm_penetration(parameters))
+        return self.workbench.ask(lambda: self._operation.arm_penetration(parameters))
+
+    def arm_for_cell(self) -> None:
+        """Arm as :meth:`arm` does; what comes of it is that of the list's present cell."""
+        status = self._penetration.status
+        if self.arm():
+            self.cells.armed(status)
+
+    def prepare(self) -> None:
+        """Move the nano stage back as far as the parameters need; the tip stays."""
+        parameters = self.form.parameters
+        self.workbench.ask(lambda: self._operation.prepare_penetration(parameters))
 
     def load_parameters(self, path: Path) -> None:
         """Take parameters from a file."""
@@ -166,34 +180,14 @@ class PenetrationPanel(Panel):
         )
 
     def _ask_load(self) -> None:
-        dialog = self._file_dialog(
-            translate("penetration", "Load parameters"), self.load_parameters
-        )
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.show()
+        title = translate("penetration", "Load parameters")
+        kinds = translate("penetration", FILES)
+        ask_file(self, self.workbench, title, kinds, self.load_parameters)
 
     def _ask_save(self) -> None:
-        dialog = self._file_dialog(
-            translate("penetration", "Save parameters"), self.save_parameters
-        )
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("toml")
-        dialog.selectFile("penetration.toml")
-        dialog.show()
-
-    def _file_dialog(self, title: str, use: Callable[[Path], None]) -> QFileDialog:
-        """Return a dialog beside which the window, and its stop button, can still be used."""
-        settings = self.workbench.settings
-        dialog = QFileDialog(
-            self, title, settings.get("files.folder", ""), translate("penetration", FILES)
-        )
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(
-            lambda name: settings.set("files.folder", str(Path(name).parent))
-        )
-        dialog.fileSelected.connect(lambda name: use(Path(name)))
-        return dialog
+        title = translate("penetration", "Save parameters")
+        kinds = translate("penetration", FILES)
+        ask_where(self, self.workbench, title, kinds, "penetration.toml", self.save_parameters)
 
     # --- parameters -------------------------------------------------------------------------------
 
@@ -224,11 +218,16 @@ class PenetrationPanel(Panel):
         status = self._penetration.status
         self._look(status, state)
         self.bar.refresh(status, state, self._why_not)
+        self.bar.offer_preparing(
+            status.phase not in FIXED and self.plan_preview.lacks_room(self.workbench.robot, state),
+            state,
+        )
         text = message(status, self._why_not)
         if self.message.text() != text:
             self.message.setText(text)
         self.readouts.refresh(status, state, self.plan_preview.parameters)
         self.cell.refresh(state, self.plan_preview.parameters)
+        self.cells.refresh(state, status, self._why_not)
         self._draw(status)
         fixed = None
         if status.phase in FIXED:
@@ -260,7 +259,7 @@ class PenetrationPanel(Panel):
             state.activity,
             state.queued > 0,
             dict(state.owners),
-            session.keep_out,
+            session.bounds.keep_out,
         )
         if inputs == self._last_inputs:
             return
@@ -315,11 +314,6 @@ def _by(run: PenetrationRun | None, parameters: PenetrationParameters) -> bool:
 
 
 def _scrolled(widget: QWidget) -> QScrollArea:
-    scroll = QScrollArea()
-    scroll.setObjectName("panelScroll")
-    scroll.setFrameShape(QFrame.Shape.NoFrame)
-    scroll.setWidgetResizable(True)
-    scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    scroll.setWidget(widget)
+    scroll = scrolled(widget)
     scroll.setFixedWidth(widget.minimumSizeHint().width() + 12)
     return scroll

@@ -9,9 +9,12 @@ from rotemina.app.motion.penetration.arming import planned, travel_margin
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.thrust import ThrustPlan, ThrustTrace
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.engine_words import error_text
 from rotemina.drivers.profile import Profile
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
+from rotemina.sim.quantities import fixed
 from rotemina.sim.robot.model import Robot
 
 UNKNOWN = "–"
@@ -44,13 +47,21 @@ class PlanPreview:
     plan: ThrustPlan | None
     problem: str = ""
 
+    def lacks_room(self, robot: Robot, state: SessionState) -> bool:
+        """Whether the way is too long from where zn stands, though its range has room for it."""
+        axis = self.parameters.axis
+        if self.plan is None or axis != "zn" or axis not in state.command:
+            return False
+        margin = travel_margin(robot, self.parameters, self.plan, state.command[axis])
+        return margin.left < margin.needed <= robot.axes[axis].span
+
     @classmethod
     def of(cls, session: MotionSession, parameters: PenetrationParameters) -> Self:
         """Plan the thrust; it takes some 10 ms."""
         try:
             return cls(parameters, planned(session, parameters))
         except InputError as error:
-            return cls(parameters, None, str(error))
+            return cls(parameters, None, error_text(error))
 
     def figures(self, robot: Robot, start: float | None) -> tuple[str, ...]:
         """Return average and peak speed, end depth, room needed and left, as texts.
@@ -108,12 +119,12 @@ def measured_curve(trace: ThrustTrace) -> Curve:
 
 def way_text(way: float) -> str:
     """Return a way as text, µm."""
-    return f"{1e6 * way:.2f} µm"
+    return f"{fixed(1e6 * way, 2)} µm"
 
 
 def speed_text(speed: float) -> str:
     """Return a speed as text, µm/s."""
-    return f"{1e6 * speed:.0f} µm/s"
+    return f"{fixed(1e6 * speed, 0)} µm/s"
 
 
 def _sign(plan: ThrustPlan) -> float:

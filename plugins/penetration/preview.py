@@ -4,11 +4,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rotemina.app.motion.penetration.thrust import ThrustPlan, ThrustTrace
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.plot import SignalPlot
+from rotemina.app.shell.plot import LINES, SignalPlot
 from rotemina.app.shell.theme import Theme
-from rotemina.plugins.penetration.fields import SteadyChoice
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.penetration.plan_preview import (
     Curve,
     commanded_curve,
@@ -19,7 +20,7 @@ from rotemina.plugins.penetration.plan_preview import (
 
 POSITION, SPEED = "position", "speed"
 _ROLES = {
-    marked("penetration", "wanted"): "model",
+    marked("penetration", "wanted"): "text",
     marked("penetration", "commanded"): "command",
     marked("penetration", "measured"): "real",
 }
@@ -34,9 +35,9 @@ class ThrustPreview(QWidget):
         self.curves: dict[str, Curve] = {}
         self._plan: ThrustPlan | None = None
         self.plot = SignalPlot(theme)
-        self.plot.add_curve("wanted", "model", width=3)  # seen on both sides of the command
-        self.plot.add_curve("commanded", "command")
-        self.plot.add_curve("measured", "real")
+        self.plot.add_curve("wanted", LINES["reference"])
+        self.plot.add_curve("commanded", LINES["command"])
+        self.plot.add_curve("measured", LINES["measured"])
         self.plot.show_times(True)
         self.plot.getPlotItem().getAxis("bottom").setLabel(translate("penetration", "time [ms]"))
         self.plot.setMinimumSize(180, 80)
@@ -45,14 +46,15 @@ class ThrustPreview(QWidget):
             plain_tip(
                 translate(
                     "penetration",
-                    "Wanted: what the tip is to do. Commanded: what the device puts out. "
-                    "Measured: the latest run, its constant delay taken off.",
+                    "Wanted: the planned motion of the tip. Commanded: the output of the device. "
+                    "Measured: the latest run, its constant delay removed.",
                 )
             )
         )
         self.shown = SteadyChoice(
             translate("penetration", "What the plot shows"),
             translate("penetration", "Way into the cell, or speed"),
+            letters=8,
         )
         self.shown.addItem(translate("penetration", "Position [µm]"), POSITION)
         self.shown.addItem(translate("penetration", "Speed [µm/s]"), SPEED)
@@ -84,11 +86,8 @@ class ThrustPreview(QWidget):
     def set_theme(self, theme: Theme) -> None:
         """Change the colours."""
         self.plot.set_theme(theme)
-        entries = []
-        for name, role in _ROLES.items():
-            said = translate("penetration", name)
-            entries.append(f'<span style="color:{getattr(theme, role)}">▬</span>&nbsp;{said}')
-        self._legend.setText(" ".join(entries))
+        named = ((translate("penetration", name), role) for name, role in _ROLES.items())
+        self._legend.setText(legend(theme, named, mark="▬"))
 
     def _draw(self) -> None:
         if self._plan is None:

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParameters
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.errors import InputError
+from rotemina.sim.quantities import parsed, rounded
 
 _PRESETS = PenetrationParameters()
 
@@ -77,7 +77,7 @@ class Quantity:
 
     def number(self, value: float) -> str:
         """Return a value (SI) as digits in the unit."""
-        return f"{value * self.per_si:.6g}"
+        return rounded(value * self.per_si, 6)
 
     def text(self, value: float) -> str:
         """Return a value (SI) with its unit."""
@@ -92,7 +92,8 @@ class Quantity:
             With the text and the bounds.
         """
         text = typed.strip()
-        if PLAIN_NUMBER.fullmatch(text) is None:
+        number = parsed(text)
+        if number is None:
             unit = f" in {self.unit}" if self.unit else ""
             raise TypedError(
                 translate(
@@ -100,7 +101,7 @@ class Quantity:
                     "{title}: {text!r} is no number; type one{unit}, with a decimal point",
                 ).format(title=self.shown_title, text=text, unit=unit)
             )
-        value, bound = float(text) / self.per_si, BOUNDS[self.key]
+        value, bound = number / self.per_si, BOUNDS[self.key]
         for end in bound.least, bound.most:
             if self.number(value) == self.number(end):
                 value = end  # typed as it is shown: rounding must not put it beyond
@@ -129,7 +130,7 @@ QUANTITIES = {
             "µm/s",
             _UM,
             Group.APPROACH,
-            marked("penetration", "How fast the tip comes near"),
+            marked("penetration", "Speed of the approach"),
         ),
         Quantity(
             "approach_distance",
@@ -236,7 +237,7 @@ QUANTITIES = {
             "µm/s",
             _UM,
             Group.RETRACT,
-            marked("penetration", "How fast the tip goes back"),
+            marked("penetration", "Speed of the retraction"),
         ),
         Quantity(
             "depth_tolerance",
@@ -257,7 +258,7 @@ QUANTITIES = {
             Group.LIMITS,
             marked(
                 "penetration",
-                "How far the axis may be from where it should be; beyond, the tip goes back "
+                "Greatest deviation of the axis from its set-point; beyond it, the tip retracts "
                 "at once",
             ),
         ),
@@ -267,7 +268,7 @@ QUANTITIES = {
             "s",
             1.0,
             Group.LIMITS,
-            marked("penetration", "Then it disarms by itself"),
+            marked("penetration", "After this time it disarms automatically"),
         ),
     )
 }

@@ -1,8 +1,9 @@
 """What is read while it runs, what the plan gives before, and the tool's switch."""
 
+from collections.abc import Mapping
+
 from PySide6.QtWidgets import (
     QHBoxLayout,
-    QLabel,
     QProgressBar,
     QPushButton,
     QVBoxLayout,
@@ -13,11 +14,13 @@ from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.controls import allow, fill, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.penetration.figures import Figures
+from rotemina.app.widgets.controls import allow, fill, plain_tip
+from rotemina.app.widgets.figures import Figures
+from rotemina.app.widgets.labels import heading
 from rotemina.plugins.penetration.plan_preview import UNKNOWN, PlanPreview, way_text
+from rotemina.sim.quantities import fixed
 
 _PLAN = {
     marked("penetration", "Average speed"): marked("penetration", "Depth over duration"),
@@ -50,7 +53,8 @@ class Readouts(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._workbench = workbench
-        self.plan, self.run = Figures(_PLAN, "50000 µm/s"), Figures(_RUN, "−2000.00 µm")
+        self.plan = _figures(_PLAN, "50000 µm/s")
+        self.run = _figures(_RUN, "−2000.00 µm")
         self.load = QProgressBar()
         self.load.setRange(0, 1000)
         self.load.setMinimumWidth(144)
@@ -60,12 +64,12 @@ class Readouts(QWidget):
         self.tool.clicked.connect(self._toggle)
         column = QVBoxLayout()
         column.setSpacing(4)
-        for widget in (_heading(translate("penetration", "Run")), self.run, self.load, self.tool):
+        for widget in (heading(translate("penetration", "Run")), self.run, self.load, self.tool):
             column.addWidget(widget)
         column.addStretch(1)
         beside = QVBoxLayout()
         beside.setSpacing(4)
-        for widget in (_heading(translate("penetration", "Plan")), self.plan):
+        for widget in (heading(translate("penetration", "Plan")), self.plan):
             beside.addWidget(widget)
         beside.addStretch(1)
         row = QHBoxLayout(self)
@@ -94,7 +98,7 @@ class Readouts(QWidget):
         most = parameters.overload
         share = 0.0 if load is None else min(load / most, 1.0)
         fill(self.load, round(1000 * share))
-        value = UNKNOWN if load is None else f"{1e6 * load:.2f}"
+        value = UNKNOWN if load is None else fixed(1e6 * load, 2)
         self.load.setFormat(
             translate("penetration", "load {value} of {most:.4g} µm").format(
                 value=value, most=1e6 * most
@@ -102,7 +106,7 @@ class Readouts(QWidget):
         )
         self.load.setToolTip(
             plain_tip(
-                translate("penetration", "How far the axis is from where it should be."),
+                translate("penetration", "Deviation of the axis from its set-point."),
                 translate(
                     "penetration", "Beyond {most:.4g} µm the run has failed, and the tip goes back."
                 ).format(most=1e6 * most),
@@ -111,7 +115,7 @@ class Readouts(QWidget):
         self._show_tool(status, state)
 
     def _show_tool(self, status: PenetrationStatus, state: SessionState) -> None:
-        on = self._workbench.session.tool_on
+        on = self._workbench.session.tool.on
         self.tool.setChecked(bool(on))
         self.tool.setText(
             translate("penetration", "Tool is on")
@@ -137,10 +141,12 @@ class Readouts(QWidget):
 
     def _toggle(self) -> None:
         self._workbench.ask(self._workbench.operation.toggle_tool)
-        self.tool.setChecked(bool(self._workbench.session.tool_on))  # as it is, not as asked
+        self.tool.setChecked(bool(self._workbench.session.tool.on))  # as it is, not as asked
 
 
-def _heading(text: str) -> QLabel:
-    heading = QLabel(text)
-    heading.setProperty("heading", True)
-    return heading
+def _figures(names: Mapping[str, str], widest: str) -> Figures:
+    said = {
+        translate("penetration", name): translate("penetration", about)
+        for name, about in names.items()
+    }
+    return Figures(said, widest=widest, spacing=1)

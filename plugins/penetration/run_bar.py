@@ -7,12 +7,13 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWi
 
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow
 from rotemina.drivers.clock import Clock
-from rotemina.plugins.penetration.engine_words import spoken
+from rotemina.plugins.connection.reasons import in_motion
 from rotemina.plugins.penetration.words import (
     STRIP,
     Light,
@@ -48,9 +49,11 @@ class RunBar(QWidget):
     Signals
     -------
     arm_asked() : the parameters are to be armed.
+    prepare_asked() : the nano stage is to be moved back for them.
     """
 
     arm_asked = Signal()
+    prepare_asked = Signal()
 
     def __init__(self, workbench: Workbench, clock: Clock = time.monotonic) -> None:
         super().__init__()
@@ -60,6 +63,9 @@ class RunBar(QWidget):
         self.arm = QPushButton(translate("penetration", "Arm"))
         self.arm.setMinimumWidth(104)
         self.arm.clicked.connect(lambda _: self._arm())
+        self.prepare = QPushButton(translate("penetration", "Prepare"))
+        self.prepare.clicked.connect(lambda _: self.prepare_asked.emit())
+        self.prepare.hide()
         self.button = QPushButton(translate("penetration", "Start"))
         self.button.setObjectName("penetration")
         self.button.setProperty("primary", True)
@@ -81,12 +87,10 @@ class RunBar(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(4)
-        for widget in (self.arm, self.button, self.phase):
+        for widget in (self.arm, self.prepare, self.button, self.phase):
             row.addWidget(widget)
         row.addStretch(1)
-        for number, chip in enumerate(self.strip.values()):
-            if number:
-                row.addWidget(_arrow())
+        for chip in self.strip.values():
             row.addWidget(chip)
         row.addStretch(1)
 
@@ -111,6 +115,20 @@ class RunBar(QWidget):
         for chip, light in zip(self.strip.values(), lights(status), strict=True):
             set_tone(chip, _TONES[light])
             chip.setAccessibleDescription(spoken(light))
+
+    def offer_preparing(self, lacks: bool, state: SessionState) -> None:
+        """Offer to move the nano stage back where the way ``lacks`` room."""
+        self.prepare.setVisible(lacks)
+        if lacks:
+            allow(
+                self.prepare,
+                state.locked or in_motion(state),
+                translate(
+                    "penetration",
+                    "Move Z nano back as far as the penetration needs; Z makes up for it, and the "
+                    "tip stays",
+                ),
+            )
 
     def _arm(self) -> None:
         penetration = self._operation.penetration
@@ -137,10 +155,3 @@ def _chip(text: str) -> QLabel:
     chip.setMinimumWidth(16)  # in a narrow dock they are cut; the phase stands before them
     chip.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
     return chip
-
-
-def _arrow() -> QLabel:
-    arrow = QLabel("→")
-    arrow.setProperty("quiet", True)
-    arrow.setMinimumWidth(4)
-    return arrow

@@ -7,10 +7,11 @@ from typing import Any
 
 from rotemina.app.motion.penetration.parameters import BOUNDS
 from rotemina.app.motion.penetration.run_log import PenetrationRun
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.penetration.engine_words import spoken
 from rotemina.plugins.penetration.plan_preview import UNKNOWN, speed_text, way_text
 from rotemina.plugins.penetration.quantities import QUANTITIES
+from rotemina.sim.quantities import fixed, rounded
 
 MOST = 50
 COLUMNS = (
@@ -27,7 +28,7 @@ COLUMN_TIPS = (
     marked("penetration", "When the run was started"),
     marked(
         "penetration",
-        "Done, aborted by the button, failed, or held by a stop; the tip is back but when held",
+        "Done, aborted by the button, failed, or held by a stop; the tip is retracted unless held",
     ),
     marked(
         "penetration",
@@ -97,7 +98,7 @@ def in_full(run: PenetrationRun) -> str:
             robot=run.robot, driver=run.driver
         ),
         "",
-        *(f"{at:8.3f} s  {spoken(name)}" for name, at in run.phases),
+        *(f"{fixed(at, 3):>8} s  {spoken(name)}" for name, at in run.phases),
         "",
         *_found(run),
         "",
@@ -116,7 +117,7 @@ def _found(run: PenetrationRun) -> list[str]:
             None if run.contact_height is None else _height(run),
         ),
         (translate("penetration", "contact told after"), _ms(run.contact_delay_s)),
-        (translate("penetration", "leant on it from the start"), _yes(run.contact_from_start)),
+        (translate("penetration", "in contact from the start"), _yes(run.contact_from_start)),
         (translate("penetration", "noise, rms"), _nm(run.noise_rms)),
         (translate("penetration", "detector's threshold"), _plain(run.threshold)),
         (translate("penetration", "planned average speed"), _speed(run.planned_average_speed)),
@@ -131,7 +132,7 @@ def _found(run: PenetrationRun) -> list[str]:
             (translate("penetration", "peak speed"), _speed(thrust.peak_speed)),
             (translate("penetration", "error against the profile"), _way(thrust.error)),
             (translate("penetration", "delay taken off"), _ms(thrust.delay_s)),
-            (translate("penetration", "samples"), f"{thrust.rate_hz:.0f} Hz"),
+            (translate("penetration", "samples"), f"{fixed(thrust.rate_hz, 0)} Hz"),
         ]
     rows += [
         (translate("penetration", "deviation, peak"), _way(run.peak_deviation)),
@@ -166,7 +167,7 @@ def _key(run: PenetrationRun) -> tuple[str, str, int]:
 def _height(run: PenetrationRun) -> str:
     if run.contact_height is not None:
         height = run.contact_height
-        return f"{1e3 * height:.4f} mm" if abs(height) >= 1e-3 else way_text(height)
+        return f"{fixed(1e3 * height, 4)} mm" if abs(height) >= 1e-3 else way_text(height)
     return UNKNOWN if run.contact is None else way_text(run.contact)
 
 
@@ -175,11 +176,11 @@ def _way(value: float | None) -> str | None:
 
 
 def _nm(value: float | None) -> str | None:
-    return None if value is None else f"{1e9 * value:.1f} nm"
+    return None if value is None else f"{fixed(1e9 * value, 1)} nm"
 
 
 def _ms(value: float | None) -> str | None:
-    return None if value is None else f"{1e3 * value:.1f} ms"
+    return None if value is None else f"{fixed(1e3 * value, 1)} ms"
 
 
 def _speed(value: float | None) -> str | None:
@@ -187,7 +188,7 @@ def _speed(value: float | None) -> str | None:
 
 
 def _plain(value: float | None) -> str | None:
-    return None if value is None else f"{value:.3g}"
+    return None if value is None else rounded(value, 3)
 
 
 def _yes(value: bool | None) -> str | None:

@@ -2,10 +2,10 @@
 
 from itertools import pairwise
 
-from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.motion.penetration.parameters import MOST_POINTS
 from rotemina.app.shell.language import translate
 from rotemina.plugins.penetration.quantities import TypedError
+from rotemina.sim.quantities import POINT, parsed
 
 Table = tuple[tuple[float, float], ...]
 
@@ -51,7 +51,9 @@ def read_table(text: str) -> Table:
 
 def _point(number: int, line: str) -> tuple[float, float]:
     parts = [part.strip() for part in line.split(",")]
-    if len(parts) != 2 or not all(PLAIN_NUMBER.fullmatch(part) for part in parts):
+    # The comma is between the two, in every language.
+    shares = [share for part in parts if (share := parsed(part, POINT)) is not None]
+    if len(parts) != 2 or len(shares) != 2:
         raise TypedError(
             translate(
                 "penetration",
@@ -59,7 +61,7 @@ def _point(number: int, line: str) -> tuple[float, float]:
                 "share, such as 0.3, 0.1",
             ).format(number=number, line=line[:40])
         )
-    at, depth = (float(part) for part in parts)
+    at, depth = shares
     for name, value in (
         (translate("penetration", "time"), at),
         (translate("penetration", "depth"), depth),

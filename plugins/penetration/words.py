@@ -5,8 +5,8 @@ from enum import StrEnum
 from rotemina.app.motion.penetration.run_log import Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.penetration.engine_words import spoken
 from rotemina.plugins.penetration.plan_preview import speed_text, way_text
 
 #: The phases of the strip, in their order.
@@ -23,7 +23,7 @@ SETTLE_S = 0.5  # a second press in alarm must not stop the way back, nor begin 
 FIXED = UNDER_WAY | {Phase.ARMED, Phase.HELD}
 
 _DOING = {
-    Phase.APPROACH: marked("penetration", "The tip comes near and feels for the membrane."),
+    Phase.APPROACH: marked("penetration", "The tip approaches until it touches the membrane."),
     Phase.CONTACT: marked(
         "penetration", "Contact. The tip rests on the membrane; the thrust follows."
     ),
@@ -36,7 +36,7 @@ _DOING = {
 # What the buttons do, in English here: translated where it is shown.
 _BUTTON_TIPS = {
     marked("penetration", "Hold"): marked(
-        "penetration", "Halt the way back; the tip stays where it is then"
+        "penetration", "Stop the retraction; the tip stays where it is"
     ),
     marked("penetration", "Retract"): marked(
         "penetration", "Bring the tip back to where the run began"
@@ -50,7 +50,7 @@ _ARM_TIPS = {
     marked("penetration", "Arm"): marked(
         "penetration", "Check everything and reserve every axis; nothing moves until Start"
     ),
-    marked("penetration", "Disarm"): marked("penetration", "Set the axes free; nothing has moved"),
+    marked("penetration", "Disarm"): marked("penetration", "Release the axes; nothing has moved"),
     marked("penetration", "Free the axes"): marked(
         "penetration", "Leave the tip where it is, and let the axes be moved by hand"
     ),

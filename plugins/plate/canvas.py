@@ -18,6 +18,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.plate.drawing import View, colours, drawn
 from rotemina.plugins.plate.picture import Picture
+from rotemina.sim.quantities import rounded
 
 _DEGREES_PER_PIXEL = 0.5
 _KEY_DEGREES = 5.0
@@ -116,7 +117,7 @@ class Canvas(QWidget):
         for share in (0.0, 0.25, 0.5, 0.75, 1.0):
             value = picture.low + share * (picture.high - picture.low)
             y = bottom - share * (bottom - top) + 5
-            painter.drawText(QPointF(left + _BAR_WIDTH + 5, y), f"{value:.3g}")
+            painter.drawText(QPointF(left + _BAR_WIDTH + 5, y), rounded(value, 3))
 
     # --- turning ----------------------------------------------------------------------------------
 

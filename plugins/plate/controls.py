@@ -2,38 +2,25 @@
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QGridLayout,
     QLabel,
-    QSlider,
     QWidget,
 )
 
 from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.steady import SteadySlider
 from rotemina.plugins.plate.quantities import QUANTITIES, Quantity
 from rotemina.plugins.plate.words import AXES
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.quantities import fixed
 
 _STEPS = 500
 _SCALES = 200  # per cent
 STATIC = marked("plate", "Hub moved")
-
-
-class SteadySlider(QSlider):
-    """A level slider that the wheel leaves alone."""
-
-    def __init__(self, name: str, steps: int) -> None:
-        super().__init__(Qt.Orientation.Horizontal)
-        self.setRange(0, steps)
-        self.setAccessibleName(name)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave the wheel to what scrolls."""
-        event.ignore()
 
 
 class Controls(QWidget):
@@ -71,7 +58,7 @@ class Controls(QWidget):
         self.scale.setValue(100)
         self.scale_text = QLabel()
         self.scale.setToolTip(
-            translate("plate", "How high the deformation is drawn, 0 to 200 %; 100 is well visible")
+            translate("plate", "Scale of the drawn deformation, 0 to 200 %; 100 % is well visible")
         )
         self.mesh = QCheckBox(translate("plate", "Mesh lines"))
         self.mesh.setToolTip(translate("plate", "Draw the edges of the elements"))
@@ -156,7 +143,7 @@ class Controls(QWidget):
 
     def _change(self) -> None:
         for value, text, (_, unit, per_si) in zip(self.values, self.pose, AXES, strict=True):
-            value.setText(f"{per_si * text:.1f} {unit}")
+            value.setText(f"{fixed(per_si * text, 1)} {unit}")
         static = self.mode is None
         for widget in (*self.sliders, self.colour):
             widget.setEnabled(static)

@@ -8,20 +8,19 @@ from PySide6.QtCore import QBuffer, QIODevice, Qt, QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
-    QFileDialog,
-    QFrame,
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
 
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.controls import allow
+from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, set_property
+from rotemina.app.widgets.scroll import least_width, scrolled
 from rotemina.plugins.plate.canvas import Canvas
 from rotemina.plugins.plate.controls import Controls
 from rotemina.plugins.plate.picture import mode_picture, static_picture
@@ -36,6 +35,7 @@ from rotemina.plugins.plate.words import (
     yields,
 )
 from rotemina.sim.plate.export import write_vtu
+from rotemina.sim.quantities import fixed
 from rotemina.sim.whole_files import replaced
 
 FRAME_MS = 33
@@ -80,7 +80,7 @@ class PlatePanel(Panel):
         self.start.setToolTip(
             translate("plate", "Compute the plate that the robot file describes; motion goes on")
         )
-        self.stop.setToolTip(translate("plate", "Want no answer any more; motion goes on"))
+        self.stop.setToolTip(translate("plate", "Cancel the computation; motion goes on"))
         self.vtu, self.png = (
             QPushButton(translate("plate", "Save VTU …")),
             QPushButton(translate("plate", "Save PNG …")),
@@ -109,14 +109,8 @@ class PlatePanel(Panel):
         column.addWidget(self.plate_text)
         column.addLayout(saving)
         column.addStretch(1)
-        scroll = QScrollArea()
-        scroll.setObjectName("panelScroll")
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(left)
-        bar = scroll.verticalScrollBar().sizeHint().width()
-        scroll.setFixedWidth(max(left.minimumSizeHint().width() + bar, _WIDTH))
+        scroll = scrolled(left)
+        scroll.setFixedWidth(max(least_width(scroll), _WIDTH))
         outer = QHBoxLayout(self)
         outer.setContentsMargins(10, 6, 10, 6)
         outer.addWidget(scroll)
@@ -200,7 +194,7 @@ class PlatePanel(Panel):
         if controls.mode is None:
             pose = controls.pose
             picture = static_picture(solved, pose, controls.quantity, controls.magnification)
-            controls.scale_text.setText(f"{picture.magnified:.0f} ×")
+            controls.scale_text.setText(f"{fixed(picture.magnified, 0)} ×")
             self.pose_text.setText(pose_lines(solved, pose))
             self._mark(yields(solved, pose))
         else:
@@ -215,10 +209,7 @@ class PlatePanel(Panel):
             (self._frames.start if swings else self._frames.stop)()
 
     def _mark(self, bad: bool) -> None:
-        if bool(self.pose_text.property("bad")) != bad:
-            self.pose_text.setProperty("bad", bad)
-            self.pose_text.style().unpolish(self.pose_text)
-            self.pose_text.style().polish(self.pose_text)
+        set_property(self.pose_text, "bad", bad)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
         """Let a mode swing again."""
@@ -266,20 +257,8 @@ class PlatePanel(Panel):
         )
 
     def _ask(self, suffix: str) -> None:
-        settings = self.workbench.settings
         every = translate("plate", "All files (*)")
         kinds = f"{suffix.upper()} (*.{suffix});;{every}"
-        dialog = QFileDialog(
-            self, translate("plate", "Save the plate"), settings.get("files.folder", ""), kinds
-        )
-        dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix(suffix)
-        dialog.selectFile(f"plate.{suffix}")
-        dialog.fileSelected.connect(
-            lambda name: settings.set("files.folder", str(Path(name).parent))
-        )
         save = {"vtu": self.save_vtu, "png": self.save_png}[suffix]
-        dialog.fileSelected.connect(lambda name: save(Path(name)))
-        dialog.show()
+        title = translate("plate", "Save the plate")
+        ask_where(self, self.workbench, title, kinds, f"plate.{suffix}", save)

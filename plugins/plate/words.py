@@ -8,6 +8,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.application import agreement
 from rotemina.sim.plate.report import TOLERANCE, mode_name, pose_text
 from rotemina.sim.plate.stress import Safety, StressPoint, safety
+from rotemina.sim.quantities import fixed
 from rotemina.sim.robot.plate import Plate
 
 MESHES = (
@@ -100,7 +101,7 @@ def mode_titles(solved: Solved) -> list[str]:
     """Return a title for each mode."""
     modes = solved.modes
     return [
-        f"{number}  {frequency:.0f} Hz  {_mode(mode_name(hub))}"
+        f"{number}  {fixed(frequency, 0)} Hz  {_mode(mode_name(hub))}"
         for number, (frequency, hub) in enumerate(
             zip(modes.frequencies_hz, modes.hub, strict=True), start=1
         )

@@ -10,21 +10,35 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.history import LiveWindow
-from rotemina.app.shell.controls import ElidedLabel, plain_tip
 from rotemina.app.shell.gap_words import live_gap, run_gap, small_print
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.plugins.plots.analysis import spectrum
 from rotemina.plugins.plots.cursor_text import Reading, Shown, loop_text, nearest, values_text
-from rotemina.plugins.plots.signals import OtherRun
+from rotemina.plugins.plots.gap_strip import LEAST_HEIGHT, MOST_HEIGHT, GapStrip
+from rotemina.plugins.plots.overlay import OtherRun
+from rotemina.plugins.plots.signals import GapHistory
 from rotemina.plugins.plots.view_plot import ViewPlot, logarithm
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.gap import GapFigure
+from rotemina.sim.quantities import Scale, scale_in
 from rotemina.sim.records.record import Tap
-from rotemina.sim.units import symbol, to_unit
 
-CURVES = ("command", "model", "nominal", "above", "below", "other", "measured")
+CURVES = {
+    "command": LINES["command"],
+    "model": LINES["model"],
+    "nominal": LINES["nominal"],
+    "above": LINES["doubt"],
+    "below": LINES["doubt"],
+    "other": LINES["other"],
+    "measured": LINES["measured"],
+}
+_STRIP_SHARE = 0.3  # of the height that trace and strip have
+_LEAST_TRACE = 40  # px: below it there is no strip
 _NOTHING = np.empty(0)
 _LEAST_DECADES = 2.0  # of a spectrum: fewer have no round numbers to stand beside
 
@@ -33,7 +47,8 @@ class Picture(NamedTuple):
     """What one frame draws.
 
     ``other`` is the run beside the present one, its time ``shift_s`` earlier or later. ``live`` are
-    the gaps of the last 10 s by axis, ``run`` those of the run in hand.
+    the gaps of the last 10 s by axis, ``run`` those of the run in hand, ``course`` is the gap over
+    time.
     """
 
     window: LiveWindow
@@ -43,6 +58,7 @@ class Picture(NamedTuple):
     shift_s: float = 0.0
     live: Mapping[str, GapFigure | None] = MappingProxyType({})
     run: Mapping[tuple[str, Tap], GapFigure | None] = MappingProxyType({})
+    course: GapHistory | None = None
 
 
 class AxisPlot(QWidget):
@@ -62,7 +78,7 @@ class AxisPlot(QWidget):
         self._name, self._si_unit = name, axis.unit or "m"
         self._column, self._times = column, times
         self._scale = axis_scale(axis)
-        self._gap_unit = "urad" if axis.unit == "rad" else "um"
+        self._gap = scale_in("urad" if axis.unit == "rad" else "um")
         floor = axis.sensor.noise_floor if axis.sensor else axis.span * 1e-5
         self._floor = floor or axis.span * 1e-6
         self._view: Shown | None = None
@@ -75,14 +91,10 @@ class AxisPlot(QWidget):
             quiet.setProperty("quiet", True)
         self._unit.setTextFormat(Qt.TextFormat.PlainText)
         self.plot = ViewPlot(workbench.theme, moved)
-        self.plot.add_curve("command", "command")
-        self.plot.add_curve("model", "model", width=3)  # seen on both sides of the measured line
-        dotted = Qt.PenStyle.DotLine
-        self.plot.add_curve("nominal", "model", style=dotted)
-        for bound in ("above", "below"):
-            self.plot.add_curve(bound, "model", style=Qt.PenStyle.DashDotLine)
-        self.plot.add_curve("other", "good")
-        self.plot.add_curve("measured", "real")
+        for curve, line in CURVES.items():
+            self.plot.add_curve(curve, line)
+        self.strip = GapStrip(workbench.theme, name, axis, self._floor)
+        self._strip_height = 0
         # Notices and the banner of a replay need room, too; the lowest has the times below it.
         self.plot.setMinimumHeight(62 if times else 36)
         head = QHBoxLayout()
@@ -96,10 +108,35 @@ class AxisPlot(QWidget):
         column_layout.setSpacing(1)
         column_layout.addLayout(head)
         column_layout.addWidget(self.plot, 1)
+        column_layout.addWidget(self.strip)
+
+    def stand_in_strip(self, *, strip: bool) -> None:
+        """Do without times below the plot where there is a strip's height only."""
+        self.plot.showAxis("bottom", not strip)
+        self.plot.setMinimumHeight(62 if self._times and not strip else 36)
+
+    def share_height(self, height: int) -> None:
+        """Part the height of trace and strip, px, where there is room for both."""
+        strip = min(round(_STRIP_SHARE * height), MOST_HEIGHT)
+        fits = strip >= LEAST_HEIGHT and height - strip >= _LEAST_TRACE
+        self._strip_height = strip if fits else 0
+        self._show_strip()
+
+    def _show_strip(self) -> None:
+        """Show the strip below what is drawn over time."""
+        over_time = self._view in (None, Shown.POSITION, Shown.GAP)
+        self.strip.setFixedHeight(max(self._strip_height, 1))
+        self.strip.setVisible(over_time and self._strip_height > 0)
 
     def use_theme(self, theme: Theme) -> None:
         """Change the colours."""
         self.plot.set_theme(theme)
+        self.strip.set_theme(theme)
+
+    def set_stale(self, stale: bool) -> None:
+        """Draw old data in grey."""
+        self.plot.set_stale(stale)
+        self.strip.set_stale(stale)
 
     def draw(self, picture: Picture) -> None:
         """Draw a picture; time runs up to 0, the newest sample."""
@@ -108,6 +145,7 @@ class AxisPlot(QWidget):
         self._read = (_NOTHING, _NOTHING)
         if shown in (Shown.POSITION, Shown.GAP):
             self.plot.set_time(-picture.span_s, 0.0)
+        self._draw_strip(picture)
         if len(window) == 0:
             self.figures.show_text("")
             for name in CURVES:
@@ -120,6 +158,15 @@ class AxisPlot(QWidget):
             Shown.LOOP: self._draw_loop,
             Shown.SPECTRUM: self._draw_spectrum,
         }[shown](picture)
+
+    def _draw_strip(self, picture: Picture) -> None:
+        course, window = picture.course, picture.window
+        if course is None or not self.strip.isVisible():
+            return
+        newest_s = window.device_time_s[-1] if len(window) else 0.0
+        self.strip.show_course(
+            course.time_s - newest_s, course.gap[:, self._column], picture.span_s
+        )
 
     def _show_gap(self, picture: Picture) -> None:
         """Write the gap of the last 10 s, and of the run in hand where this axis was in it."""
@@ -153,6 +200,7 @@ class AxisPlot(QWidget):
         if shown is self._view:
             return
         self._view = shown
+        self._show_strip()
         spectral, loop = shown is Shown.SPECTRUM, shown is Shown.LOOP
         across = (
             translate("plots", "frequency [Hz]")
@@ -164,9 +212,9 @@ class AxisPlot(QWidget):
         self.plot.show_scales(across, logarithmic=spectral, numbers=loop or self._times)
         unit = self._scale.symbol
         if shown is Shown.GAP:
-            unit = symbol(self._gap_unit)
+            unit = self._gap.symbol
         elif spectral:
-            unit = f"{symbol(self._gap_unit)}/√Hz"
+            unit = f"{self._gap.symbol}/√Hz"
         self._unit.setText(f"[{unit}]")
         for name in CURVES:
             self.plot.clear_signal(name)
@@ -178,10 +226,10 @@ class AxisPlot(QWidget):
         later = window.device_time_s > window.gap_since_s  # another model said what it says
         if later.any():
             since, gap = since[later], gap[later]
-        values = to_unit(gap, self._gap_unit)
+        values = self._gap(gap)
         self.plot.show_signal("measured", since, values)
         self._read = (since, values)
-        self._follow(self._gap_unit, values)
+        self._follow(self._gap, values)
 
     def _draw_position(self, picture: Picture) -> None:
         window = picture.window
@@ -206,7 +254,7 @@ class AxisPlot(QWidget):
             seen = measured[(time_s >= newest - picture.span_s) & (time_s <= newest)]
             if len(seen):
                 signals["other"] = seen
-        self._follow(self._scale.unit, *signals.values())
+        self._follow(self._scale, *signals.values())
 
     def _beside_the_model(self, window: LiveWindow) -> dict[str, FloatArray]:
         """Return the nominal model, where another is in use, and by how much that may be off."""
@@ -232,15 +280,15 @@ class AxisPlot(QWidget):
             self.plot.show_loop("other", asked, measured)
             across.append(asked)
             signals["other"] = measured
-        least = 8.0 * float(to_unit(self._floor, self._scale.unit))
+        least = 8.0 * self._floor * self._scale.per_si
         low, high = _extent(across)
         self.plot.follow_across(low, high, least)
-        self._follow(self._scale.unit, *signals.values())
+        self._follow(self._scale, *signals.values())
 
     def _draw_spectrum(self, picture: Picture) -> None:
         window, column = picture.window, self._column
         parts = (window.command, window.model, window.measured)
-        signals = np.stack([to_unit(part[:, column], self._gap_unit) for part in parts], axis=1)
+        signals = np.stack([self._gap(part[:, column]) for part in parts], axis=1)
         found = spectrum(window.device_time_s, signals)
         # A reading that is missing has no spectrum, nor has one that never changes.
         if found is None or not np.isfinite(logarithm(found.density[:, -1])).any():
@@ -254,7 +302,7 @@ class AxisPlot(QWidget):
         other = self._other(picture)
         if other is not None:
             time_s, _, measured = other
-            again = spectrum(time_s, to_unit(self._si(measured), self._gap_unit)[:, None])
+            again = spectrum(time_s, self._gap(self._si(measured))[:, None])
             if again is not None:
                 self._draw_density("other", np.log10(again.frequency_hz), again.density[:, 0])
                 seen.append(logarithm(again.density[:, 0]))
@@ -284,13 +332,13 @@ class AxisPlot(QWidget):
         )
 
     def _shown(self, values: FloatArray) -> FloatArray:
-        return to_unit(values[:, self._column], self._scale.unit)
+        return self._scale(values[:, self._column])
 
     def _si(self, values: FloatArray) -> FloatArray:
-        return values / to_unit(1.0, self._scale.unit)
+        return values / self._scale.per_si
 
-    def _follow(self, unit: str, *signals: FloatArray) -> None:
-        self.plot.follow(*_extent(signals), 8.0 * float(to_unit(self._floor, unit)))
+    def _follow(self, scale: Scale, *signals: FloatArray) -> None:
+        self.plot.follow(*_extent(signals), 8.0 * self._floor * scale.per_si)
 
 
 def _extent(signals: "list[FloatArray] | tuple[FloatArray, ...]") -> tuple[float, float]:

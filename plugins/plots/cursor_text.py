@@ -7,6 +7,7 @@ import numpy as np
 
 from rotemina.app.shell.language import translate
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.quantities import rounded
 
 
 class Shown(StrEnum):
@@ -40,8 +41,8 @@ def across_text(shown: Shown, a: float, b: float) -> str:
         return translate("plots", "Cursors: Δx and Δy of each loop stand above it.")
     unit, inverse = ("Hz", "s") if shown is Shown.SPECTRUM else ("s", "Hz")
     difference = b - a
-    text = f"A {a:.4g} {unit}  B {b:.4g} {unit}  Δ {difference:.4g} {unit}"
-    return text if difference == 0.0 else f"{text}  1/Δ {1.0 / difference:.4g} {inverse}"
+    text = f"A {rounded(a)} {unit}  B {rounded(b)} {unit}  Δ {rounded(difference)} {unit}"
+    return text if difference == 0.0 else f"{text}  1/Δ {rounded(1.0 / difference)} {inverse}"
 
 
 def values_text(a: float | None, b: float | None, unit: str) -> Reading:
@@ -51,12 +52,12 @@ def values_text(a: float | None, b: float | None, unit: str) -> Reading:
             translate("plots", "cursor outside"),
             translate("plots", "a cursor stands where nothing was measured"),
         )
-    short = f"Δ {b - a:.4g} {unit}"
-    return Reading(short, f"A {a:.7g} {unit}, B {b:.7g} {unit}, {short}")
+    short = f"Δ {rounded(b - a)} {unit}"
+    return Reading(short, f"A {rounded(a, 7)} {unit}, B {rounded(b, 7)} {unit}, {short}")
 
 
 def loop_text(a: tuple[float, float], b: tuple[float, float], unit: str) -> Reading:
     """Return the differences of two points of a loop, and their ratio."""
     dx, dy = b[0] - a[0], b[1] - a[1]
-    short = f"Δx {dx:.4g}  Δy {dy:.4g} {unit}"
-    return Reading(short, short if dx == 0.0 else f"{short}, Δy/Δx {dy / dx:.4g}")
+    short = f"Δx {rounded(dx)}  Δy {rounded(dy)} {unit}"
+    return Reading(short, short if dx == 0.0 else f"{short}, Δy/Δx {rounded(dy / dx)}")

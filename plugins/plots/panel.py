@@ -3,10 +3,10 @@
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
-from html import escape
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QTimer
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
@@ -23,18 +23,23 @@ from rotemina.app.display import stages
 from rotemina.app.motion.history import LiveWindow
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.gap_words import LIVE_S
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.legend import Entry, Legend
+from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.widgets.controls import plain_tip
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
+from rotemina.plugins.plots.beside import ask_run
 from rotemina.plugins.plots.cursor_text import Shown, across_text
 from rotemina.plugins.plots.exporting import save_picture
-from rotemina.plugins.plots.signals import OtherRun, alignment, as_record, gaps_of, latest
+from rotemina.plugins.plots.overlay import OtherRun, alignment
+from rotemina.plugins.plots.signals import SHORT_S, GapHistory, as_record, gaps_of, latest
 from rotemina.plugins.plots.view_plot import ViewPlot
 from rotemina.sim.comparison.gap import GapFigure
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.writing import write_record
 
 SPANS_S = (2, 5, 10, 30, 60)
@@ -42,9 +47,13 @@ _PARTS = 3  # of the plots that are drawn at a time
 FIGURES_S = 0.25  # nor are figures
 SPECTRUM_S = 0.25  # a spectrum is computed no oftener
 LEGEND = (
-    (marked("plots", "command"), "command"),
-    (marked("plots", "model in use"), "model"),
-    (marked("plots", "measured"), "real"),
+    (marked("plots", "command"), LINES["command"]),
+    (marked("plots", "model in use"), LINES["model"]),
+    (marked("plots", "measured"), LINES["measured"]),
+)
+STRIP_LEGEND = (
+    (marked("plots", "gap, last {n} s"), LINES["gap"]),
+    (marked("plots", "noise floor"), None),
 )
 VIEWS = {
     Shown.POSITION: marked("plots", "Position"),
@@ -52,7 +61,7 @@ VIEWS = {
     Shown.LOOP: marked("plots", "Loop: over command"),
     Shown.SPECTRUM: marked("plots", "Spectrum"),
 }
-_ALONE, _KEPT, _IN_HAND = "alone", "kept", "run"
+_ALONE, _KEPT, _IN_HAND, _RECORD = "alone", "kept", "run", "record"
 
 
 class PlotsPanel(Panel):
@@ -69,6 +78,7 @@ class PlotsPanel(Panel):
         self._held: LiveWindow | None = None
         self._told_s = float("-inf")
         self._gaps: Mapping[str, GapFigure | None] = {}
+        self._course: GapHistory | None = None
         self._picture: Picture | None = None
         self.other: OtherRun | None = None
         self._shift_s = 0.0
@@ -79,21 +89,25 @@ class PlotsPanel(Panel):
             for column, name in enumerate(workbench.robot.axes)
         }
         self.area_of_plots = QWidget()
-        grid = QGridLayout(self.area_of_plots)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setSpacing(6)
-        for place, axes in enumerate(stages(workbench.robot).values()):
-            for row, name in enumerate(axes):
-                grid.addWidget(self.plots[name], row, place)
+        self._grid = QGridLayout(self.area_of_plots)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setSpacing(6)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(3)
-        column.addLayout(self._header())
+        self._head = QWidget()
+        rows = QVBoxLayout(self._head)
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.setSpacing(3)
+        rows.addLayout(self._header())
         below = QHBoxLayout()
         below.addWidget(self._legend, 1)
         below.addWidget(self.age)
-        column.addLayout(below)
+        rows.addLayout(below)
+        column.addWidget(self._head)
         column.addWidget(self.area_of_plots, 1)
+        self._in_strip = True
+        self._arrange(strip=False)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
         self._next = QTimer(self, singleShot=True, interval=0)
         self._next.timeout.connect(self._draw_next)
@@ -104,6 +118,47 @@ class PlotsPanel(Panel):
         workbench.run_changed.connect(self._take_run)
         workbench.run_changed.connect(lambda _: self._tell_run())
         workbench.model_changed.connect(self._use_model)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
+        """Stand in one row without controls where there is room for a strip only."""
+        super().resizeEvent(event)
+        self._arrange(strip=self.height() < self._least_height())
+        self._share_height()
+
+    def _least_height(self) -> int:
+        """Return the height below which controls and stacked plots would be cut, px."""
+        stack = max(stages(self.workbench.robot).values(), key=len)
+        plots = sum(self.plots[name].minimumSizeHint().height() for name in stack)
+        return self._head.sizeHint().height() + plots
+
+    def _share_height(self) -> None:
+        """Give all traces the same height: the lowest ones have the times below them as well."""
+        stacks = [list(axes) for axes in stages(self.workbench.robot).values()]
+        rows = 1 if self._in_strip else max(map(len, stacks))
+        lowest = self.plots[max(stacks, key=len)[-1]].plot.getPlotItem()
+        times = 0 if self._in_strip else round(lowest.getAxis("bottom").height())
+        trace = max((self.area_of_plots.height() - times) // rows, 1)
+        for row in range(max(map(len, stacks))):
+            stretch = trace + (times if row == rows - 1 else 0)
+            self._grid.setRowStretch(row, stretch if row < rows else 0)
+        title = self.plots[stacks[0][0]].figures.height()
+        for plot in self.plots.values():
+            plot.share_height(trace - title)
+
+    def _arrange(self, *, strip: bool) -> None:
+        if strip is self._in_strip:
+            return
+        self._in_strip = strip
+        number = 0
+        for place, axes in enumerate(stages(self.workbench.robot).values()):
+            for row, name in enumerate(axes):
+                self._grid.addWidget(self.plots[name], *((0, number) if strip else (row, place)))
+                self.plots[name].stand_in_strip(strip=strip)
+                number += 1
+        for column in range(number):  # those of the other arrangement take no room
+            used = strip or column < len(stages(self.workbench.robot))
+            self._grid.setColumnStretch(column, 1 if used else 0)
+        self._head.setVisible(not strip)
 
     def refresh(self) -> None:
         """Draw the newest samples, unless paused or out of sight; recording goes on."""
@@ -127,7 +182,7 @@ class PlotsPanel(Panel):
             self.age.setText(text.format(n=max(1, round(age_s))))
         self.age.setVisible(stale)
         for plot in self.plots.values():
-            plot.plot.set_stale(stale)
+            plot.set_stale(stale)
 
     def _draw_next(self) -> None:
         if self._waiting and self._picture is not None:
@@ -197,7 +252,7 @@ class PlotsPanel(Panel):
         )
         for box in (self.shown, self.span):
             box.setSizeAdjustPolicy(box.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.shown.setMinimumContentsLength(11)
+        self.shown.setMinimumContentsLength(9)
         self.span.setMinimumContentsLength(4)
         self.span.setCurrentIndex(SPANS_S.index(10))
         self.beside = _choice(
@@ -206,14 +261,14 @@ class PlotsPanel(Panel):
                 (_ALONE, translate("plots", "No other run")),
                 (_KEPT, translate("plots", "Keep this run")),
                 (_IN_HAND, translate("plots", "Run in hand")),
+                (_RECORD, translate("plots", "Record …")),
             ),
         )
         self.beside.setToolTip(
             plain_tip(
-                translate(
-                    "plots", "Keep this run: what is shown now stays, in green, beside what comes."
-                ),
+                translate("plots", "Keep this run: what is shown now stays beside what comes."),
                 translate("plots", "Run in hand: the record that was opened or played last."),
+                translate("plots", "Record …: one of the library."),
             )
         )
         self.shown.currentIndexChanged.connect(lambda _: self._change_view())
@@ -228,7 +283,7 @@ class PlotsPanel(Panel):
         self.pause = QPushButton(translate("plots", "Pause"))
         self.pause.setCheckable(True)
         self.pause.setToolTip(
-            translate("plots", "Hold the picture still; motion, recording and replay go on")
+            translate("plots", "Freeze the plots; motion, recording and replay go on")
         )
         self.pause.toggled.connect(self._hold)
         self.more = QPushButton(translate("plots", "More"))
@@ -236,9 +291,7 @@ class PlotsPanel(Panel):
         self.more.setToolTip(
             translate("plots", "Further views, alignment, and files of what is shown")
         )
-        self._legend = QLabel()
-        self._legend.setTextFormat(Qt.TextFormat.RichText)
-        self._legend.setMinimumWidth(1)  # it is cut before the window is made wider
+        self._legend = Legend(self.workbench.theme)
         self.age = QLabel()
         self.age.setProperty("tone", "warning")
         self.age.hide()
@@ -292,24 +345,28 @@ class PlotsPanel(Panel):
         self._drawn_s = self._clock()
         span_s = float(self.span.currentData())
         run = self.workbench.run
+        self._look_at_gaps(window, span_s)
         self._picture = Picture(
             window,
             span_s,
             self._shown(),
             self.other,
             self._shift_s,
-            self._live_gaps(),
+            self._gaps,
             run.gaps if run is not None else {},
+            self._course,
         )
         return self._picture
 
-    def _live_gaps(self) -> Mapping[str, GapFigure | None]:
-        """Return the gaps of the last 10 s, worked out no oftener than they can be read."""
-        now_s = self._clock()
-        if self._held is None and now_s - self._told_s >= FIGURES_S:
-            self._told_s = now_s
+    def _look_at_gaps(self, window: LiveWindow, span_s: float) -> None:
+        """Work out the gaps of the last 10 s and their course, no oftener than they can be read."""
+        now_s, live = self._clock(), self._held is None
+        if live and now_s - self._told_s < FIGURES_S:
+            return
+        self._told_s = now_s
+        self._course = GapHistory.of(window, span_s)
+        if live:
             self._gaps = gaps_of(self.workbench.source.history.tail(LIVE_S))
-        return self._gaps
 
     def _draw(self, window: LiveWindow) -> None:
         picture = self._take(window)
@@ -357,6 +414,8 @@ class PlotsPanel(Panel):
             self._take_run(self.workbench.run)
             return
         self.other = None
+        if chosen == _RECORD:
+            ask_run(self, self._use_other)
         if chosen == _KEPT:
             window = self._stretch()
             self.workbench.ask(lambda: self._keep(window))
@@ -368,6 +427,13 @@ class PlotsPanel(Panel):
             OtherRun.of_window(translate("plots", "The kept run"), window),
             0.0,
         )
+
+    def _use_other(self, other: OtherRun) -> None:
+        """Draw a record of the library beside the present run."""
+        self.other = other
+        self.beside.setCurrentIndex(self.beside.findData(_RECORD))
+        self.align()
+        self._name_other()
 
     def _take_run(self, run: Run | None) -> None:
         """Put the run in hand beside the present one, where that is chosen."""
@@ -419,21 +485,21 @@ class PlotsPanel(Panel):
         shown = self._shown()
         if shown is Shown.SPECTRUM:
             a, b = 10.0**a, 10.0**b
-        self._legend.setText(across_text(shown, a, b))
+        self._legend.show_text(across_text(shown, a, b))
         for plot in self.plots.values():
             plot.read_cursors()
 
     def _use_theme(self, theme: Theme) -> None:
-        own = ((translate("plots", name), role) for name, role in LEGEND)
+        entries = [Entry(translate("plots", name), line) for name, line in LEGEND]
         if self.workbench.session.model.corrected:
-            own = (*own, (translate("plots", "nominal (dotted)"), "model"))
-        other = () if self.other is None else ((self.other.name, "good"),)
-        self._legend.setText(
-            "&nbsp;&nbsp;".join(
-                f'<span style="color:{getattr(theme, role)}">▬</span> {escape(name)}'
-                for name, role in (*own, *other)
-            )
-        )
+            entries.append(Entry(translate("plots", "nominal"), LINES["nominal"]))
+        if self.other is not None:
+            entries.append(Entry(self.other.name, LINES["other"]))
+        if self._shown() in (Shown.POSITION, Shown.GAP):
+            short = rounded(SHORT_S, 2)
+            for name, line in STRIP_LEGEND:
+                entries.append(Entry(translate("plots", name).format(n=short), line))
+        self._legend.show_entries(entries, theme)
         for plot in self.plots.values():
             plot.use_theme(theme)
 

@@ -1,15 +1,8 @@
-"""The recorder: record a session, recover what a crash left, show recordings again."""
+"""The recorder: record a session, recover what a crash left, look through the library."""
 
-from pathlib import Path
-
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
-    QFrame,
     QHBoxLayout,
-    QScrollArea,
-    QStackedWidget,
-    QTabBar,
     QVBoxLayout,
 )
 
@@ -17,14 +10,15 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.scroll import scrolled, tabbed
 from rotemina.plugins.recorder.events import EventsView
-from rotemina.plugins.recorder.listing import Found, Listed, look
+from rotemina.plugins.recorder.listing import Unfinished, look
 from rotemina.plugins.recorder.recording import RecordingSection
-from rotemina.plugins.recorder.recordings import RecordingsView
+from rotemina.plugins.recorder.records_view import RecordsView
 from rotemina.plugins.recorder.unfinished import UnfinishedBox
 from rotemina.plugins.recorder.words import listed
 
-_WIDTH = 272  # of the recording's own part, px
+_WIDTH = 240  # of the recording's own part, px
 _CLOSING_S = 2.0  # that closing waits for a look into a folder that hangs
 
 
@@ -40,24 +34,18 @@ class RecorderPanel(Panel):
         super().__init__(workbench)
         # Looks that nobody waits for, so that they keep no dry run waiting.
         self._background = Background(self)
-        self._known: dict[Path, Listed] = {}
         self._told = False
         self.recording = RecordingSection(workbench, self._background)
         self.unfinished = UnfinishedBox(workbench)
-        self.recordings = RecordingsView(workbench, self.unfinished)
+        self.recordings = RecordsView(workbench, self.unfinished)
         self.events = EventsView(workbench)
-        self.views = QStackedWidget()
-        self.tabs = QTabBar()
-        self.tabs.setAccessibleName(translate("recorder", "What is shown"))
-        self.tabs.setExpanding(False)
-        self.tabs.setDrawBase(False)
-        for view, name in (
-            (self.recordings, translate("recorder", "Recordings")),
-            (self.events, translate("recorder", "Events")),
-        ):
-            self.views.addWidget(view)
-            self.tabs.addTab(name)
-        self.tabs.currentChanged.connect(self.views.setCurrentIndex)
+        self.tabs, self.views = tabbed(
+            translate("recorder", "What is shown"),
+            {
+                translate("recorder", "Records"): self.recordings,
+                translate("recorder", "Events"): self.events,
+            },
+        )
         self._lay_out()
         self.recording.changed.connect(self.look)
         self.unfinished.recovered.connect(self.look)
@@ -68,14 +56,14 @@ class RecorderPanel(Panel):
         self.look()
 
     def look(self) -> None:
-        """Look into the folder of recordings, in the background."""
+        """Look what the library has now, and what a crash has left, in the background."""
+        self.workbench.library.refresh()
         if self.recording.busy:  # it looks as if another program did that; soon it is known
             return
         folder, own = self.workbench.operation.recordings, self.recording.own
-        known = dict(self._known)
         self._background.run(
             "look",
-            lambda: look(folder, own, known),
+            lambda: look(folder, own),
             self._take,
             lambda message: self.workbench.notify(Level.ERROR, message, about=self),
         )
@@ -85,17 +73,15 @@ class RecorderPanel(Panel):
         super().showEvent(event)
         self.look()
 
-    def _take(self, found: Found) -> None:
+    def _take(self, found: tuple[Unfinished, ...]) -> None:
         if not self._told:
             self._told = True
             self._tell(found)
-        self._known = {one.path: one for one in found.recordings}
-        self.recordings.show_recordings(found.recordings)
-        self.unfinished.show_unfinished(found.unfinished)
+        self.unfinished.show_unfinished(found)
 
-    def _tell(self, found: Found) -> None:
+    def _tell(self, found: tuple[Unfinished, ...]) -> None:
         """Say once what a crash has left: this panel may stand behind another."""
-        names = [one.path.name for one in found.unfinished if not one.busy]
+        names = [one.path.name for one in found if not one.busy]
         if names:
             self.workbench.notify(
                 Level.WARNING,
@@ -111,23 +97,17 @@ class RecorderPanel(Panel):
         self.tabs.setCurrentIndex(1 if shown else 0)
 
     def _lay_out(self) -> None:
-        scroll = QScrollArea()
-        scroll.setObjectName("panelScroll")
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(self.recording)
+        scroll = scrolled(self.recording)
         scroll.setFixedWidth(_WIDTH)
         head = QHBoxLayout()
         head.addWidget(self.tabs)
-        head.addStretch(1)
-        head.addWidget(self.recordings.other)
-        head.addWidget(self.recordings.again)
+        head.addWidget(self.recordings.filter, 1)
         right = QVBoxLayout()
         right.setSpacing(4)
         right.addLayout(head)
         right.addWidget(self.views, 1)
         row = QHBoxLayout(self)
-        row.setContentsMargins(10, 6, 10, 6)
+        row.setContentsMargins(6, 6, 6, 6)
+        row.setSpacing(4)  # beside the control dock it just fits 1280 px, in German too
         row.addWidget(scroll)
         row.addLayout(right, 1)

@@ -18,15 +18,48 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import duration_text, size_text
 from rotemina.app.motion.recording.merging import UNFINISHED
 from rotemina.app.shell.background import Background
-from rotemina.app.shell.controls import ElidedLabel, allow
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.record_library import free_bytes
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.plugins.recorder.listing import free_bytes
-from rotemina.plugins.recorder.words import room_text, scarce
+from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.plugins.recorder.label_fields import LabelFields
 
 AT_START = "recorder.at_start"
 _LOOK_S = 5.0  # between looks at how much room there is
 _SCREEN = "window."  # preferences of the screen tell nothing about a session
+
+
+# Ending a recording takes as much room again as it has used.
+_SPARE_BYTES = 500_000_000
+_STEADY_S = 5.0  # of a recording, from which on its rate says something
+
+
+def room_text(free: int | None, written: int, since_s: float) -> str:
+    """Return how much room is left, and for how long it lasts."""
+    if free is None:
+        return translate("recorder", "unknown")
+    if since_s < _STEADY_S or written <= 0:
+        return size_text(free)
+    lasts_s = max(free - written, 0) / (2.0 * written / since_s)
+    hours = lasts_s / 3600.0
+    left = (
+        translate("recorder", "{n:.0f} days").format(n=hours / 24.0)
+        if hours > 72.0
+        else translate("recorder", "{hours:.1f} h").format(hours=hours)
+    )
+    return translate("recorder", "{size}, for {left}").format(size=size_text(free), left=left)
+
+
+def scarce(free: int | None, written: int) -> str | None:
+    """Return what is to be done about too little room; None where there is enough."""
+    if free is None or free > written + _SPARE_BYTES:
+        return None
+    return translate(
+        "recorder",
+        "Only {free} are free, and ending the recording takes "
+        "{size}: make room. Motion goes on in any case.",
+    ).format(free=size_text(free), size=size_text(written))
 
 
 class RecordingSection(QWidget):
@@ -65,6 +98,7 @@ class RecordingSection(QWidget):
         self.complaint.setTextFormat(Qt.TextFormat.PlainText)
         self.complaint.setProperty("bad", True)
         self.complaint.hide()
+        self.labels = LabelFields(self._workbench)
         self.note = QLineEdit()
         self.note.setPlaceholderText(translate("recorder", "remark"))
         self.note.setAccessibleName(translate("recorder", "Remark for the recording"))
@@ -117,9 +151,10 @@ class RecordingSection(QWidget):
         column.setContentsMargins(0, 0, 8, 0)
         column.setSpacing(5)
         column.addLayout(top)
-        column.addLayout(figures)
         column.addWidget(self.complaint)
         column.addLayout(remark)
+        column.addWidget(self.labels)
+        column.addLayout(figures)
         column.addWidget(self.at_start)
         column.addWidget(self.folder)
         column.addStretch(1)
@@ -188,7 +223,7 @@ class RecordingSection(QWidget):
         allow(
             self.keep,
             why_not,
-            translate("recorder", "Put the remark into the recording, at this time"),
+            translate("recorder", "Add the remark to the recording at this time"),
         )
         if recorder is None:
             self._show("–", "–", "–", room_text(self._free, 0, 0.0), None)

@@ -1,71 +1,18 @@
-"""The words and numbers of the recorder panel."""
+"""The words of the recorder panel, and the span that somebody types."""
 
 from collections.abc import Sequence
 
-from rotemina.app.display import PLAIN_NUMBER, duration_text, size_text
+from rotemina.app.display import size_text
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.recorder.listing import Listed, Unfinished
+from rotemina.plugins.recorder.listing import Unfinished
 from rotemina.sim.errors import InputError
+from rotemina.sim.quantities import parsed
 
 BEGIN, END = marked("recorder", "begin"), marked("recorder", "end")
-COLUMNS = (
-    marked("recorder", "Recorded"),
-    marked("recorder", "Length"),
-    marked("recorder", "Size"),
-    marked("recorder", "Events"),
-    marked("recorder", "Robot"),
-    marked("recorder", "File"),
-)
-# Ending a recording takes as much room again as it has used.
-_SPARE_BYTES = 500_000_000
-_STEADY_S = 5.0  # of a recording, from which on its rate says something
 
 
 class SpanError(InputError):
     """A stretch of a recording that is none."""
-
-
-def cells(one: Listed) -> tuple[str, ...]:
-    """Return one text for each of :data:`COLUMNS`."""
-    if one.problem:
-        return (
-            translate("recorder", "cannot be opened"),
-            "–",
-            size_text(one.size),
-            "–",
-            "–",
-            one.path.name,
-        )
-    began = "–" if one.began is None else f"{one.began:%Y-%m-%d %H:%M:%S}"
-    length = duration_text(one.duration_s, 1)
-    return began, length, size_text(one.size), str(one.events), one.robot, one.path.name
-
-
-def room_text(free: int | None, written: int, since_s: float) -> str:
-    """Return how much room is left, and for how long it lasts."""
-    if free is None:
-        return translate("recorder", "unknown")
-    if since_s < _STEADY_S or written <= 0:
-        return size_text(free)
-    lasts_s = max(free - written, 0) / (2.0 * written / since_s)
-    hours = lasts_s / 3600.0
-    left = (
-        translate("recorder", "{n:.0f} days").format(n=hours / 24.0)
-        if hours > 72.0
-        else translate("recorder", "{hours:.1f} h").format(hours=hours)
-    )
-    return translate("recorder", "{size}, for {left}").format(size=size_text(free), left=left)
-
-
-def scarce(free: int | None, written: int) -> str | None:
-    """Return what is to be done about too little room; None where there is enough."""
-    if free is None or free > written + _SPARE_BYTES:
-        return None
-    return translate(
-        "recorder",
-        "Only {free} are free, and ending the recording takes "
-        "{size}: make room. Motion goes on in any case.",
-    ).format(free=size_text(free), size=size_text(written))
 
 
 def unfinished_text(unfinished: Sequence[Unfinished]) -> str:
@@ -129,7 +76,8 @@ def _seconds(text: str, otherwise: float, what: str) -> float:
     text = text.strip()
     if not text:
         return otherwise
-    if PLAIN_NUMBER.fullmatch(text) is None or not 0.0 <= float(text) < float("inf"):
+    number = parsed(text)
+    if number is None or not 0.0 <= number < float("inf"):
         raise SpanError(
             translate(
                 "recorder",
@@ -137,4 +85,4 @@ def _seconds(text: str, otherwise: float, what: str) -> float:
                 "0 or more, with a decimal point, or nothing",
             ).format(text=text, what=translate("recorder", what))
         )
-    return float(text)
+    return number

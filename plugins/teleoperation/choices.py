@@ -8,12 +8,15 @@ from PySide6.QtWidgets import QButtonGroup, QGridLayout, QHBoxLayout, QLabel, QP
 from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
 from rotemina.app.motion.teleoperation.views import TeleoperationState
-from rotemina.app.shell.controls import plain_tip
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import heading, plain_text
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.teleoperation import wording
-from rotemina.plugins.teleoperation.section import Section, SteadyChoice, plain_text
 from rotemina.plugins.teleoperation.wording import Choice
+from rotemina.sim.quantities import rounded
 
 T = TypeVar("T")
 
@@ -63,23 +66,18 @@ class ChoiceSection(Section):
             3,
             lambda kind: workbench.ask(lambda: steered.use_law(kind)),
         )
-        self.preset = SteadyChoice()
-        for factor in STEP_PRESETS:
-            self.preset.addItem(f"× {factor:g}", factor)
-        self.preset.setAccessibleName(translate("teleoperation", "Step preset"))
-        self.preset.setToolTip(
-            plain_tip(
-                translate("teleoperation", "Factor on way, speed and force of every coordinate")
-            )
+        self.preset = SteadyChoice(
+            translate("teleoperation", "Step preset"),
+            translate("teleoperation", "Factor on way, speed and force of every coordinate"),
         )
+        for factor in STEP_PRESETS:
+            self.preset.addItem(f"× {rounded(factor, 6)}", factor)
         self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
         self.factor = plain_text()
         self.factor.setAccessibleName(translate("teleoperation", "Factor that acts now"))
         self.clutch = plain_text(lines=2)
         self.column.addWidget(self.modes)
-        heading = QLabel(translate("teleoperation", "Scaling"))
-        heading.setProperty("heading", True)
-        self.column.addWidget(heading)
+        self.column.addWidget(heading(translate("teleoperation", "Scaling")))
         self.column.addWidget(self.laws)
         row = QHBoxLayout()
         row.setSpacing(8)
@@ -94,6 +92,6 @@ class ChoiceSection(Section):
         self.modes.show_choice(state.mode)
         self.laws.show_choice(state.law)
         if not self.preset.view().isVisible():  # somebody is choosing
-            self.preset.setCurrentIndex(self.preset.findData(state.preset))
+            self.preset.select(state.preset)
         self.factor.setText(wording.factor_text(state.factor, intent.held))
         self.clutch.setText(wording.clutch_text(state.law, intent.held))

@@ -1,7 +1,8 @@
 """The coordinates of the present mode: stick, reference, and what full deflection means."""
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QGridLayout, QLabel
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QSizePolicy, QWidget
 
 from rotemina.app.display import Scale
 from rotemina.app.motion.teleoperation.impedance import Impedance
@@ -9,14 +10,52 @@ from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import set_property
+from rotemina.app.widgets.labels import keep_lines, plain_text
+from rotemina.app.widgets.section import Section
 from rotemina.plugins.teleoperation import wording
-from rotemina.plugins.teleoperation.bar import CentreBar
-from rotemina.plugins.teleoperation.section import (
-    Section,
-    keep_lines,
-    plain_text,
-    set_property,
-)
+
+
+class CentreBar(QWidget):
+    """A value of −1 to 1, drawn from the middle; none is drawn as a dashed line.
+
+    Parameters
+    ----------
+    workbench : Workbench
+        For its colours.
+    colour : str
+        The theme's role of the filled part.
+    """
+
+    def __init__(self, workbench: Workbench, colour: str = "accent") -> None:
+        super().__init__()
+        self.value: float | None = None
+        self._stale = False
+        self._workbench, self._colour = workbench, colour
+        self.setFixedHeight(10)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def show_value(self, value: float | None, *, stale: bool = False) -> None:
+        """Draw another value."""
+        if (value, stale) != (self.value, self._stale):
+            self.value, self._stale = value, stale
+            self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw the line, the value, and the middle."""
+        theme = self._workbench.theme
+        painter = QPainter(self)
+        width, middle = self.width(), self.height() / 2
+        if self.value is None:
+            painter.setPen(QPen(QColor(theme.quiet), 1, Qt.PenStyle.DashLine))
+            painter.drawLine(0, round(middle), width, round(middle))
+        else:
+            painter.fillRect(QRectF(0, middle - 2, width, 4), theme.line)
+            share = 0.5 * width * min(max(self.value, -1.0), 1.0)
+            filled = QRectF(0.5 * width, middle - 3, share, 6).normalized()
+            painter.fillRect(filled, theme.quiet if self._stale else getattr(theme, self._colour))
+        painter.fillRect(QRectF(0.5 * width - 1, 0, 2, self.height()), theme.text)
+        painter.end()
 
 
 class CoordinateRow(QFrame):
@@ -39,9 +78,7 @@ class CoordinateRow(QFrame):
             )
         )
         self.position.setToolTip(
-            translate(
-                "teleoperation", "Where the stick has led the reference, which the axes follow"
-            )
+            translate("teleoperation", "Reference that the stick commands and the axes follow")
         )
         self.bar = CentreBar(workbench)
         self.bar.setAccessibleName(
@@ -49,7 +86,7 @@ class CoordinateRow(QFrame):
         )
         self.bar.setToolTip(
             translate(
-                "teleoperation", "Deflection of the stick, −100 % to 100 %; dashed: none is trusted"
+                "teleoperation", "Deflection of the stick, −100 % to 100 %; dashed: none is active"
             )
         )
         self.law = plain_text(lines=1)

@@ -1,15 +1,19 @@
 """The scales of the present mode: how far, fast and heavily full deflection moves a coordinate."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QLineEdit
+from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.scales import Scale
 from rotemina.app.motion.teleoperation.views import TeleoperationState
-from rotemina.app.shell.controls import allow, plain_tip
+from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.teleoperation import wording
 from rotemina.plugins.teleoperation.scale_fields import (
     FIELDS,
@@ -19,7 +23,6 @@ from rotemina.plugins.teleoperation.scale_fields import (
     texts,
     without,
 )
-from rotemina.plugins.teleoperation.section import Section, SteadyChoice, button, plain_text
 from rotemina.sim.errors import InputError
 
 
@@ -33,16 +36,13 @@ class ScaleEditor(Section):
         self._mode = ""
         self._coordinates: dict[str, Coordinate] = {}
         self._shown: tuple[str, str, Scale] | None = None
-        self.choice = SteadyChoice()
-        self.choice.setAccessibleName(translate("teleoperation", "Coordinate whose scale is shown"))
-        self.choice.setToolTip(translate("teleoperation", "Coordinate whose scale is shown below"))
+        self.choice = SteadyChoice(
+            translate("teleoperation", "Coordinate whose scale is shown"),
+            translate("teleoperation", "Coordinate whose scale is shown below"),
+        )
         self.choice.currentIndexChanged.connect(lambda _: self._show())
-        self.presets = button(translate("teleoperation", "Presets"), "", self._use_presets)
-        row = QHBoxLayout()
-        row.setSpacing(6)
-        row.addWidget(self.choice, 1)
-        row.addWidget(self.presets)
-        self.column.addLayout(row)
+        self.presets = button(translate("teleoperation", "Presets"), self._use_presets)
+        self.add_row(self.choice, self.presets, equal=False)
         self.fields: dict[str, QLineEdit] = {}
         self._units: dict[str, QLabel] = {}
         grid = QGridLayout()
@@ -78,7 +78,7 @@ class ScaleEditor(Section):
         allow(
             self.presets,
             why,
-            translate("teleoperation", "Put all scales of this mode back to their presets"),
+            translate("teleoperation", "Reset all scales of this mode to their presets"),
         )
         self._show()
 
@@ -133,7 +133,7 @@ class ScaleEditor(Section):
         try:
             made = changed(scale, name, edit.text(), coordinate)
         except InputError as error:
-            self._workbench.notify(Level.WARNING, str(error), about=error)
+            self._workbench.notify(Level.WARNING, error_text(error), about=error)
             made = scale
         taken = made is scale or self._workbench.ask(
             lambda: self._workbench.operation.use_scales(scales.with_scale(mode, of, made))

@@ -5,12 +5,13 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy
 
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.views import TeleoperationState
-from rotemina.app.shell.controls import ElidedLabel, plain_tip
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.section import Section
 from rotemina.plugins.teleoperation import wording
-from rotemina.plugins.teleoperation.engine_words import spoken
-from rotemina.plugins.teleoperation.section import Section, plain_text, set_property
 
 
 class HeadSection(Section):
@@ -27,10 +28,8 @@ class HeadSection(Section):
         self.device.setProperty("heading", True)
         self.device.setAccessibleName(translate("teleoperation", "Device that drives"))
         self.trust.setProperty("quiet", True)
-        self.trust.setAccessibleName(translate("teleoperation", "Whether it is trusted"))
-        self.refused.setAccessibleName(
-            translate("teleoperation", "What was refused or slowed last")
-        )
+        self.trust.setAccessibleName(translate("teleoperation", "Whether the stick is active"))
+        self.refused.setAccessibleName(translate("teleoperation", "Latest refusal or slowdown"))
         self.reason = plain_text(lines=2)
         self.reason.setAccessibleName(translate("teleoperation", "Why nothing moves"))
         row = QHBoxLayout()

@@ -15,9 +15,10 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.shell.controls import plain_tip
+from rotemina.app.motion.teleoperation.calibration import DEAD_ZONE
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import plain_tip
 from rotemina.plugins.teleoperation.virtual_stick import Key, VirtualStick
 
 RENEW_MS = 100  # well within the lease of the pad
@@ -38,11 +39,10 @@ _FOREIGN_KEYS = (Qt.Key.Key_Alt, Qt.Key.Key_AltGr, Qt.Key.Key_Meta)
 _LEFT = (QEvent.Type.WindowDeactivate, QEvent.Type.WindowBlocked, QEvent.Type.UngrabMouse)
 _SIDE, _SLIDER, _GAP, _KNOB = 124, 44, 8, 9
 _CAPTION = 18
-_REST = 0.06  # about the middle, where the pointer moves nothing
 _TIP = (
     marked(
         "teleoperation",
-        "Press and drag: the cross moves x and y, the slider z; both spring back when let go of.",
+        "Press and drag: the cross moves x and y, the slider z; both spring back when released.",
     ),
     marked(
         "teleoperation",
@@ -161,7 +161,9 @@ class PadArea(QWidget):
         ways = {"x": (place.x() - half - 2) / half, "y": (half + 2 - place.y()) / half}
         if not self._in_cross:
             ways = {"z": ways["y"]}
-        self._stick.drag(**{axis: 0.0 if abs(way) < _REST else way for axis, way in ways.items()})
+        self._stick.drag(
+            **{axis: 0.0 if abs(way) < DEAD_ZONE else way for axis, way in ways.items()}
+        )
         self._follow()
 
     # --- letting go -------------------------------------------------------------------------------

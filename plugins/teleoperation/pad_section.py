@@ -5,12 +5,14 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout
 from rotemina.app.display import label
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.views import TeleoperationState
-from rotemina.app.shell.controls import allow, plain_tip
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.teleoperation import wording
 from rotemina.plugins.teleoperation.pad_area import PadArea
-from rotemina.plugins.teleoperation.section import Section, SteadyChoice, button, plain_text
 from rotemina.plugins.teleoperation.virtual_stick import SHARES, VirtualStick
 
 _KEYS = marked("teleoperation", "arrows  x y\npage ↑ ↓  z\nshift  × 10\nctrl  × 0.1\nspace  clutch")
@@ -23,20 +25,17 @@ class PadSection(Section):
         super().__init__(translate("teleoperation", "Pad"))
         self._stick = VirtualStick(workbench.operation.pad)
         self.area = PadArea(workbench, self._stick)
-        self.most = SteadyChoice()
+        self.most = SteadyChoice(
+            translate("teleoperation", "Deflection of the pad in percent"),
+            translate("teleoperation", "Deflection at the ends of the pad, and of its keys"),
+        )
         for share in SHARES:
             self.most.addItem(
                 translate("teleoperation", "stick {percent:g} %").format(percent=100 * share), share
             )
         self.most.setCurrentIndex(len(SHARES) - 1)
-        self.most.setAccessibleName(translate("teleoperation", "Deflection of the pad in percent"))
-        self.most.setToolTip(
-            plain_tip(
-                translate("teleoperation", "Deflection at the ends of the pad, and of its keys")
-            )
-        )
         self.most.currentIndexChanged.connect(self._use_most)
-        self.take_over = button(translate("teleoperation", "Take over"), "", lambda: None)
+        self.take_over = button(translate("teleoperation", "Take over"), lambda: None)
         self.take_over.pressed.connect(lambda: self._stick.take_over(True))
         self.take_over.released.connect(lambda: self._stick.take_over(False))
         kept = self.take_over.sizePolicy()

@@ -1,12 +1,12 @@
 """Steering by hand: who drives, how, and a pad for those without a joystick."""
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.scroll import least_width, scrolled
 from rotemina.plugins.teleoperation.choices import ChoiceSection
 from rotemina.plugins.teleoperation.coordinates import CoordinateSection
 from rotemina.plugins.teleoperation.editor import ScaleEditor
@@ -46,12 +46,7 @@ class TeleoperationPanel(Panel):
         ):
             column.addWidget(section)
         column.addStretch(1)
-        scroll = QScrollArea()
-        scroll.setObjectName("panelScroll")
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(content)
+        scroll = scrolled(content)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.setSpacing(0)
@@ -60,8 +55,7 @@ class TeleoperationPanel(Panel):
         head.addWidget(self.head)
         outer.addLayout(head)
         outer.addWidget(scroll, 1)
-        bar = scroll.verticalScrollBar().sizeHint().width()
-        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 300))
+        self.setMinimumWidth(max(least_width(scroll), 300))
         self.follow(self._refresh)
 
     def _refresh(self, machine: SessionState) -> None:

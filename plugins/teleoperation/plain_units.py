@@ -2,7 +2,7 @@
 
 from rotemina.app.motion.teleoperation.virtual_impedance import FeltDynamics
 from rotemina.app.shell.language import translate
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.quantities import exact, rounded
 
 _MM = 1e-3
 
@@ -13,13 +13,13 @@ def position_text(scale: float, unit: str, what: str, stick_travel_m: float) -> 
     ``scale`` is what full deflection moves, in ``unit`` (m or rad); ``stick_travel_m`` is the way
     of the stick's tip from the middle to full deflection.
     """
-    way = readable(scale * _MM / stick_travel_m, unit)
+    way = exact(scale * _MM / stick_travel_m, unit)
     return translate("teleoperation", "1 mm of stick = {way} of {what}").format(way=way, what=what)
 
 
 def way_text(scale: float, unit: str) -> str:
     """Return ``"full stick = 2 µm"``, for a way (m or rad) or a speed at full deflection."""
-    return translate("teleoperation", "full stick = {way}").format(way=readable(scale, unit))
+    return translate("teleoperation", "full stick = {way}").format(way=exact(scale, unit))
 
 
 def rate_text(scale: float, unit: str) -> str:
@@ -29,10 +29,10 @@ def rate_text(scale: float, unit: str) -> str:
 
 def felt_text(felt: FeltDynamics, unit: str, factor: float = 1.0) -> str:
     """Return where full deflection leads, and how soon; ``factor`` is the law's scale."""
-    after_s = f"{felt.time_constant_s:.3g} s"
+    after_s = f"{rounded(felt.time_constant_s, 3)} s"
     if felt.terminal_speed is not None:
         glide = translate("teleoperation", "full stick ends at {speed}, time constant {after}")
-        speed = readable(factor * felt.terminal_speed, f"{unit}/s")
+        speed = exact(factor * felt.terminal_speed, f"{unit}/s")
         return glide.format(speed=speed, after=after_s)
     swing = translate(
         "teleoperation",
@@ -40,7 +40,7 @@ def felt_text(felt: FeltDynamics, unit: str, factor: float = 1.0) -> str:
         "{after}",
     )
     return swing.format(
-        travel=readable(factor * (felt.travel or 0.0), unit),
+        travel=exact(factor * (felt.travel or 0.0), unit),
         hz=felt.natural_frequency_hz,
         damping=felt.damping_ratio,
         after=after_s,

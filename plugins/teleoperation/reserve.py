@@ -6,12 +6,13 @@ from rotemina.app.display import label
 from rotemina.app.motion.operation import has_tip
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.views import TeleoperationState
-from rotemina.app.shell.controls import allow, fill
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button, fill
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.section import Section
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.teleoperation import wording
-from rotemina.plugins.teleoperation.section import Section, button, plain_text
 from rotemina.sim.kinematics.chain import JOINTS, NANO
 
 
@@ -56,12 +57,10 @@ class ReserveSection(Section):
         self.column.addLayout(grid)
         self.one = button(
             translate("teleoperation", "Re-centre {axis}").format(axis=label(nano[-1])),
-            "",
             lambda: workbench.ask(operation.recentre),
         )
         self.all = button(
             translate("teleoperation", "Re-centre all"),
-            "",
             lambda: workbench.ask(lambda: operation.recentre(nano)),
         )
         buttons = QHBoxLayout()
@@ -96,5 +95,5 @@ def against_recentring(machine: SessionState) -> str | None:
     if machine.locked is not None:
         return machine.locked
     if machine.activity is not DeviceState.IDLE or machine.queued:
-        return translate("teleoperation", "the machine is still moving; let go of the stick first")
+        return translate("teleoperation", "the machine is still moving; release the stick first")
     return None

@@ -7,12 +7,11 @@ from typing import NamedTuple
 
 from pydantic import TypeAdapter, ValidationError
 
-from rotemina.app.display import PLAIN_NUMBER
 from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scales import LawKind, Scale, Scales
 from rotemina.app.shell.language import marked, translate
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.quantities import exact, parsed, rounded
 from rotemina.sim.units import per_si, symbol
 
 _TABLE_M = 1e-4  # what has a longer way reads better in mm
@@ -104,7 +103,7 @@ class Shown(NamedTuple):
 
     def number(self, value: float) -> str:
         """Return a value (SI) as digits."""
-        return f"{value * self.factor:.6g}"
+        return rounded(value * self.factor, 6)
 
     def text(self, value: float) -> str:
         """Return a value (SI) with its unit."""
@@ -159,7 +158,8 @@ def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale
         title=field.shown_title, name=coordinate.name
     )
     text = text.strip()
-    if PLAIN_NUMBER.fullmatch(text) is None:
+    number = parsed(text)
+    if number is None:
         unit_text = f" in {unit.unit}" if unit.unit else ""
         raise ScalingError(
             translate(
@@ -167,7 +167,7 @@ def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale
                 "{title}: {text!r} is no number; type one{unit} with a decimal point",
             ).format(title=title, text=text, unit=unit_text)
         )
-    value = float(text) / unit.factor
+    value = number / unit.factor
     if unit.number(value) == unit.number(getattr(scale, name)):
         return scale  # what is shown has fewer digits than what is meant
     typed = f"{title}: {text} {unit.unit}".rstrip()
@@ -201,14 +201,14 @@ def _check_reach(typed: str, name: str, value: float, coordinate: Coordinate) ->
     """Refuse what is more than the coordinate has."""
     bounds, unit = coordinate.bounds, coordinate.unit
     if name == "way" and value > bounds.high - bounds.low:
-        most = readable(bounds.high - bounds.low, unit)
+        most = exact(bounds.high - bounds.low, unit)
         raise ScalingError(
             translate("teleoperation", "{typed}: must be at most {most}, its range").format(
                 typed=typed, most=most
             )
         )
     if name == "speed" and value > bounds.max_speed:
-        most = readable(bounds.max_speed, f"{unit}/s")
+        most = exact(bounds.max_speed, f"{unit}/s")
         raise ScalingError(
             translate(
                 "teleoperation", "{typed}: must be at most {most}, its greatest speed"

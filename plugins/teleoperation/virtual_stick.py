@@ -1,9 +1,8 @@
 """What a hand holds on the pad: keys and the pointer, made into deflections. Free of Qt."""
 
 from enum import StrEnum
-from math import copysign
 
-from rotemina.app.motion.teleoperation.calibration import DEAD_ZONE
+from rotemina.app.motion.teleoperation.calibration import uncalibrated
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.drivers.inputs.pad import Pad
 
@@ -124,14 +123,9 @@ class VirtualStick:
         for axis, way in self.deflections.items():
             if self._told.get(axis, 0.0) != way:
                 self._told[axis] = way
-                self._pad.deflect(axis, _raw(way))
+                self._pad.deflect(axis, uncalibrated(way))
         held = {**self._scaled, Action.CLUTCH: Key.CLUTCH in self._keys}
         for button, is_held in held.items():
             if self._told.get(button, False) != is_held:
                 self._told[button] = is_held
                 self._pad.hold(button, is_held)
-
-
-def _raw(way: float) -> float:
-    """Return what a pad has to say for a deflection: the rest about its middle counts as none."""
-    return copysign(DEAD_ZONE + (1.0 - DEAD_ZONE) * abs(way), way) if way else 0.0

@@ -4,7 +4,7 @@ from collections.abc import Collection
 from dataclasses import replace
 from typing import NamedTuple
 
-from rotemina.app.display import Scale, axis_scale, label
+from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
@@ -18,17 +18,19 @@ from rotemina.app.motion.teleoperation.plain_units import tilt_text
 from rotemina.app.motion.teleoperation.profile import OperatorRole
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.phase import Tone
 from rotemina.plugins.teleoperation import plain_units
-from rotemina.plugins.teleoperation.engine_words import spoken
+from rotemina.sim.quantities import Scale, fixed, scale_in
 from rotemina.sim.robot.model import Robot
 
 PAD_SOURCE = "keys"
+
 WAITING = marked("teleoperation", "bring the stick to the middle first")
 _LITTLE = 0.2  # of the range
 _TILT_DIGITS = 9  # of rad: what is less is rounding, and no tilt
-_TIP_SCALE = Scale("mm", 5)
+_TIP_SCALE = scale_in("mm", decimals=5)
 
 
 class Choice(NamedTuple):
@@ -76,11 +78,14 @@ _MODES = {
 _LAWS = {
     LawKind.POSITION: Choice(
         marked("teleoperation", "Position"),
-        marked("teleoperation", "The stick's place is the tip's place: let go, and it comes back."),
+        marked(
+            "teleoperation",
+            "The stick's position sets the tip's position; when released, the tip returns.",
+        ),
     ),
     LawKind.RATE: Choice(
         marked("teleoperation", "Rate"),
-        marked("teleoperation", "The stick's place is a speed: let go, and it rests."),
+        marked("teleoperation", "The stick's position sets a speed; when released, the tip rests."),
     ),
     LawKind.IMPEDANCE: Choice(
         marked("teleoperation", "Impedance"),
@@ -155,9 +160,9 @@ def trust_text(view: DevicesView) -> str:
         for why, axes in reasons.items()
     ]
     return (
-        translate("teleoperation", "Not trusted: {parts}").format(parts="; ".join(parts))
+        translate("teleoperation", "Not active: {parts}").format(parts="; ".join(parts))
         if parts
-        else translate("teleoperation", "Trusted")
+        else translate("teleoperation", "Active")
     )
 
 
@@ -181,7 +186,8 @@ def reason_text(state: TeleoperationState, *, stale: bool) -> str:
     if stale:
         return translate(
             "teleoperation",
-            "The loop of the input devices does not answer: stop, and start the program anew.",
+            "The loop of the input devices does not answer: stop the machine and restart the "
+            "program.",
         )
     if state.reason is not None:
         return translate("teleoperation", "Nothing moves: {reason}.").format(
@@ -238,7 +244,7 @@ def clutch_text(law: LawKind, held: Collection[Action]) -> str:
     if Action.CLUTCH in held:
         return translate("teleoperation", "Clutch held: the stick moves, the robot does not.")
     if law is LawKind.RATE:
-        return translate("teleoperation", "Let go of the stick, and the robot rests where it is.")
+        return translate("teleoperation", "Release the stick to let the robot rest where it is.")
     return translate(
         "teleoperation",
         "Hold the clutch (space on the pad) to bring the stick back without the robot.",
@@ -292,7 +298,7 @@ def reserve_text(state: TeleoperationState) -> str:
     """Return how much of a piezo's range is left, and what to do where that is little."""
     if state.reserve is None:
         return translate("teleoperation", "not shared in this mode") if state.coordinates else "–"
-    left = f"{100.0 * state.reserve:.0f} %"
+    left = f"{fixed(100.0 * state.reserve, 0)} %"
     if state.reserve < _LITTLE:
         left = translate("teleoperation", "{left} – re-centre").format(left=left)
     return left

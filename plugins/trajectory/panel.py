@@ -1,8 +1,11 @@
 """Trajectories: load one, see what it asks of each axis, play it."""
 
+from math import floor
+
 from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QDoubleSpinBox,
     QHBoxLayout,
     QHeaderView,
     QLabel,
@@ -10,13 +13,18 @@ from PySide6.QtWidgets import (
     QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
+    QWidget,
 )
 
 from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.workbench import Level, Plan, Workbench
+from rotemina.app.shell.plan import Plan
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import set_property
+from rotemina.plugins.trajectory.path_view import PathView
 from rotemina.plugins.trajectory.resampling import ResamplingDialog
 from rotemina.plugins.trajectory.table import (
     BOUND,
@@ -27,8 +35,11 @@ from rotemina.plugins.trajectory.table import (
     preset_bound,
     read_bound,
 )
+from rotemina.plugins.trajectory.teach_view import TeachView
 from rotemina.plugins.trajectory.transport import Transport
 from rotemina.sim.errors import InputError
+from rotemina.sim.records.record import Record
+from rotemina.sim.trajectory.parts import MOST_TIMES, part
 
 EMPTY = marked(
     "trajectory",
@@ -54,16 +65,24 @@ class TrajectoryPanel(Panel):
         self.load = QPushButton(translate("trajectory", "Load …"))
         self.load.setToolTip(
             translate(
-                "trajectory", "Take a trajectory from a text file, and try it on the model (Ctrl+T)"
+                "trajectory", "Load a trajectory from a text file and try it on the model (Ctrl+T)"
             )
         )
         self.load.clicked.connect(lambda: self.main_window.ask_trajectory())
         self.resample = QPushButton(translate("trajectory", "Resample …"))
         self.resample.setToolTip(
-            translate("trajectory", "Another rate, in Hz, for the trajectory in hand")
+            translate("trajectory", "Resample the loaded trajectory to another rate, in Hz")
         )
         self.resample.setEnabled(False)
         self.resample.clicked.connect(self._resample)
+        self.teach = QPushButton(translate("trajectory", "Teach"))
+        self.teach.setToolTip(
+            translate("trajectory", "Make a trajectory of points where the machine has been")
+        )
+        self.teach.setCheckable(True)
+        self.teach.toggled.connect(self._show_points)
+        self.points = TeachView(workbench)
+        self.points.hide()
         self.transport = Transport(workbench)
         self.name = QLabel("")
         self.name.setProperty("heading", True)
@@ -75,28 +94,56 @@ class TrajectoryPanel(Panel):
         self.gaps.setProperty("quiet", True)
         self.gaps.setTextFormat(Qt.TextFormat.PlainText)
         self.gaps.setWordWrap(True)
+        self.begin, self.times = QDoubleSpinBox(), QDoubleSpinBox()
+        self._make_parts()
         self.table = _table()
+        self.path = PathView(workbench.theme)
+        self.path.hide()
+        self._shown: Record | None = None
+        self._whole: tuple[str, Record] | None = None  # what was loaded
+        self._part: Record | None = None  # what was made of that
         self.table.itemChanged.connect(self._bound_typed)
         self._lay_out()
         workbench.plan_changed.connect(self._show_plan)
+        workbench.plan_checked.connect(self._show_verdict)
+        workbench.theme_changed.connect(self.path.set_theme)
         self.follow(self._refresh)
 
     def _lay_out(self) -> None:
         buttons = QHBoxLayout()
         buttons.addWidget(self.load)
         buttons.addWidget(self.resample)
+        buttons.addWidget(self.teach)
         buttons.addWidget(self.transport, 1)
         column = QVBoxLayout(self)
         column.setContentsMargins(10, 8, 10, 8)
         column.addLayout(buttons)
-        column.addWidget(self.name)
-        column.addWidget(self.verdict)
+        heading = QHBoxLayout()
+        heading.setSpacing(12)
+        heading.addWidget(self.name)
+        heading.addWidget(self.verdict, 1)
+        heading.addWidget(self.begin)
+        heading.addWidget(self.times)
+        column.addLayout(heading)
         column.addWidget(self.gaps)
-        column.addWidget(self.table, 1)
+        row = QHBoxLayout()
+        row.addWidget(self.table, 1)
+        row.addWidget(self.path)
+        self.tried = QWidget()
+        self.tried.setLayout(row)
+        row.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.tried, 1)
+        column.addWidget(self.points, 1)
         self.name.hide()
         self.gaps.hide()
 
+    def _show_points(self, shown: bool) -> None:
+        """Show the points that were taught, or what the dry run found."""
+        self.points.setVisible(shown)
+        self.tried.setVisible(not shown)
+
     def _show_plan(self, plan: Plan) -> None:
+        self.teach.setChecked(False)
         run = plan.dry_run
         self.name.setText(
             translate("trajectory", "{name} – {seconds:.3f} s, {rows} rows").format(
@@ -105,12 +152,30 @@ class TrajectoryPanel(Panel):
         )
         self.name.show()
         self.resample.setEnabled(True)
-        if run.allowed:
+        self._show_verdict(plan)
+        if plan.trajectory is not self._part and plan.trajectory is not self._shown:
+            self._whole = plan.name, plan.trajectory
+            self._show_part(plan.trajectory)
+        anew, self._shown = self._shown is not plan.trajectory, plan.trajectory
+        if anew:
+            self.transport.show_plan()
+            self.workbench.bounds = {name: preset_bound(one) for name, one in run.axes.items()}
+        self._fill(plan)
+
+    def _show_verdict(self, plan: Plan) -> None:
+        """Say whether it may be played, and draw where the tip would go."""
+        run = plan.dry_run
+        if plan.refusal:
+            self.verdict.setText(
+                translate("trajectory", "Not playable from here: {why}").format(
+                    why=spoken(plan.refusal)
+                )
+            )
+        elif run.allowed:
             self.verdict.setText(
                 translate(
                     "trajectory",
-                    "Dry run: inside all limits of range, speed and acceleration. "
-                    "Play first moves the axes to the first row, within the same limits.",
+                    "Dry run: inside all limits of the axes and of the tip.",
                 )
             )
         else:
@@ -121,13 +186,71 @@ class TrajectoryPanel(Panel):
             )
             self.verdict.setText(
                 translate("trajectory", "Not playable: {objection}{more}").format(
-                    objection=run.objections[0], more=more
+                    objection=spoken(run.objections[0]), more=more
                 )
             )
-        self.verdict.setProperty("bad", not run.allowed)
-        self.verdict.style().polish(self.verdict)
-        self.transport.show_plan()
-        self._fill(plan)
+        set_property(self.verdict, "bad", bool(plan.refusal) or not run.allowed)
+        self.path.show_path(plan.path)
+
+    def _make_parts(self) -> None:
+        """Offer where it begins, and how often it is played; a key alone changes nothing yet."""
+        self.begin.setDecimals(3)
+        self.begin.setPrefix(translate("trajectory", "from "))
+        self.begin.setSuffix(" s")
+        self.begin.setAccessibleName(translate("trajectory", "Begin of the playback in seconds"))
+        self._bound_begin(0.0)
+        self.times.setDecimals(0)
+        self.times.setRange(1, MOST_TIMES)
+        self.times.setSuffix(" ×")
+        self.times.setAccessibleName(translate("trajectory", "Passes"))
+        self.times.setToolTip(
+            translate(
+                "trajectory",
+                "How often it is played, 1 to {most}: it must end where it begins",
+            ).format(most=MOST_TIMES)
+        )
+        for field in (self.begin, self.times):
+            field.setKeyboardTracking(False)
+            field.setMaximumWidth(
+                field.fontMetrics().horizontalAdvance(field.prefix() + "99999 ×") + 28
+            )
+            field.valueChanged.connect(lambda _: self._take_part())
+            field.hide()
+
+    def _bound_begin(self, last_s: float) -> None:
+        self.begin.setRange(0.0, last_s)
+        self.begin.setToolTip(
+            translate(
+                "trajectory", "Where the first pass begins, 0 to {last:.7g} s: before its last row"
+            ).format(last=last_s)
+        )
+
+    def _take_part(self) -> None:
+        """Plan the part that is asked for; what cannot be is told, and all of it is back."""
+        if self._whole is None:
+            return
+        name, whole = self._whole
+        begin_s, times = self.begin.value(), round(self.times.value())
+        try:
+            self._part = part(whole, begin_s=begin_s, times=times)
+        except InputError as error:
+            self.workbench.notify(Level.WARNING, str(error), about=self)
+            self._part = whole
+            self._show_part(whole)
+        if self._part is not whole:
+            begun = translate("trajectory", "from {begin:.6g} s").format(begin=begin_s)
+            name = ", ".join([name, *([begun] * (begin_s > 0.0)), *([f"{times} ×"] * (times > 1))])
+        self.workbench.plan_trajectory(name, self._part)
+
+    def _show_part(self, whole: Record) -> None:
+        """Offer all of a trajectory, once."""
+        last_s = float(whole.time_s[max(len(whole.time_s) - 2, 0)] - whole.time_s[0])
+        with QSignalBlocker(self.begin), QSignalBlocker(self.times):
+            self._bound_begin(floor(1e3 * last_s) / 1e3)
+            self.begin.setValue(0.0)
+            self.times.setValue(1)
+        for field in (self.begin, self.times):
+            field.show()
 
     def _resample(self) -> None:
         plan = self.workbench.plan
@@ -147,8 +270,7 @@ class TrajectoryPanel(Panel):
 
     def _fill(self, plan: Plan) -> None:
         figures = plan.dry_run.axes
-        bounds = {name: preset_bound(axis) for name, axis in figures.items()}
-        self.workbench.bounds = bounds
+        bounds = self.workbench.bounds
         with QSignalBlocker(self.table):
             self.table.setRowCount(len(figures))
             for row, (name, axis) in enumerate(figures.items()):
@@ -159,7 +281,7 @@ class TrajectoryPanel(Panel):
                     item.setToolTip(cell.tip)
                     item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
                     self.table.setItem(row, column, item)
-                item = QTableWidgetItem(bound_text(bounds[name], axis.unit))
+                item = QTableWidgetItem(bound_text(bounds.get(name), axis.unit))
                 item.setToolTip(translate("trajectory", BOUND_TIP))
                 self.table.setItem(row, BOUND, item)
 
@@ -186,6 +308,7 @@ class TrajectoryPanel(Panel):
 
     def _refresh(self, state: SessionState) -> None:
         self.transport.refresh(state)
+        self.points.refresh(state)
         gaps = self.workbench.playback.state.gaps
         self.gaps.setVisible(bool(gaps))
         plan = self.workbench.plan
@@ -208,6 +331,8 @@ def _table() -> QTableWidget:
     triggers = QAbstractItemView.EditTrigger
     table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed)
     table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-    table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
-    table.verticalHeader().setDefaultSectionSize(24)
+    table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+    table.horizontalHeader().setStretchLastSection(True)
+    table.horizontalHeader().setFixedHeight(23)
+    table.verticalHeader().setDefaultSectionSize(21)  # six axes at 1280 × 800
     return table

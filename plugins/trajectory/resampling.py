@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import speed_changes
+from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
@@ -69,7 +70,7 @@ class ResamplingDialog(QDialog):
             self.resampled = resample(self._trajectory, rate_hz, self.method.currentData())
         except (InputError, ValueError) as error:
             self.resampled = None
-            self.outcome.setText(str(error))
+            self.outcome.setText(error_text(error))
         else:
             self.outcome.setText(speed_changes(self._trajectory, self.resampled))
         ok = self.buttons.button(QDialogButtonBox.StandardButton.Ok)

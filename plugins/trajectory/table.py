@@ -2,12 +2,12 @@
 
 from typing import NamedTuple
 
-from rotemina.app.display import PLAIN_NUMBER, Scale
 from rotemina.app.motion.deviation import Gap
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.errors import InputError
+from rotemina.sim.quantities import Scale, fixed, parsed, scale_in, scale_of
 from rotemina.sim.trajectory.dry_run import AxisFigures
-from rotemina.sim.units import from_unit, symbol, to_unit
+from rotemina.sim.units import from_unit, symbol
 
 COLUMNS = (
     marked("trajectory", "lowest"),
@@ -70,10 +70,11 @@ def read_bound(text: str, si_unit: str) -> float | None:
         If it is no number above 0.
     """
     unit = "urad" if si_unit == "rad" else "um"
-    number = text.replace(symbol(unit), "").strip()
-    if not number:
+    plain = text.replace(symbol(unit), "").strip()
+    if not plain:
         return None
-    if PLAIN_NUMBER.fullmatch(number) is None or float(number) <= 0.0:
+    number = parsed(plain)
+    if number is None or number <= 0.0:
         raise InputError(
             translate(
                 "trajectory",
@@ -81,26 +82,21 @@ def read_bound(text: str, si_unit: str) -> float | None:
                 "point, or nothing",
             ).format(text=text, unit=symbol(unit))
         )
-    return float(from_unit(float(number), unit))
+    return float(from_unit(number, unit))
 
 
 def _small(value: float, si_unit: str, digits: int) -> str:
-    unit = "urad" if si_unit == "rad" else "um"
-    return f"{float(to_unit(value, unit)):.{digits}g} {symbol(unit)}"
+    return scale_in("urad" if si_unit == "rad" else "um", digits=digits).text(value)
 
 
 def _rate(value: float, bound: float | None, si_unit: str, per: str) -> Cell:
-    unit = "mrad" if si_unit == "rad" else "mm"
-    text = f"{to_unit(value, unit):.4g} {symbol(unit)}{per}"
+    scale = scale_of(f"{si_unit}{per}", max(value, bound or 0.0))
+    text = scale.text(value)
     if bound is None:
         return Cell(text, translate("trajectory", "no bound is declared in the robot file"))
-    share = f"{100 * value / bound:.0f} %"
-    return Cell(
-        f"{text} · {share}",
-        translate("trajectory", "{share} of {bound:g} {unit}{per}").format(
-            share=share, bound=to_unit(bound, unit), unit=symbol(unit), per=per
-        ),
-    )
+    share = f"{fixed(100.0 * value / bound, 0)} %"
+    of_bound = translate("trajectory", "{share} of {bound}")
+    return Cell(f"{text} · {share}", of_bound.format(share=share, bound=scale.text(bound)))
 
 
 def _error(axis: AxisFigures) -> Cell:
@@ -108,11 +104,10 @@ def _error(axis: AxisFigures) -> Cell:
         return Cell(
             "–", translate("trajectory", "the model gives no prediction for this trajectory")
         )
-    unit = "urad" if axis.unit == "rad" else "um"
-    rms, peak = (float(to_unit(v, unit)) for v in (axis.tracking_rms, axis.tracking_peak))
+    rms, peak = (_small(each, axis.unit, 3) for each in (axis.tracking_rms, axis.tracking_peak))
     return Cell(
-        translate("trajectory", "{rms:.3g} {unit} rms").format(rms=rms, unit=symbol(unit)),
+        translate("trajectory", "{rms} rms").format(rms=rms),
         translate(
-            "trajectory", "the model expects up to {peak:.3g} {unit} between command and position"
-        ).format(peak=peak, unit=symbol(unit)),
+            "trajectory", "the model expects up to {peak} between command and position"
+        ).format(peak=peak),
     )

@@ -12,14 +12,40 @@ from PySide6.QtWidgets import (
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.retiming import FASTEST, SLOWEST
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.controls import allow, fill
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, fill
 from rotemina.drivers.samples import DeviceState
 
 STEPS = (1, 10, 100, 1000)  # rows
 _EMPTY = marked("trajectory", "no trajectory is loaded")
 _FORBIDDEN = marked("trajectory", "the dry run does not allow it")
+
+
+def against_playing(workbench: Workbench, session: SessionState) -> str | None:
+    """Return why the plan in hand cannot be played, or gone on with, now; None: it can."""
+    paused = workbench.playback.state.phase is PlaybackPhase.PAUSED
+    missing = None if paused else _missing(workbench)
+    if missing is None and session.locked is None and session.activity is not DeviceState.IDLE:
+        return translate("trajectory", "the axes still move")
+    return missing or session.locked
+
+
+def _missing(workbench: Workbench) -> str | None:
+    """Return what is wrong with the plan in hand, or None."""
+    plan = workbench.plan
+    if plan is None or not plan.dry_run.allowed:
+        return translate("trajectory", _EMPTY if plan is None else _FORBIDDEN)
+    return plan.refusal or None
+
+
+def play_word(phase: PlaybackPhase) -> str:
+    """Return what the one button of a playback does now."""
+    words = {
+        PlaybackPhase.PLAYING: translate("trajectory", "Pause"),
+        PlaybackPhase.PAUSED: translate("trajectory", "Resume"),
+    }
+    return words.get(phase, translate("trajectory", "Play"))
 
 
 class Transport(QWidget):
@@ -75,28 +101,19 @@ class Transport(QWidget):
     def refresh(self, session: SessionState) -> None:
         """Show what may be done now, and how far the playback is."""
         state = self._workbench.playback.state
-        plan = self._workbench.plan
-        missing = None
-        if plan is None or not plan.dry_run.allowed:
-            missing = translate("trajectory", _EMPTY if plan is None else _FORBIDDEN)
+        missing = _missing(self._workbench)
         playing = state.phase is PlaybackPhase.PLAYING
         paused = state.phase is PlaybackPhase.PAUSED
-        words = {
-            PlaybackPhase.PLAYING: translate("trajectory", "Pause"),
-            PlaybackPhase.PAUSED: translate("trajectory", "Go on"),
-        }
-        self.play.setText(words.get(state.phase, translate("trajectory", "Play")))
-        busy = (
-            None
-            if session.activity is DeviceState.IDLE
-            else translate("trajectory", "the axes still move")
+        self.play.setText(play_word(state.phase))
+        why = None if playing else against_playing(self._workbench, session)
+        tip = translate(
+            "trajectory", "Play, pause or resume (Ctrl+P); the axes first go to the first row"
         )
-        why = None if playing else (None if paused else missing) or session.locked or busy
-        allow(self.play, why, translate("trajectory", "Play, pause, go on (Ctrl+P)"))
+        allow(self.play, why, tip)
         allow(
             self.end,
-            None if playing or paused else translate("trajectory", "nothing plays"),
-            translate("trajectory", "Stop, and begin anew next"),
+            None if playing or paused else translate("trajectory", "nothing is playing"),
+            translate("trajectory", "Stop; the next playback starts from the beginning"),
         )
         still = (
             translate("trajectory", "a trajectory is playing")

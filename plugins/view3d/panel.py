@@ -18,17 +18,89 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
-from rotemina.app.scene.robot_scene import Reading, RobotScene
+from rotemina.app.scene.notes import Words
+from rotemina.app.scene.robot_scene import Colours, Ghost, Reading, RobotScene
 from rotemina.app.scene.views import View
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.plugins.view3d import embedding, words
+from rotemina.app.widgets.controls import allow
+from rotemina.plugins.view3d import embedding
 from rotemina.plugins.view3d.embedding import WebProcess
 from rotemina.plugins.view3d.serving import Serving
 from rotemina.sim.kinematics.chain import ChainError
 from rotemina.sim.robot.model import Robot
+
+VIEWS = {
+    View.BELOW: (marked("view3d", "From below"), marked("view3d", "As the objective sees it")),
+    View.FRONT: (marked("view3d", "Front"), marked("view3d", "Along +y, z up")),
+    View.TOP: (marked("view3d", "Top"), marked("view3d", "Along −z")),
+    View.ISO: (marked("view3d", "Iso"), marked("view3d", "The whole robot from the side")),
+    View.CELL: (
+        marked("view3d", "Cell"),
+        marked("view3d", "The cell and the tip beside it, 0.3 mm away, true to scale"),
+    ),
+}
+GHOSTS = {
+    marked("view3d", "Model and real"): (Ghost.MODEL, Ghost.REAL),
+    marked("view3d", "Model"): (Ghost.MODEL,),
+    marked("view3d", "Real"): (Ghost.REAL,),
+}
+FACTORS = (1, 10, 50, 100, 200)
+INTRODUCTION = marked(
+    "view3d",
+    "The whole robot in three dimensions, where the model says it is and where the readings say "
+    "it is. It is drawn by this program alone; nothing leaves this computer.",
+)
+STARTING = marked("view3d", "Starting the 3-D view …")
+OWN_WINDOW = marked("view3d", "On this display the view stands in a window of its own.")
+LOST = marked(
+    "view3d",
+    "The view has ended ({why}). The rest of the program goes on; show it again, or use the "
+    "browser.",
+)
+NO_BROWSER = marked(
+    "view3d",
+    "No browser could be opened. The address is on the clipboard: paste it into a browser on this "
+    "computer.",
+)
+
+
+def factor_text(factor: int) -> str:
+    """Return how an exaggeration is offered."""
+    return (
+        translate("view3d", "Nano motion to scale")
+        if factor == 1
+        else translate("view3d", "Nano motion × {factor}").format(factor=factor)
+    )
+
+
+def written() -> Words:
+    """Return what is written over the picture."""
+    return Words(
+        model=translate("view3d", "model"),
+        real=translate("view3d", "real"),
+        unknown=translate("view3d", "{ghost}: position unknown, not drawn"),
+        old=translate("view3d", "old: the last reading came in {age_s:.1f} s ago"),
+        enlarged=translate(
+            "view3d",
+            "thx, thy, zn drawn {factor:g} × too large from mid-range; "
+            "the tip is not where it is drawn",
+        ),
+        silent=translate("view3d", "The program does not answer: the drawing is out of date."),
+        quiet=translate("view3d", "No news from the program: the drawing is out of date."),
+    )
+
+
+def colours_of(theme: Theme) -> Colours:
+    """Return the scene's colours in a theme of the window."""
+    return Colours(
+        background=theme.surface,
+        fixed=theme.command,
+        model=theme.model,
+        real=theme.real,
+        forbidden=theme.danger,
+    )
 
 
 class View3dPanel(Panel):
@@ -92,7 +164,7 @@ class View3dPanel(Panel):
             return
         bench = self.workbench
         live = bench.source is bench.session
-        scene.bound(bench.session.keep_out if live else None)
+        scene.bound(bench.session.bounds.keep_out if live else None)
         scene.show(Reading(state.measured, state.model, state.age_s))
         scene.alive(time.monotonic())
         server.changed()
@@ -119,7 +191,7 @@ class View3dPanel(Panel):
             self.show_state()
 
         self.workbench.work(
-            "view3d", translate("view3d", words.STARTING), self.serving.start, done, failed
+            "view3d", translate("view3d", STARTING), self.serving.start, done, failed
         )
 
     def _embed(self) -> None:
@@ -149,7 +221,7 @@ class View3dPanel(Panel):
 
     def _ended(self, why: str) -> None:
         self.close_view()
-        self.show_state(translate("view3d", words.LOST).format(why=why))
+        self.show_state(translate("view3d", LOST).format(why=why))
 
     def _browse(self) -> None:
         server = self.serving and self.serving.server
@@ -158,7 +230,7 @@ class View3dPanel(Panel):
         if not QDesktopServices.openUrl(QUrl(server.url)):
             # The address is a secret: neither in a notice nor in the log.
             QGuiApplication.clipboard().setText(server.url)
-            self.workbench.notify(Level.WARNING, translate("view3d", words.NO_BROWSER), about=self)
+            self.workbench.notify(Level.WARNING, translate("view3d", NO_BROWSER), about=self)
 
     def _close(self) -> None:
         self.close_view(wait=True)
@@ -179,11 +251,11 @@ class View3dPanel(Panel):
         unfit = embedding.why_not(os.environ, embedding.user_number())
         busy = translate("view3d", "the view is being opened") if self.busy else None
         served = self.serving is not None and self.serving.server is not None
-        lines = [self._unfit or translate("view3d", words.INTRODUCTION)]
+        lines = [self._unfit or translate("view3d", INTRODUCTION)]
         if self.busy:
-            lines.append(translate("view3d", words.STARTING))
+            lines.append(translate("view3d", STARTING))
         elif self.own_window:
-            lines.append(translate("view3d", words.OWN_WINDOW))
+            lines.append(translate("view3d", OWN_WINDOW))
         elif self._unfit is None:
             lines += [unfit or "", trouble]
         self.words.setText("\n\n".join(line for line in lines if line))
@@ -201,11 +273,11 @@ class View3dPanel(Panel):
         allow(
             self.end,
             None if self._view else translate("view3d", "it is not open here"),
-            translate("view3d", "Take the view away"),
+            translate("view3d", "Close the view"),
         )
         closed = None if served else translate("view3d", "open the view first")
         for view, button in self.views.items():
-            allow(button, closed, translate("view3d", words.VIEWS[view][1]))
+            allow(button, closed, translate("view3d", VIEWS[view][1]))
         allow(self.ghosts, closed, translate("view3d", "Which robots are drawn"))
         allow(
             self.factor,
@@ -215,24 +287,24 @@ class View3dPanel(Panel):
 
     def _make_widgets(self) -> None:
         self.views = {
-            view: QPushButton(translate("view3d", text)) for view, (text, _) in words.VIEWS.items()
+            view: QPushButton(translate("view3d", text)) for view, (text, _) in VIEWS.items()
         }
         for view, button in self.views.items():
             button.clicked.connect(lambda _=False, view=view: self.look(view))
         self.ghosts = QComboBox()
-        for name in words.GHOSTS:
+        for name in GHOSTS:
             self.ghosts.addItem(translate("view3d", name))
         self.ghosts.setAccessibleName(translate("view3d", "Which robots are drawn"))
-        drawn = tuple(words.GHOSTS.values())
+        drawn = tuple(GHOSTS.values())
         self.ghosts.currentIndexChanged.connect(
             lambda at: self._change(lambda scene: scene.choose(*drawn[at]))
         )
         self.factor = QComboBox()
-        for factor in words.FACTORS:
-            self.factor.addItem(words.factor_text(factor), factor)
+        for factor in FACTORS:
+            self.factor.addItem(factor_text(factor), factor)
         self.factor.setAccessibleName(translate("view3d", "How much larger nano motion is drawn"))
         self.factor.currentIndexChanged.connect(
-            lambda at: self._change(lambda scene: scene.exaggerate(float(words.FACTORS[at])))
+            lambda at: self._change(lambda scene: scene.exaggerate(float(FACTORS[at])))
         )
         self.here = QPushButton(translate("view3d", "Show here"))
         self.here.clicked.connect(self.open_here)
@@ -269,13 +341,13 @@ class View3dPanel(Panel):
         outer.addWidget(self.stack, 1)
 
     def _use_theme(self, theme: Theme) -> None:
-        self._change(lambda scene: scene.paint(words.colours_of(theme)))
+        self._change(lambda scene: scene.paint(colours_of(theme)))
 
 
 def scene_of(robot: Robot, theme: Theme) -> tuple[RobotScene | None, str | None]:
     """Return the scene of a robot, or why there is none."""
     try:
-        colours, written = words.colours_of(theme), words.written()
-        return RobotScene(robot, colours, old_s=STALE_S, words=written), None
+        colours, said = colours_of(theme), written()
+        return RobotScene(robot, colours, old_s=STALE_S, words=said), None
     except ChainError as error:
         return None, translate("view3d", "There is nothing to draw. {error}").format(error=error)

@@ -1,7 +1,6 @@
 """Cases as folders of record files, and their labels in a file apart."""
 
-import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
@@ -9,7 +8,7 @@ import numpy as np
 import polars as pl
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind.case import Case, draw_case, file_unit, measured, significant
+from rotemina.sim.blind.case import Case, file_unit, measured, significant
 from rotemina.sim.blind.catalogue import CATALOGUE
 from rotemina.sim.blind.force import ForceCase
 from rotemina.sim.blind.machine import Commands
@@ -47,34 +46,6 @@ def kinds(number: int, seed: int) -> Iterator[tuple[str, str | None, int]]:
                 effects = [str(name) for name in rng.permutation(list(CATALOGUE))]
             effect = effects.pop()
         yield kind, effect, seed * 100_000 + k
-
-
-def write_cases(
-    folder: Path,
-    number: int,
-    seed: int,
-    robot: Robot,
-    *,
-    only: Sequence[str] = (),
-    effect: str | None = None,
-) -> dict[str, dict[str, object]]:
-    """Write cases into ``folder/case_0000`` …, labels to ``folder/labels.json``; return these.
-
-    ``only``: kinds to keep; ``effect``: makes every one a single case of that effect. Cases of an
-    axis under force, which is another robot's, are left out.
-    """
-    labels: dict[str, dict[str, object]] = {}
-    for k, (kind, wanted, case_seed) in enumerate(kinds(number, seed)):
-        if effect is not None:
-            kind, wanted = "single", effect
-        if kind == "force" or (only and kind not in only):
-            continue
-        name = f"case_{k:04d}"
-        case = draw_case(robot, kind, case_seed, wanted)
-        write_case(folder / name, case, robot)
-        labels[name] = case.label()
-        (folder / "labels.json").write_text(json.dumps(labels, indent=1), encoding="utf-8")
-    return labels
 
 
 def write_case(folder: Path, case: Case | ForceCase, robot: Robot) -> None:

@@ -21,6 +21,8 @@ from rotemina.sim.calibration.iso230 import Positioning, positioning
 from rotemina.sim.calibration.parts import Comparison
 from rotemina.sim.calibration.sensor import SHARES, SensorModel
 from rotemina.sim.calibration.zero_drift import zero_drifts
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
@@ -82,10 +84,17 @@ class Calibration:
         """Why this calibration must not be used; None where it may."""
         if self.after_rms < _BETTER * self.before_rms:
             return None
-        return (
-            f"{self.axis}: at runs that were left out of the fit the reading's error is "
-            f"{self.after_rms:.4g} {self.unit} rms with the calibration and "
-            f"{self.before_rms:.4g} {self.unit} without; it is not better and not used"
+        return message(
+            "engine",
+            "{axis}: at runs that were left out of the fit the reading's error "
+            "is {after} {unit} rms with the calibration and {before} {same} "
+            "without; it is not better and not used",
+        ).fill(
+            axis=self.axis,
+            after=rounded(self.after_rms, 4),
+            unit=self.unit,
+            before=rounded(self.before_rms, 4),
+            same=self.unit,
         )
 
 
@@ -166,8 +175,11 @@ def _runs(comparisons: list[Comparison]) -> list[Run]:
     whole = [run for run in whole if len(run.reading) >= _LEAST_RUN_ROWS]
     if len(whole) < LEAST_RUNS:
         raise CalibrationError(
-            f"{len(whole)} runs of {_LEAST_RUN_ROWS} rows or more; a calibration needs "
-            f"{LEAST_RUNS}, of which each is held out once; record longer"
+            message(
+                "engine",
+                "{count} runs of {least_run_rows} rows or more; a calibration needs {least_runs}, "
+                "of which each is held out once; record longer",
+            ).fill(count=len(whole), least_run_rows=_LEAST_RUN_ROWS, least_runs=LEAST_RUNS)
         )
     return whole
 
@@ -240,8 +252,8 @@ def _positionings(
 def _figures(fitted: Fitted, unit: str, step_s: float) -> tuple[Figure, ...]:
     model, choice = fitted.model, fitted.choice
     figures = [
-        Figure("offset", model.offset, fitted.half_width({0: 1.0}), unit),
-        Figure("gain error", model.gain_error, fitted.half_width({1: 1.0}), "1"),
+        Figure(marked("engine", "offset"), model.offset, fitted.half_width({0: 1.0}), unit),
+        Figure(marked("engine", "gain error"), model.gain_error, fitted.half_width({1: 1.0}), "1"),
     ]
     at = 2
     if choice.bends:
@@ -249,23 +261,42 @@ def _figures(fitted: Fitted, unit: str, step_s: float) -> tuple[Figure, ...]:
         curve = (1.0 - place**2) * np.polynomial.polynomial.polyval(place, model.bend)
         worst = float(place[np.argmax(np.abs(curve))])
         weights = {at + k: (1.0 - worst**2) * worst**k for k in range(choice.bends)}
-        figures.append(Figure("nonlinearity", model.nonlinearity, fitted.half_width(weights), unit))
+        figures.append(
+            Figure(
+                marked("engine", "nonlinearity"),
+                model.nonlinearity,
+                fitted.half_width(weights),
+                unit,
+            )
+        )
         at += choice.bends
     if choice.hysteresis:
         span = model.high - model.low
         weights = {at + k: 2.0 * share * span for k, share in enumerate(SHARES)}
-        figures.append(Figure("hysteresis", model.hysteresis, fitted.half_width(weights), unit))
+        figures.append(
+            Figure(
+                marked("engine", "hysteresis"), model.hysteresis, fitted.half_width(weights), unit
+            )
+        )
         at += len(SHARES)
     if choice.period:
         spread = sqrt(sum(fitted.half_width({at + k: 1.0}) ** 2 for k in range(4)))
-        figures.append(Figure("interpolation error", model.interpolation, spread, unit))
-        figures.append(Figure("its period", model.period, float("nan"), unit))
+        figures.append(
+            Figure(marked("engine", "interpolation error"), model.interpolation, spread, unit)
+        )
+        figures.append(Figure(marked("engine", "its period"), model.period, float("nan"), unit))
         at += 4
     if model.lag_s:
-        name = "time constant" if choice.lag == "first_order" else "delay"
+        name = (
+            marked("engine", "time constant")
+            if choice.lag == "first_order"
+            else marked("engine", "delay")
+        )
         unseen_s = min(_UNSEEN * step_s**2 / model.lag_s, 0.05 * step_s)
         half_s = hypot(fitted.half_width({at: 1.0}), unseen_s)
-        figures.append(Figure(f"lag, {name}", model.lag_s, half_s, "s"))
+        figures.append(
+            Figure(message("engine", "lag, {name}").fill(name=name), model.lag_s, half_s, "s")
+        )
     return tuple(figures)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.errors import CalibrationError
+from rotemina.sim.messages import message
 
 LEAST_RUNS = 2
 ISO_RUNS, ISO_TARGETS = 5, 5  # what the standard asks for at the least, up to 2 m of travel
@@ -48,12 +49,17 @@ def positioning(deviations: FloatArray) -> Positioning:
     """
     if deviations.ndim != 3 or deviations.shape[2] != 2 or not deviations.size:
         raise CalibrationError(
-            f"deviations have shape {deviations.shape}; ISO 230-2 needs (targets, runs, 2)"
+            message(
+                "engine", "deviations have shape {shape}; ISO 230-2 needs (targets, runs, 2)"
+            ).fill(shape=str(deviations.shape))
         )
     if deviations.shape[1] < LEAST_RUNS:
         raise CalibrationError(
-            f"each target was approached {deviations.shape[1]} times from each side; ISO 230-2 "
-            f"needs {ISO_RUNS} runs, a spread {LEAST_RUNS} at the least"
+            message(
+                "engine",
+                "each target was approached {shape} times from each side; ISO 230-2 needs "
+                "{iso_runs} runs, a spread {least_runs} at the least",
+            ).fill(shape=deviations.shape[1], iso_runs=ISO_RUNS, least_runs=LEAST_RUNS)
         )
     mean = deviations.mean(axis=1)
     spread = deviations.std(axis=1, ddof=1)

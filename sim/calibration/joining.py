@@ -10,6 +10,7 @@ from scipy.signal import correlate
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.errors import CalibrationError
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Channel, Record, Tap
 
 _COARSE_HZ = 100.0
@@ -35,11 +36,17 @@ def joined(record: Record, laser: Record, axis: str) -> Record:
         If either lacks its column, or they are not of the same motion.
     """
     if not record.has(axis, Tap.MEAS):
-        raise CalibrationError(f"record: there is no column {axis}.meas to join a laser's with")
+        raise CalibrationError(
+            message("engine", "record: there is no column {axis}.meas to join a laser's with").fill(
+                axis=axis
+            )
+        )
     tap = next((each for each in (Tap.REF, Tap.CMD) if laser.has(axis, each)), None)
     if tap is None:
         raise CalibrationError(
-            f"laser: there is no column {axis}.ref; it has {', '.join(map(str, laser.columns))}"
+            message("engine", "laser: there is no column {axis}.ref; it has {names}").fill(
+                axis=axis, names=", ".join(map(str, laser.columns))
+            )
         )
     seen, seen_s = laser.signal(axis, tap), laser.time_s - laser.time_s[0]
     reading, time_s = record.signal(axis, Tap.MEAS), record.time_s - record.time_s[0]
@@ -49,8 +56,11 @@ def joined(record: Record, laser: Record, axis: str) -> Record:
     reference = np.interp(at_s, seen_s, seen)
     if covered.mean() < _LEAST_SHARE or _related(reading[covered], reference[covered]) < _ALIKE:
         raise CalibrationError(
-            f"laser: its motion and that of {axis} in the record are not alike at any shift of "
-            "the clocks; join the files of one run"
+            message(
+                "engine",
+                "laser: its motion and that of {axis} in the record are not alike at any shift of "
+                "the clocks; join the files of one run",
+            ).fill(axis=axis)
         )
     names = [name for name in record.columns if name != Channel(axis, Tap.REF)]
     signals: dict[tuple[str, Tap], FloatArray] = {}
@@ -67,7 +77,9 @@ def _coarse(time_s: FloatArray, reading: FloatArray, seen_s: FloatArray, seen: F
     for own_s, signal in ((time_s, reading), (seen_s, seen)):
         grid_s = np.arange(0.0, own_s[-1], 1.0 / _COARSE_HZ)
         if len(grid_s) < 2:
-            raise CalibrationError("a record of less than 20 ms cannot be joined with another")
+            raise CalibrationError(
+                message("engine", "a record of less than 20 ms cannot be joined with another")
+            )
         speeds.append(np.gradient(np.interp(grid_s, own_s, signal)))
     answer = correlate(speeds[1], speeds[0])
     return float((int(np.argmax(answer)) - (len(speeds[0]) - 1)) / _COARSE_HZ)

@@ -7,9 +7,10 @@ import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.calibration.errors import CalibrationError
+from rotemina.sim.messages import joined, marked, message
+from rotemina.sim.quantities import exact, fixed, percent
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.wording import readable
 
 LEAST_TRAVEL = 0.1  # of the axis' range
 LEAST_KEPT = 0.7  # of a record's rows
@@ -76,9 +77,20 @@ def compared(record: Record, axis: str, robot: Robot, name: str = "record") -> C
     kept = sum(part.rows.stop - part.rows.start for part in parts)
     if kept < LEAST_KEPT * len(sound):
         raise CalibrationError(
-            f"{name}: {axis}: laser and sensor can be compared in {kept} of {len(sound)} rows, "
-            f"{LEAST_KEPT:.0%} are needed ({'; '.join(losses) or 'the rest is in short pieces'}); "
-            "align the laser and record again"
+            message(
+                "engine",
+                "{name}: {axis}: laser and sensor can be compared in {kept} of {count} rows, "
+                "{least_kept} are needed ({losses}); align the laser and record again",
+            ).fill(
+                name=name,
+                axis=axis,
+                kept=kept,
+                count=len(sound),
+                least_kept=percent(LEAST_KEPT),
+                losses=joined(losses, "; ")
+                if losses
+                else marked("engine", "the rest is in short pieces"),
+            )
         )
     travel = float(np.ptp(np.concatenate([part.reference for part in parts])))
     _check_travel(travel, axis, robot, name)
@@ -87,17 +99,39 @@ def compared(record: Record, axis: str, robot: Robot, name: str = "record") -> C
 
 def _check(record: Record, axis: str, robot: Robot, name: str) -> None:
     if axis not in robot.axes or axis not in record.axes:
-        has, whose = (robot.axes, "the robot") if axis not in robot.axes else (record.axes, name)
-        raise CalibrationError(f"{name}: axis {axis!r}: {whose} has {', '.join(has)}; choose one")
-    for tap, what in ((Tap.MEAS, "the axis' own sensor"), (Tap.REF, "a laser")):
+        has, whose = (
+            (robot.axes, marked("engine", "the robot"))
+            if axis not in robot.axes
+            else (record.axes, name)
+        )
+        raise CalibrationError(
+            message("engine", "{name}: axis {axis}: {whose} has {names}; choose one").fill(
+                name=name, axis=repr(axis), whose=whose, names=", ".join(has)
+            )
+        )
+    for tap, what in (
+        (Tap.MEAS, marked("engine", "the axis' own sensor")),
+        (Tap.REF, marked("engine", "a laser")),
+    ):
         if not record.has(axis, tap):
             raise CalibrationError(
-                f"{name}: there is no column {axis}.{tap}, the reading of {what}; it has "
-                f"{', '.join(map(str, record.columns))}; record with the laser, or join its file"
+                message(
+                    "engine",
+                    "{name}: there is no column {axis}.{tap}, the reading of {what}; it has "
+                    "{names}; record with the laser, or join its file",
+                ).fill(
+                    name=name,
+                    axis=axis,
+                    tap=tap,
+                    what=what,
+                    names=", ".join(map(str, record.columns)),
+                )
             )
     if len(record.time_s) < LEAST_ROWS:
         raise CalibrationError(
-            f"{name}: {len(record.time_s)} rows; a calibration needs {LEAST_ROWS} at the least"
+            message(
+                "engine", "{name}: {count} rows; a calibration needs {least_rows} at the least"
+            ).fill(name=name, count=len(record.time_s), least_rows=LEAST_ROWS)
         )
 
 
@@ -105,9 +139,18 @@ def _check_travel(travel: float, axis: str, robot: Robot, name: str) -> None:
     span, unit = robot.axes[axis].span, robot.unit(axis) or "m"
     if travel < LEAST_TRAVEL * span:
         raise CalibrationError(
-            f"{name}: {axis} travels {readable(travel, unit)} by the laser, "
-            f"{travel / span:.1%} of its range; a calibration needs {LEAST_TRAVEL:.0%}: "
-            f"{readable(LEAST_TRAVEL * span, unit)}; move it further"
+            message(
+                "engine",
+                "{name}: {axis} travels {travel} by the laser, {share} of its range; a "
+                "calibration needs {least_share}: {least}; move it further",
+            ).fill(
+                name=name,
+                axis=axis,
+                travel=exact(travel, unit),
+                share=percent(travel / span),
+                least_share=percent(LEAST_TRAVEL),
+                least=exact(LEAST_TRAVEL * span, unit),
+            )
         )
 
 
@@ -134,10 +177,17 @@ def _widened(lost: BoolArray) -> BoolArray:
 def _told(time_s: FloatArray, lost: BoolArray, breaks: np.ndarray) -> tuple[str, ...]:
     edges = np.flatnonzero(np.diff(np.concatenate([[0], lost.astype(np.int8), [0]])))
     told = [
-        f"the laser was lost from {time_s[begin]:.3f} s to {time_s[end - 1]:.3f} s"
+        message("engine", "the laser was lost from {begin} s to {end} s").fill(
+            begin=fixed(time_s[begin], 3), end=fixed(time_s[end - 1], 3)
+        )
         for begin, end in zip(edges[::2], edges[1::2], strict=True)
     ]
-    told += [f"no rows from {time_s[at]:.3f} s to {time_s[at + 1]:.3f} s" for at in breaks.tolist()]
+    told += [
+        message("engine", "no rows from {begin} s to {end} s").fill(
+            begin=fixed(time_s[at], 3), end=fixed(time_s[at + 1], 3)
+        )
+        for at in breaks.tolist()
+    ]
     return tuple(told)
 
 

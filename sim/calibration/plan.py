@@ -23,6 +23,7 @@ from rotemina.sim.excitation.moves import (
     shortest_quintic,
     trapezoid,
 )
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
 from rotemina.sim.trajectory.limits import voltage_bounds
@@ -62,8 +63,9 @@ def calibration_motion(
     """
     if axis not in robot.axes:
         raise CalibrationError(
-            f"axis {axis!r}: robot {robot.name!r} has no such axis; use one of "
-            f"{', '.join(robot.axes)}"
+            message(
+                "engine", "axis {axis}: robot {name} has no such axis; use one of {names}"
+            ).fill(axis=repr(axis), name=repr(robot.name), names=", ".join(robot.axes))
         )
     _check(runs, targets, rate_hz)
     path = _Path(robot, axis, rate_hz)
@@ -83,6 +85,7 @@ def calibration_motion(
             "name": f"calibration of {axis}",
             "calibration": f"{axis}: {runs} runs, {kind}",
             "calibration_runs": str(runs),
+            **({"calibration_targets": str(targets)} if stepper else {}),
             "rate_hz": repr(rate_hz),
         },
     )
@@ -95,7 +98,11 @@ def _check(runs: int, targets: int, rate_hz: float) -> None:
         ("rate", rate_hz, 100.0, 20_000.0),
     ):
         if not least <= value <= most:
-            raise CalibrationError(f"{name} = {value:g} is not between {least:g} and {most:g}")
+            raise CalibrationError(
+                message("engine", "{name} = {value} is not between {least} and {most}").fill(
+                    name=name, value=value, least=least, most=most
+                )
+            )
 
 
 def _targets(count: int, rng: np.random.Generator) -> FloatArray:

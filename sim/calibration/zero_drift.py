@@ -4,7 +4,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.design import Run
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact
 
 _BLOCKS = 8  # of each run
 _BINS = 40  # of the travel, whose means belong to the axis
@@ -32,8 +33,12 @@ def zero_drifts(runs: list[Run], remainders: list[FloatArray], unit: str) -> lis
     related = float(np.mean(means[1:] * means[:-1])) / spread if spread else 0.0
     if spread < _OVER * inside or related < _RELATED:
         return []
-    drift = readable(float(f"{np.sqrt(spread):.3g}"), unit)
+    drift = exact(float(f"{np.sqrt(spread):.3g}"), unit)
     return [
-        f"the zero drifts by {drift} rms while the runs last: it goes with time and not with the "
-        "axis, and no calibration removes it; warm up, or calibrate often"
+        message(
+            "engine",
+            "the zero drifts by {drift} rms while the runs last: it goes with "
+            "time and not with the axis, and no calibration removes it; warm up, "
+            "or calibrate often",
+        ).fill(drift=drift)
     ]

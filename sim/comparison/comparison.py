@@ -10,6 +10,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.delay import delay
 from rotemina.sim.comparison.noise_floor import noise_floor
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.plant.response import Response, nominal_response
 from rotemina.sim.records.record import VOLTAGE_TAPS, Record, Tap
 from rotemina.sim.robot.model import Robot, StepperAxis
@@ -84,7 +85,9 @@ def compare(
     for name in fit:
         if name not in FITTABLE:
             raise InputError(
-                f"--fit: {name!r} cannot be re-fitted; choose from {', '.join(FITTABLE)}"
+                message("engine", "--fit: {name} cannot be re-fitted; choose from {names}").fill(
+                    name=repr(name), names=", ".join(FITTABLE)
+                )
             )
     response = nominal_response(robot, record) if response is None else response
     pairs = [
@@ -95,8 +98,10 @@ def compare(
     ]
     if not pairs:
         raise InputError(
-            "the record holds no measured channel (u, ref or meas) to compare; "
-            f"it has {', '.join(map(str, record.columns))}"
+            message(
+                "engine",
+                "the record holds no measured channel (u, ref or meas) to compare; it has {names}",
+            ).fill(names=", ".join(map(str, record.columns)))
         )
     _require_motion(record)
     taps = tuple(_compare_tap(robot, record, response, axis, tap, fit) for axis, tap in pairs)
@@ -111,8 +116,11 @@ def _require_motion(record: Record) -> None:
     rows = len(record.time_s)
     if rows <= LEAST_MOVING or 0 < most < LEAST_MOVING:
         raise InputError(
-            f"the record has {rows} rows, {most} of them in motion: it takes {LEAST_MOVING} or "
-            "more to compare; was it cut off when it began? Play it once more"
+            message(
+                "engine",
+                "the record has {rows} rows, {most} of them in motion: it takes {least_moving} or "
+                "more to compare; was it cut off when it began? Play it once more",
+            ).fill(rows=rows, most=most, least_moving=LEAST_MOVING)
         )
 
 

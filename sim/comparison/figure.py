@@ -11,8 +11,9 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.comparison import Comparison, TapComparison
 from rotemina.sim.decimation import envelope
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import Scale, percent, scale_of
 from rotemina.sim.records.record import Tap
-from rotemina.sim.units import drawing_unit, symbol, to_unit
 from rotemina.sim.whole_files import replaced
 
 FORMATS = (".svg", ".png", ".pdf")
@@ -42,7 +43,11 @@ def format_of(path: Path) -> str:
         If it is none of :data:`FORMATS`.
     """
     if path.suffix.lower() not in FORMATS:
-        raise InputError(f"{path}: a picture's name ends in {', '.join(FORMATS)}")
+        raise InputError(
+            message("engine", "{path}: a picture's name ends in {names}").fill(
+                path=path, names=", ".join(FORMATS)
+            )
+        )
     return path.suffix.lower()[1:]
 
 
@@ -70,14 +75,14 @@ def _draw_row(signals: Axes, gap: Axes, comparison: Comparison, tap: TapComparis
     time_s = comparison.record.time_s - comparison.record.time_s[0]
     real = comparison.record.signal(tap.axis, Tap(tap.tap))
     model = comparison.response.signal(tap.axis, Tap(tap.tap))
-    unit = drawing_unit(tap.unit, float(abs(real).max()))
-    _line(signals, time_s, to_unit(real, unit), REAL_COLOUR, "real")
-    _line(signals, time_s, to_unit(model, unit), MODEL_COLOUR, "model")
-    signals.set_ylabel(f"{_plain(tap.axis)} {tap.tap} [{symbol(unit)}]")
-    gap_unit = drawing_unit(tap.unit, tap.peak)
-    _line(gap, time_s, to_unit(real - model, gap_unit), GAP_COLOUR, "real − model")
-    gap.set_ylabel(f"real − model [{symbol(gap_unit)}]")
-    gap.set_title(_caption(tap, gap_unit), fontsize=9, loc="left")
+    scale = scale_of(tap.unit, float(abs(real).max()))
+    _line(signals, time_s, scale(real), REAL_COLOUR, "real")
+    _line(signals, time_s, scale(model), MODEL_COLOUR, "model")
+    signals.set_ylabel(f"{_plain(tap.axis)} {tap.tap} [{scale.symbol}]")
+    gap_scale = scale_of(tap.unit, tap.peak)
+    _line(gap, time_s, gap_scale(real - model), GAP_COLOUR, "real − model")
+    gap.set_ylabel(f"real − model [{gap_scale.symbol}]")
+    gap.set_title(_caption(tap, gap_scale), fontsize=9, loc="left")
     for axes in (signals, gap):
         axes.grid(visible=True, linewidth=0.4, alpha=0.6)
         axes.margins(x=0.0)
@@ -87,12 +92,12 @@ def _line(axes: Axes, time_s: FloatArray, values: FloatArray, colour: str, label
     axes.plot(*envelope(time_s, values, _BUCKETS), color=colour, linewidth=0.9, label=label)
 
 
-def _caption(tap: TapComparison, unit: str) -> str:
-    text = f"rms {to_unit(tap.rms, unit):.4g} {symbol(unit)}"
+def _caption(tap: TapComparison, scale: Scale) -> str:
+    text = f"rms {scale.text(tap.rms)}"
     if tap.relative_error is not None:
-        text += f" · relative error {100 * tap.relative_error:.3g} %"
+        text += f" · relative error {percent(tap.relative_error)}"
     if tap.noise_floor is not None:
-        text += f" · noise floor {to_unit(tap.noise_floor, unit):.3g} {symbol(unit)}"
+        text += f" · noise floor {scale.text(tap.noise_floor)}"
     return text
 
 

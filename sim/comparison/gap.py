@@ -5,12 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.units import drawing_unit, symbol, to_unit
+from rotemina.sim.quantities import NOTHING, scale_of
 
 AFTER_S = 0.5  # after a motion, in which what it stirred up dies away
-NONE = "–"  # in place of a gap where nothing moved
 _ROUNDING_S = 1e-6
-_NOTHING = 1e-3  # of the smallest unit, below which nothing is told in digits
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,20 +71,39 @@ def gap_figure(
     return GapFigure(_rms(gap), float(np.std(gap)), _rms((measured - nominal)[counted]))
 
 
+def gap_course(
+    time_s: FloatArray, counted: BoolArray, gap: FloatArray, ends_s: FloatArray, span_s: float
+) -> FloatArray:
+    """Return the gap (m, axes) over the ``span_s`` up to each of ``ends_s`` (m,).
+
+    Each value is the ``rms`` that :func:`gap_figure` has for the samples of that span; NaN where
+    none of them count.
+
+    Parameters
+    ----------
+    time_s : (n,)
+        Increasing.
+    counted : (n,)
+        From :func:`moving`.
+    gap : (n, axes)
+        Measured − model in use, m or rad.
+    """
+    known = counted[:, None] & np.isfinite(gap)
+    first = np.searchsorted(time_s, ends_s - span_s, side="left")
+    last = np.searchsorted(time_s, ends_s, side="right")
+    sums, counts = (
+        np.concatenate([np.zeros((1, gap.shape[1])), np.cumsum(values, axis=0)])
+        for values in (np.where(known, gap, 0.0) ** 2, known)
+    )
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.sqrt((sums[last] - sums[first]) / (counts[last] - counts[first])))
+
+
 def gap_text(size: float | None, si_unit: str) -> str:
     """Return a gap (SI) as every place shows it: three digits, in the unit that suits its size."""
     if size is None or not np.isfinite(size):
-        return NONE
-    unit = drawing_unit(si_unit, size)
-    return f"{_three_digits(float(to_unit(size, unit)))} {symbol(unit)}"
-
-
-def _three_digits(value: float) -> str:
-    """Return a number with three digits that matter, and no exponent."""
-    if value < _NOTHING:
-        return "0"
-    decimals = max(2 - int(np.floor(np.log10(float(f"{value:.2e}")))), 0)
-    return f"{value:.{decimals}f}"
+        return NOTHING
+    return scale_of(si_unit, size, 3)._replace(padded=True).text(size)
 
 
 def _rms(gap: FloatArray) -> float:

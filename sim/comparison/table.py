@@ -1,10 +1,10 @@
 """The figures of a comparison in words: one line a tap, in units that read well."""
 
 from rotemina.sim.comparison.comparison import Comparison, TapComparison
-from rotemina.sim.units import drawing_unit, symbol, to_unit
+from rotemina.sim.comparison.runs import RunComparison
+from rotemina.sim.quantities import NOTHING, amount, fixed, percent
 
 HEAD = ("tap", "rms", "peak", "of range", "rel. error", "delay", "noise floor", "re-fitted")
-NONE = "–"
 
 
 def table(comparison: Comparison) -> str:
@@ -20,27 +20,26 @@ def table(comparison: Comparison) -> str:
     )
 
 
+def runs_table(runs: RunComparison) -> str:
+    """Return the figures of two runs as :func:`table` does, with a line on the tip's path."""
+    path = (
+        f"tip path: {amount(runs.path_rms, 'm')} rms, {amount(runs.path_peak, 'm')} peak apart"
+        if runs.path_rms is not None
+        else "tip path: not all joints of a tip were measured in both runs"
+    )
+    return f"{table(runs.comparison)}\n{path}"
+
+
 def cells(tap: TapComparison) -> tuple[str, ...]:
     """Return one text for each of :data:`HEAD`."""
-    delay = NONE if tap.delay_s is None else f"{1e3 * tap.delay_s:z.3f} ms"
+    delay = NOTHING if tap.delay_s is None else f"{fixed(1e3 * tap.delay_s, 3)} ms"
     return (
         f"{tap.axis}.{tap.tap}",
-        _size(tap.rms, tap.unit),
-        _size(tap.peak, tap.unit),
-        _percent(tap.share_of_range),
-        _percent(tap.relative_error),
+        amount(tap.rms, tap.unit),
+        amount(tap.peak, tap.unit),
+        percent(tap.share_of_range, 4),
+        percent(tap.relative_error, 4),
         delay,
-        _size(tap.noise_floor, tap.unit),
-        _size(tap.rms_refitted, tap.unit),
+        amount(tap.noise_floor, tap.unit),
+        amount(tap.rms_refitted, tap.unit),
     )
-
-
-def _size(value: float | None, si_unit: str) -> str:
-    if value is None:
-        return NONE
-    unit = drawing_unit(si_unit, value)
-    return f"{to_unit(value, unit):.4g} {symbol(unit)}"
-
-
-def _percent(value: float | None) -> str:
-    return NONE if value is None else f"{100.0 * value:.4g} %"

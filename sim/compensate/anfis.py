@@ -17,6 +17,8 @@ from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.compensate import kernel
 from rotemina.sim.compensate.errors import ConvergenceError
 from rotemina.sim.compensate.model import Premises
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 Listener = Callable[[int, int, float], None]
 
@@ -96,9 +98,12 @@ def train(
     spread = float(np.std(goals))
     if not np.isfinite(error) or error >= spread:
         raise ConvergenceError(
-            f"ANFIS: the training did not converge: after {len(history)} epochs it leaves "
-            f"{error:.3g} rms of commands that vary by {spread:.3g}; nothing was replaced. Record "
-            "slower motions over the whole range, or take another kind"
+            message(
+                "engine",
+                "ANFIS: the training did not converge: after {count} epochs it leaves {error} rms "
+                "of commands that vary by {spread}; nothing was replaced. Record slower motions "
+                "over the whole range, or take another kind",
+            ).fill(count=len(history), error=rounded(error, 3), spread=rounded(spread, 3))
         )
     return Anfis(Premises(plays, grid[0], grid[1]), consequents, history)
 

@@ -14,6 +14,8 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance, Inverse
 from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.shaping.moves import MotionLimits, minimum_jerk, shortest_minimum_jerk
@@ -43,8 +45,16 @@ def conditioning(robot: Robot, model: InverseModel, start: float) -> Record:
     )
     if not low - _SLACK * model.span <= start <= high + _SLACK * model.span:
         raise CompensationError(
-            f"axis {model.axis}: a sweep from {start:.6g} {model.unit}: it must begin between "
-            f"{low:.6g} and {high:.6g}, its range as far as its inverse saw it"
+            message(
+                "engine",
+                "axis {axis}: a sweep from {start}: it must begin between {low} and {high}, its "
+                "range as far as its inverse saw it",
+            ).fill(
+                axis=model.axis,
+                start=exact(start, model.unit, size=high),
+                low=exact(low, model.unit, size=high),
+                high=exact(high, model.unit),
+            )
         )
     limits = MotionLimits(axis.max_speed or inf, axis.max_acceleration or inf)
     signal = next(
@@ -57,8 +67,13 @@ def conditioning(robot: Robot, model: InverseModel, start: float) -> Record:
     )
     if signal is None:
         raise CompensationError(
-            f"axis {model.axis}: no sweep between {low:.6g} and {high:.6g} {model.unit} is free of "
-            "commands that the machine cannot be told; move the axis to mid-range first"
+            message(
+                "engine",
+                "axis {axis}: no sweep between {low} and {high} is free of commands that the "
+                "machine cannot be told; move the axis to mid-range first",
+            ).fill(
+                axis=model.axis, low=exact(low, model.unit, size=high), high=exact(high, model.unit)
+            )
         )
     return Record.from_signals(
         np.arange(len(signal)) / _RATE_HZ,

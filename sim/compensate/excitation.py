@@ -9,6 +9,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
@@ -33,7 +34,11 @@ def excitation(robot: Robot, axis: str, rng: np.random.Generator) -> Record:
     """
     said = robot.axes.get(axis)
     if not isinstance(said, PiezoAxis):
-        raise CompensationError(f"axis {axis!r}: robot {robot.name!r} has no such piezo axis")
+        raise CompensationError(
+            message("engine", "axis {axis}: robot {name} has no such piezo axis").fill(
+                axis=repr(axis), name=repr(robot.name)
+            )
+        )
     heights = np.arange(1, _SWINGS + 1) / _SWINGS
     lows = heights * np.resize(_BACK, _SWINGS)
     lows[-1] = 0.0  # where fading begins

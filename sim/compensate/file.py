@@ -14,6 +14,7 @@ from rotemina.sim.compensate.judgement import Residual
 from rotemina.sim.compensate.model import InverseModel, Kind, Premises
 from rotemina.sim.compensate.training import Trained
 from rotemina.sim.input_files import read_bytes
+from rotemina.sim.messages import marked, message
 from rotemina.sim.whole_files import replaced
 
 FORMAT = 1
@@ -199,15 +200,15 @@ def read_trained(path: str | PathLike[str]) -> tuple[Trained, Provenance]:
         document = _Document.model_validate_json(data)
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
-        place = ".".join(map(str, first["loc"])) or "the file"
+        place = ".".join(map(str, first["loc"])) or marked("engine", "the file")
         raise CompensationError(
-            f"{name}: {place}: {first['msg']}; train it anew, or take an unchanged copy"
+            message(
+                "engine", "{name}: {place}: {first}; train it anew, or take an unchanged copy"
+            ).fill(name=name, place=place, first=first["msg"])
         ) from error
     models = {each.kind: _model(document, each) for each in document.inverses}
     residuals = {kind: Residual(**one.model_dump()) for kind, one in document.residuals.items()}
-    trained = Trained(
-        models, residuals, document.recommended, document.why, tuple(document.remarks)
-    )
+    trained = Trained(models, residuals, document.recommended, tuple(document.remarks))
     return trained, document.provenance
 
 

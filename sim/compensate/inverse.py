@@ -18,6 +18,8 @@ from rotemina.sim.compensate import kernel
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.kernel import Numbers
 from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact
 
 _SLACK = 1e-9  # share of the span by which a position may lie outside unnoticed
 _REST = 1e-3  # share of the span by which a command at rest may be missed at the ends
@@ -65,7 +67,10 @@ class Inverse:
     def __init__(self, model: InverseModel, sample_s: float, *, preview: bool = False) -> None:
         if not (np.isfinite(sample_s) and sample_s > 0.0):
             raise CompensationError(
-                f"inverse of axis {model.axis}: sample_s = {sample_s:g} s: must be finite, above 0"
+                message(
+                    "engine",
+                    "inverse of axis {axis}: sample_s = {sample_s} s: must be finite, above 0",
+                ).fill(axis=model.axis, sample_s=sample_s)
             )
         self.model = model
         self.sample_s = sample_s
@@ -82,8 +87,15 @@ class Inverse:
     def state(self, state: FloatArray) -> None:
         if np.shape(state) != self._state.shape or not np.isfinite(state).all():
             raise CompensationError(
-                f"inverse of axis {self.model.axis}: a state of shape {np.shape(state)} with "
-                f"finite numbers must have shape {self._state.shape}; take one of this inverse"
+                message(
+                    "engine",
+                    "inverse of axis {axis}: a state of shape {shape} with finite numbers must "
+                    "have shape {state_shape}; take one of this inverse",
+                ).fill(
+                    axis=self.model.axis,
+                    shape=str(np.shape(state)),
+                    state_shape=str(self._state.shape),
+                )
             )
         self._state[:] = state
 
@@ -120,8 +132,11 @@ class Inverse:
         desired = np.ascontiguousarray(desired, dtype=np.float64)
         if desired.ndim != 1 or not np.isfinite(desired).all():
             raise CompensationError(
-                f"inverse of axis {self.model.axis}: desired positions of shape {desired.shape} "
-                "must be one column of finite numbers"
+                message(
+                    "engine",
+                    "inverse of axis {axis}: desired positions of shape {shape} must be one column "
+                    "of finite numbers",
+                ).fill(axis=self.model.axis, shape=str(desired.shape))
             )
         command = np.empty_like(desired)
         said = kernel.advance_all(self._numbers, self._state, desired, command)
@@ -142,9 +157,18 @@ class Inverse:
         if outside.any():
             at = int(np.argmax(outside))
             raise CompensationError(
-                f"inverse of axis {self.model.axis}: desired position {desired[at]:.6g} "
-                f"{self.model.unit} at sample {at} lies outside {low:.6g} to {high:.6g}, which the "
-                "inverse was trained on; stay inside, or train it on a wider record"
+                message(
+                    "engine",
+                    "inverse of axis {axis}: desired position {desired} at sample {at} lies "
+                    "outside {low} to {high}, which the inverse was trained on; stay inside, or "
+                    "train it on a wider record",
+                ).fill(
+                    axis=self.model.axis,
+                    desired=exact(desired[at], self.model.unit),
+                    at=at,
+                    low=exact(low, self.model.unit, size=high),
+                    high=exact(high, self.model.unit),
+                )
             )
 
 
@@ -165,9 +189,16 @@ def resting_at(model: InverseModel, sample_s: float, command: float) -> tuple[In
     ends = off(low), off(high)
     if not (ends[0] <= slack and ends[1] >= -slack):
         raise CompensationError(
-            f"inverse of axis {model.axis}: the axis stands at command {command:.6g} {model.unit}; "
-            f"the inverse reaches {ends[0] + command:.6g} to {ends[1] + command:.6g}: move the "
-            "axis there first, or train it on a wider record"
+            message(
+                "engine",
+                "inverse of axis {axis}: the axis stands at command {command}; the inverse "
+                "reaches {low} to {high}: move the axis there first, or train it on a wider record",
+            ).fill(
+                axis=model.axis,
+                command=exact(command, model.unit, size=ends[1] + command),
+                low=exact(ends[0] + command, model.unit, size=ends[1] + command),
+                high=exact(ends[1] + command, model.unit),
+            )
         )
     for _ in range(_HALVINGS):  # grows with the position; to the last bit of a share
         middle = 0.5 * (low + high)

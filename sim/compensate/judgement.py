@@ -10,14 +10,16 @@ from rotemina.sim.compensate.inverse import Inverse
 from rotemina.sim.compensate.model import InverseModel, Kind
 from rotemina.sim.compensate.samples import Samples
 from rotemina.sim.compensate.stages import delayed
+from rotemina.sim.messages import Message, joined, marked, message
+from rotemina.sim.quantities import exact, percent
 
 _ALIKE = 1.02  # residuals that differ by less are taken for the same: the simpler kind is chosen
 _MODEST: frozenset[Kind] = frozenset({"prandtl_ishlinskii", "linear"})
 NAMES: dict[Kind, str] = {
     "anfis": "ANFIS",
-    "modified_prandtl_ishlinskii": "modified Prandtl–Ishlinskii",
+    "modified_prandtl_ishlinskii": marked("engine", "modified Prandtl–Ishlinskii"),
     "prandtl_ishlinskii": "Prandtl–Ishlinskii",
-    "linear": "linear",
+    "linear": marked("engine", "linear"),
 }
 
 
@@ -69,8 +71,13 @@ def residual(model: InverseModel, runs: Sequence[tuple[Samples, int]]) -> Residu
     outside = np.concatenate(beyond)
     if outside.all():
         raise CompensationError(
-            f"axis {model.axis}: no row lies within {low:.6g} to {high:.6g} {model.unit}, which "
-            "the inverse was trained on; judge it on such a record, or train it on a wider one"
+            message(
+                "engine",
+                "axis {axis}: no row lies within {low} to {high}, which the inverse was trained "
+                "on; judge it on such a record, or train it on a wider one",
+            ).fill(
+                axis=model.axis, low=exact(low, model.unit, size=high), high=exact(high, model.unit)
+            )
         )
     left = left[~outside]
     rms = float(np.sqrt(np.mean(left**2)))
@@ -85,25 +92,47 @@ def residual(model: InverseModel, runs: Sequence[tuple[Samples, int]]) -> Residu
     )
 
 
-def recommended(residuals: Mapping[Kind, Residual], *, one_size: bool) -> tuple[Kind, str]:
-    """Return the kind that leaves least, and why; among equals the simpler one.
+def recommended(residuals: Mapping[Kind, Residual], *, one_size: bool) -> Kind:
+    """Return the kind that leaves least; among equals the simpler one.
 
     ``residuals`` go from the richest kind to the simplest. Of ``one_size`` of swings the kinds with
     a bend or rules learn more than the swings tell, which rows of that size do not show.
     """
     fit = {k: one for k, one in residuals.items() if not one_size or k in _MODEST}
     least = min(one.rms for one in fit.values())
-    chosen = [kind for kind, one in fit.items() if one.rms <= _ALIKE * least][-1]
-    others = [f"{NAMES[kind]} {one.share:.3%}" for kind, one in residuals.items() if kind != chosen]
-    why = (
-        f"{NAMES[chosen]} leaves {residuals[chosen].share:.3%} of the range on rows that no "
-        f"inverse was trained on; {', '.join(others)}."
-    )
-    if one_size:
-        why += (
-            " All swings are of one size, so that richer kinds would guess at other sizes: "
-            "train on swings that grow or fade"
+    return [kind for kind, one in fit.items() if one.rms <= _ALIKE * least][-1]
+
+
+def reason(residuals: Mapping[Kind, Residual], chosen: Kind) -> Message:
+    """Return why a kind was recommended."""
+    others = [
+        message("engine", "{kind} {share}").fill(kind=NAMES[kind], share=percent(one.share))
+        for kind, one in residuals.items()
+        if kind != chosen
+    ]
+    said = [
+        message(
+            "engine",
+            "{kind} leaves {share} of the range on rows that no inverse was trained on; {others}.",
+        ).fill(
+            kind=NAMES[chosen],
+            share=percent(residuals[chosen].share),
+            others=joined(others, ", "),
+        )
+    ]
+    least = min(one.rms for one in residuals.values())
+    if residuals[chosen].rms > _ALIKE * least:
+        said.append(
+            message(
+                "engine",
+                "All swings are of one size, so that richer kinds would guess at other sizes: "
+                "train on swings that grow or fade.",
+            )
         )
     elif residuals[chosen].rms > least:
-        why += f" It is the simplest of those within {_ALIKE - 1.0:.0%} of the least"
-    return chosen, why.rstrip(".")
+        said.append(
+            message("engine", "It is the simplest of those within {share} of the least.").fill(
+                share=percent(_ALIKE - 1.0)
+            )
+        )
+    return joined(said, " ")

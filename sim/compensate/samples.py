@@ -7,6 +7,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import exact, percent, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
@@ -57,23 +59,40 @@ def samples_of(robot: Robot, axis: str, record: Record, name: str = "record") ->
     if not isinstance(said, PiezoAxis):
         piezos = [n for n, each in robot.axes.items() if isinstance(each, PiezoAxis)]
         raise CompensationError(
-            f"axis {axis!r}: robot {robot.name!r} has no such piezo axis; use one of "
-            f"{', '.join(piezos) or 'another robot'}"
+            message(
+                "engine", "axis {axis}: robot {name} has no such piezo axis; use one of {value}"
+            ).fill(
+                axis=repr(axis),
+                name=repr(robot.name),
+                value=", ".join(piezos) or marked("engine", "another robot"),
+            )
         )
     source = Tap.U if record.closed_loop else Tap.CMD
     taps = [tap for tap in (Tap.MEAS, Tap.REF) if record.has(axis, tap)]
     if not record.has(axis, source) or not taps:
         raise CompensationError(
-            f"{name}: axis {axis} needs the columns {axis}.{source} and {axis}.{Tap.MEAS} or "
-            f"{axis}.{Tap.REF}; record them, or name an axis that has them"
+            message(
+                "engine",
+                "{name}: axis {axis} needs the columns {axis}.{source} and {axis}.{meas} or "
+                "{axis}.{ref}; record them, or name an axis that has them",
+            ).fill(name=name, axis=axis, source=source, meas=Tap.MEAS, ref=Tap.REF)
         )
     command = record.signal(axis, source) * (said.gain if source is Tap.U else 1.0)
     sample_s = _sample_s(record.time_s, name)
     travel = float(np.ptp(command))
     if travel < _LEAST_TRAVEL * said.span:
         raise CompensationError(
-            f"{name}: axis {axis} is commanded over {travel:.4g} {record.units[axis]}, less than "
-            f"{_LEAST_TRAVEL:.0%} of its range of {said.span:.4g}; record larger motions"
+            message(
+                "engine",
+                "{name}: axis {axis} is commanded over {travel}, less than {least_travel} of its "
+                "range of {span}; record larger motions",
+            ).fill(
+                name=name,
+                axis=axis,
+                travel=exact(travel, record.units[axis]),
+                least_travel=percent(_LEAST_TRAVEL),
+                span=exact(said.span, record.units[axis]),
+            )
         )
     position = record.signal(axis, taps[0])
     first = _known_from(command) if record.history == "unknown" else 0
@@ -82,15 +101,27 @@ def samples_of(robot: Robot, axis: str, record: Record, name: str = "record") ->
 
 def _sample_s(time_s: FloatArray, name: str) -> float:
     if len(time_s) < _FEWEST:
-        raise CompensationError(f"{name}: {len(time_s)} rows are too few; {_FEWEST} are needed")
+        raise CompensationError(
+            message("engine", "{name}: {count} rows are too few; {fewest} are needed").fill(
+                name=name, count=len(time_s), fewest=_FEWEST
+            )
+        )
     lengths = np.diff(time_s)
     sample_s = float(np.median(lengths))
     uneven = np.abs(lengths - sample_s) > _UNEVEN * sample_s
     if uneven.any():
         row = int(np.argmax(uneven)) + 1
         raise CompensationError(
-            f"{name}: row {row} comes {lengths[row - 1]:.6g} s after the one before, others "
-            f"{sample_s:.6g} s; an inverse needs even time: resample the record (rotemina convert)"
+            message(
+                "engine",
+                "{name}: row {row} comes {lengths} s after the one before, others {sample_s} s; an "
+                "inverse needs even time: resample the record (rotemina convert)",
+            ).fill(
+                name=name,
+                row=row,
+                lengths=rounded(lengths[row - 1], 6),
+                sample_s=rounded(sample_s, 6),
+            )
         )
     return sample_s
 
@@ -132,12 +163,22 @@ def _swings(command: FloatArray) -> FloatArray:
 def common(samples: Sequence[Samples]) -> Samples:
     """Return the first of the samples, after a check that all are of one axis and rate."""
     if not samples:
-        raise CompensationError("there is no record to train on; name at least one")
+        raise CompensationError(
+            message("engine", "there is no record to train on; name at least one")
+        )
     first = samples[0]
     for each in samples[1:]:
         if abs(each.sample_s - first.sample_s) > _UNEVEN * first.sample_s:
             raise CompensationError(
-                f"{each.name}: its rows come every {each.sample_s:.6g} s, those of {first.name} "
-                f"every {first.sample_s:.6g} s; resample them to one rate (rotemina convert)"
+                message(
+                    "engine",
+                    "{name}: its rows come every {sample_s} s, those of {first_name} every "
+                    "{first_sample_s} s; resample them to one rate (rotemina convert)",
+                ).fill(
+                    name=each.name,
+                    sample_s=rounded(each.sample_s, 6),
+                    first_name=first.name,
+                    first_sample_s=rounded(first.sample_s, 6),
+                )
             )
     return first

@@ -9,13 +9,15 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.errors import CompensationError
-from rotemina.sim.compensate.judgement import Residual, recommended, residual
+from rotemina.sim.compensate.judgement import Residual, reason, recommended, residual
 from rotemina.sim.compensate.linear import fit_line
 from rotemina.sim.compensate.model import InverseModel, Kind
 from rotemina.sim.compensate.modified_prandtl_ishlinskii import fit_modified
 from rotemina.sim.compensate.prandtl_ishlinskii import fit_hysteresis
 from rotemina.sim.compensate.samples import Samples, common, one_size
 from rotemina.sim.compensate.stages import Stages, find_stages, stops_of, thresholds
+from rotemina.sim.messages import Message, marked, message
+from rotemina.sim.quantities import percent
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
 Listener = Callable[[str, float], None]
@@ -35,15 +37,19 @@ class Trained:
     ----------
     models : by kind, in the order of ``KINDS``.
     residuals : by kind, on rows that no inverse was trained on.
-    chosen, why : the kind that is recommended, and the reason in words.
+    chosen : the kind that is recommended.
     remarks : what else is to be said.
     """
 
     models: dict[Kind, InverseModel]
     residuals: dict[Kind, Residual]
     chosen: Kind
-    why: str
     remarks: tuple[str, ...] = ()
+
+    @property
+    def why(self) -> Message:
+        """Why that kind is recommended."""
+        return reason(self.residuals, self.chosen)
 
 
 def train(
@@ -73,26 +79,34 @@ def train(
     """
     tell = listener or _nobody
     first = common([*samples, *held_out])
-    tell("lag and creep", 0.0)
+    tell(marked("engine", "lag and creep"), 0.0)
     kept = [_split(each, whole=bool(held_out)) for each in samples]
     known = [_early(each, last) for each, last in zip(samples, kept, strict=True)]
     if sum(len(each.command) - each.first for each in known) < _FEWEST:
         raise CompensationError(
-            f"{first.name}: axis {first.axis}: less than {_FEWEST} rows are left to train on, "
-            "after the first swing over the whole range; record longer"
+            message(
+                "engine",
+                "{name}: axis {axis}: less than {fewest} rows are left to train on, after the "
+                "first swing over the whole range; record longer",
+            ).fill(name=first.name, axis=first.axis, fewest=_FEWEST)
         )
     axis = robot.axes[first.axis]
     assert isinstance(axis, PiezoAxis)
     low = axis.range[0]
     stages = find_stages(known, _origin(axis, known), low, axis.span, _least_lag_s(axis, first))
     pool = _pool(stages, known)
-    tell("plays", 0.3)
+    tell(marked("engine", "plays"), 0.3)
     facts = _facts(axis, known, stages)
     models: dict[Kind, InverseModel] = {}
     remarks: list[str] = []
 
     def learning(epoch: int, epochs: int, error: float) -> None:
-        tell(f"ANFIS, epoch {epoch}: {error:.3%} unseen", 0.4 + 0.55 * epoch / epochs)
+        tell(
+            message("engine", "ANFIS, epoch {epoch}: {error} unseen").fill(
+                epoch=epoch, error=percent(error)
+            ),
+            0.4 + 0.55 * epoch / epochs,
+        )
 
     try:
         models["anfis"] = _anfis(facts, pool, settings or anfis.Settings(), learning)
@@ -103,9 +117,9 @@ def train(
     models["linear"] = _linear(facts, known)
     judges = [(each, each.first) for each in held_out] or list(zip(samples, kept, strict=True))
     residuals = {kind: residual(model, judges) for kind, model in models.items()}
-    chosen, why = recommended(residuals, one_size=one_size(known))
-    tell("done", 1.0)
-    return Trained(models, residuals, chosen, why, tuple(remarks))
+    chosen = recommended(residuals, one_size=one_size(known))
+    tell(marked("engine", "done"), 1.0)
+    return Trained(models, residuals, chosen, tuple(remarks))
 
 
 def _nobody(_what: str, _share: float) -> None:

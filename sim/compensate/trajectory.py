@@ -8,6 +8,8 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance, Inverse
 from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
 from rotemina.sim.trajectory.limits import commands_of
@@ -48,13 +50,19 @@ def compensated(
     for axis, (model, name) in inverses.items():
         if not isinstance(robot.axes.get(axis), PiezoAxis) or axis not in commands:
             raise CompensationError(
-                f"inverse of axis {axis}: the trajectory commands {', '.join(commands)}; it must "
-                "command this piezo axis, or take the inverse of another one"
+                message(
+                    "engine",
+                    "inverse of axis {axis}: the trajectory commands {names}; it must command this "
+                    "piezo axis, or take the inverse of another one",
+                ).fill(axis=axis, names=", ".join(commands))
             )
         if f"compensation {axis}" in metadata:
             raise CompensationError(
-                f"axis {axis}: the trajectory went through an inverse before "
-                f"({metadata[f'compensation {axis}']}); take the one that was wanted at first"
+                message(
+                    "engine",
+                    "axis {axis}: the trajectory went through an inverse before ({metadata}); take "
+                    "the one that was wanted at first",
+                ).fill(axis=axis, metadata=metadata[f"compensation {axis}"])
             )
         commands[axis] = _sent(model, commands[axis], sample_s, preview=preview)
         metadata[f"compensation {axis}"] = name
@@ -96,9 +104,17 @@ def _sent(
         low, high = model.command_range
         row = int(np.argmax(beyond))
         raise CompensationError(
-            f"inverse of axis {model.axis}: row {row} of the trajectory asks for a command beyond "
-            f"{low:.6g} to {high:.6g} {model.unit}, which is all the machine can be told; stay "
-            "farther from the ends of the range"
+            message(
+                "engine",
+                "inverse of axis {axis}: row {row} of the trajectory asks for a command beyond "
+                "{low} to {high}, which is all the machine can be told; stay farther from the "
+                "ends of the range",
+            ).fill(
+                axis=model.axis,
+                row=row,
+                low=exact(low, model.unit, size=high),
+                high=exact(high, model.unit),
+            )
         )
     return sent
 
@@ -106,13 +122,18 @@ def _sent(
 def _sample_s(time_s: FloatArray) -> float:
     lengths = np.diff(time_s)
     if len(lengths) == 0:
-        raise CompensationError("trajectory: it has one row; an inverse needs a path of several")
+        raise CompensationError(
+            message("engine", "trajectory: it has one row; an inverse needs a path of several")
+        )
     sample_s = float(np.median(lengths))
     uneven = np.abs(lengths - sample_s) > _UNEVEN * sample_s
     if uneven.any():
         row = int(np.argmax(uneven)) + 1
         raise CompensationError(
-            f"trajectory: row {row} comes {lengths[row - 1]:.6g} s after the one before, others "
-            f"{sample_s:.6g} s; an inverse needs even time: resample the trajectory"
+            message(
+                "engine",
+                "trajectory: row {row} comes {lengths} s after the one before, others {sample_s} "
+                "s; an inverse needs even time: resample the trajectory",
+            ).fill(row=row, lengths=rounded(lengths[row - 1], 6), sample_s=rounded(sample_s, 6))
         )
     return sample_s

@@ -105,8 +105,11 @@ def third_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # 
 
 
 def inner_step(values: Values, facts: Facts) -> float:
-    """Return a step over which the mean of the output may be held."""
-    idle = values.get("time_constant") == 0.0
+    """Return a step over which the mean of the output may be held.
+
+    An axis without inertia takes the output itself at each sample, which is exact.
+    """
+    idle = values.get("time_constant") == 0.0 or facts.is_static
     return inf if idle else _INNER_SHARE / facts.pace_hz
 
 
@@ -119,7 +122,7 @@ _LINEAR = frozenset({Trait.LINEAR, Trait.TRANSIENT, Trait.MEMORYLESS})
 AMPLIFIER_LAG = Effect(
     id="amplifier_lag",
     title="Amplifier lag",
-    summary="Phase and gain both fall with frequency; a tap at u shows it.",
+    summary="Phase and gain both fall with frequency; a recorded u shows it.",
     stage=Stage.ELECTRONICS,
     kinds=EVERY_KIND,
     identification=Identification(

@@ -19,6 +19,7 @@ from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import Change, Effect, Force, Formulation, Parameter
 from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Axis, AxisEffect, Robot
 
 RESERVED = ("id", "formulation", "from_axis", "enabled")
@@ -47,10 +48,16 @@ class Attached:
         try:
             effect = effect_named(asked.id)
         except EffectError as error:
-            raise EffectError(f"{where}: {error}") from error
+            raise EffectError(
+                message("engine", "{where}: {error}").fill(where=where, error=str(error))
+            ) from error
         axis = robot.axes.get(asked.axis)
         if axis is None:
-            raise EffectError(f"{where}: the robot has no such axis; it has {list(robot.axes)}")
+            raise EffectError(
+                message("engine", "{where}: the robot has no such axis; it has {axes}").fill(
+                    where=where, axes=", ".join(robot.axes)
+                )
+            )
         formulation = _formulation(effect, asked.formulation, where)
         _check_place(effect, formulation, axis, where)
         _check_source(effect, asked, robot, where)
@@ -113,19 +120,35 @@ def parse_effect(axis: str, table: Mapping[str, Any]) -> AxisEffect:
     where = f"axis.{axis}.effect"
     effect_id = table.get("id")
     if not isinstance(effect_id, str):
-        raise EffectError(f"{where}.id = {effect_id!r}: must be the id of an effect, a text")
+        raise EffectError(
+            message("engine", "{where}.id = {effect_id}: must be the id of an effect, a text").fill(
+                where=where, effect_id=repr(effect_id)
+            )
+        )
     where = f"{where} {effect_id}"
     formulation, from_axis = table.get("formulation"), table.get("from_axis")
     for key, text in (("formulation", formulation), ("from_axis", from_axis)):
         if text is not None and not isinstance(text, str):
-            raise EffectError(f"{where}.{key} = {text!r}: must be a text")
+            raise EffectError(
+                message("engine", "{where}.{key} = {text}: must be a text").fill(
+                    where=where, key=key, text=repr(text)
+                )
+            )
     enabled = table.get("enabled", True)
     if not isinstance(enabled, bool):
-        raise EffectError(f"{where}.enabled = {enabled!r}: must be true or false")
+        raise EffectError(
+            message("engine", "{where}.enabled = {enabled}: must be true or false").fill(
+                where=where, enabled=repr(enabled)
+            )
+        )
     parameters = {key: value for key, value in table.items() if key not in RESERVED}
     for key, value in parameters.items():
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise EffectError(f"{where}.{key} = {value!r}: must be a number")
+            raise EffectError(
+                message("engine", "{where}.{key} = {value}: must be a number").fill(
+                    where=where, key=key, value=repr(value)
+                )
+            )
     return AxisEffect(
         axis=axis,
         id=effect_id,
@@ -140,7 +163,11 @@ def _formulation(effect: Effect, name: str | None, where: str) -> Formulation:
     formulation = effect.formulation(name)
     if formulation is None:
         known = ", ".join(f.name for f in effect.formulations)
-        raise EffectError(f"{where}.formulation = {name!r}: must be one of {known}")
+        raise EffectError(
+            message("engine", "{where}.formulation = {name}: must be one of {known}").fill(
+                where=where, name=repr(name), known=known
+            )
+        )
     return formulation
 
 
@@ -148,13 +175,18 @@ def _check_place(effect: Effect, formulation: Formulation, axis: Axis, where: st
     for kinds, what in ((effect.kinds, ""), (formulation.kinds, f" as {formulation.name!r}")):
         if kinds and axis.kind not in kinds:
             raise EffectError(
-                f"{where}{what}: sits on an axis of kind {', '.join(sorted(kinds))}; "
-                f"this one is of kind {axis.kind!r}"
+                message(
+                    "engine",
+                    "{where}{what}: sits on an axis of kind {names}; this one is of kind {kind}",
+                ).fill(where=where, what=what, names=", ".join(sorted(kinds)), kind=repr(axis.kind))
             )
     if axis.static and isinstance(formulation.acts, Force | Change):
         raise EffectError(
-            f"{where}: formulation {formulation.name!r} acts on the dynamics of an axis, and this "
-            "one is static; give it mass, damping and stiffness or choose another formulation"
+            message(
+                "engine",
+                "{where}: formulation {name} acts on the dynamics of an axis, and this one is "
+                "static; give it mass, damping and stiffness or choose another formulation",
+            ).fill(where=where, name=repr(formulation.name))
         )
 
 
@@ -162,13 +194,20 @@ def _check_source(effect: Effect, asked: AxisEffect, robot: Robot, where: str) -
     if not effect.coupled:
         if asked.from_axis is not None:
             raise EffectError(
-                f"{where}.from_axis = {asked.from_axis!r}: this effect comes from no other axis; "
-                "remove it"
+                message(
+                    "engine",
+                    "{where}.from_axis = {from_axis}: this effect comes from no other axis; remove "
+                    "it",
+                ).fill(where=where, from_axis=repr(asked.from_axis))
             )
         return
     others = [name for name in robot.axes if name != asked.axis]
     if asked.from_axis not in others:
-        raise EffectError(f"{where}.from_axis = {asked.from_axis!r}: must be one of {others}")
+        raise EffectError(
+            message("engine", "{where}.from_axis = {from_axis}: must be one of {others}").fill(
+                where=where, from_axis=repr(asked.from_axis), others=str(others)
+            )
+        )
 
 
 def _check_value(
@@ -180,7 +219,11 @@ def _check_value(
     low, high = parameter.bounds(facts)
     slack = _SLACK * max((abs(end) for end in (low, high) if isfinite(end)), default=0.0)
     if not isfinite(value) or not low - slack <= value <= high + slack:
-        raise EffectError(f"{where}.{name} = {_beyond(parameter, value, facts)}")
+        raise EffectError(
+            message("engine", "{where}.{name} = {beyond}").fill(
+                where=where, name=name, beyond=_beyond(parameter, value, facts)
+            )
+        )
 
 
 def _no_such(formulation: Formulation, name: str, value: float, where: str) -> str:

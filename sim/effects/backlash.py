@@ -4,6 +4,8 @@ The play may lie behind the springs of the axis (``rigid``, ``compliant``), or i
 them (``screw``): then the table, once it is taken along, rings as after any step.
 """
 
+from math import inf
+
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     Drive,
@@ -49,7 +51,9 @@ def _spread(values: Values, facts: Facts) -> tuple[float, ...]:
 
 
 def fine_enough(_values: Values, facts: Facts) -> float:
-    """Return a step with which turning points are seen."""
+    """Return a step with which turning points are seen; a static axis turns at samples alone."""
+    if facts.is_static:
+        return inf
     return _INNER_SHARE / facts.frequency_hz if facts.frequency_hz > 0.0 else _FREE_STEP_S
 
 

@@ -66,6 +66,11 @@ class Facts:
     full_step: float
     noise: float
 
+    @property
+    def is_static(self) -> bool:
+        """Whether the axis is at once where its input puts it."""
+        return self.mass == 0.0
+
     @classmethod
     def of(cls, axis: Axis) -> Self:
         """Gather the figures of an axis."""

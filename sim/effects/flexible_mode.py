@@ -19,6 +19,7 @@ from rotemina.sim.effects.identification import Identification
 from rotemina.sim.effects.kinship import Family, Kinship
 from rotemina.sim.effects.modes import modal_parameters, modal_part
 from rotemina.sim.effects.starts import modes
+from rotemina.sim.messages import message
 
 FREQUENCY = Parameter("frequency", "of the mode", "Hz", 0.02, 50.0, 1.7, per="pace_hz")
 DAMPING = Parameter("damping_ratio", "of the mode", "", 1e-4, 2.0, 0.03)
@@ -33,8 +34,11 @@ def _appendage(values: Values, facts: Facts) -> LinearPart:
     """Hang a mass on a spring on the axis: ``μ M ξ̈ = −f``, f the force on the axis."""
     if facts.mass == 0.0:
         raise EffectError(
-            "flexible_mode: formulation 'appendage' pulls on the mass of an axis, and this axis is "
-            "static; give it mass, damping and stiffness or choose another formulation"
+            message(
+                "engine",
+                "flexible_mode: formulation 'appendage' pulls on the mass of an axis, and this "
+                "axis is static; give it mass, damping and stiffness or choose another formulation",
+            )
         )
     rate, loss = _oscillator(values)
     mass = values["mass_ratio"] * facts.mass

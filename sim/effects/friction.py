@@ -20,6 +20,7 @@ from rotemina.sim.effects.formulation import (
 )
 from rotemina.sim.effects.identification import Identification, Retuning, View
 from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Axis
 
 SPRINGS = 8
@@ -138,7 +139,11 @@ def dampened(values: Values, axis: Axis) -> Axis:
     """
     inertia = axis.inertia
     if inertia is None:
-        raise EffectError("friction: a static axis has no motion to damp; give it mass and damping")
+        raise EffectError(
+            message(
+                "engine", "friction: a static axis has no motion to damp; give it mass and damping"
+            )
+        )
     return replace(
         axis,
         mass=inertia.mass,
@@ -194,7 +199,7 @@ def _following(stiffness: float, facts: Facts) -> float:
 
 
 def _dry(name: str, meaning: str) -> Parameter:
-    return Parameter(name, meaning, "N", 0.0, 5.0, 0.05, per="force")
+    return Parameter(name, meaning, "N", 0.0, 100.0, 0.05, per="force")
 
 
 def _viscous(name: str, meaning: str) -> Parameter:

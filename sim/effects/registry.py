@@ -10,6 +10,7 @@ from importlib.metadata import EntryPoint, entry_points
 
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.formulation import Effect, Stage
+from rotemina.sim.messages import message
 from rotemina.sim.plugin_points import API_VERSIONS, PluginError, load, require_version
 
 GROUP = "rotemina.effects"
@@ -48,18 +49,38 @@ def effect_named(effect_id: str) -> Effect:
         near = get_close_matches(effect_id, _points(), n=1)
         meant = f"did you mean {near[0]!r}? " if near else ""
         known = ", ".join(sorted(_points()))
-        raise EffectError(f"there is no effect {effect_id!r}; {meant}there are {known}")
+        raise EffectError(
+            message("engine", "there is no effect {effect_id}; {meant}there are {known}").fill(
+                effect_id=repr(effect_id), meant=meant, known=known
+            )
+        )
     try:
         effect = load(point)
         if not isinstance(effect, Effect):
-            raise EffectError(f"effect {effect_id!r} ({point.value}) is no Effect")
+            raise EffectError(
+                message("engine", "effect {effect_id} ({value}) is no Effect").fill(
+                    effect_id=repr(effect_id), value=point.value
+                )
+            )
         require_version(point, effect.api_version, API_VERSIONS[GROUP])
     except PluginError as error:
-        raise EffectError(f"effect {effect_id!r}: {error}") from error
+        raise EffectError(
+            message("engine", "effect {effect_id}: {error}").fill(
+                effect_id=repr(effect_id), error=str(error)
+            )
+        ) from error
     if effect.id != effect_id:
-        raise EffectError(f"effect {effect_id!r} ({point.value}) calls itself {effect.id!r}")
+        raise EffectError(
+            message("engine", "effect {effect_id} ({value}) calls itself {id}").fill(
+                effect_id=repr(effect_id), value=point.value, id=repr(effect.id)
+            )
+        )
     if not effect.formulations:
-        raise EffectError(f"effect {effect_id!r} ({point.value}) has no formulation")
+        raise EffectError(
+            message("engine", "effect {effect_id} ({value}) has no formulation").fill(
+                effect_id=repr(effect_id), value=point.value
+            )
+        )
     return effect
 
 

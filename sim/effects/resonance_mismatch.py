@@ -16,6 +16,7 @@ from rotemina.sim.effects.formulation import (
 )
 from rotemina.sim.effects.identification import Identification, Retuning
 from rotemina.sim.effects.kinship import Family, Kinship
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Axis
 
 
@@ -28,8 +29,11 @@ def detuned(values: Values, axis: Axis) -> Axis:
     inertia = axis.inertia
     if inertia is None or inertia.stiffness == 0.0:
         raise EffectError(
-            "resonance_mismatch: nothing holds this axis, so it has no resonance; "
-            "give it mass, damping and stiffness or take the effect away"
+            message(
+                "engine",
+                "resonance_mismatch: nothing holds this axis, so it has no resonance; give it "
+                "mass, damping and stiffness or take the effect away",
+            )
         )
     faster = 1.0 + values["frequency_error"]
     return replace(

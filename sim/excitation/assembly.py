@@ -9,6 +9,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.excitation.draft import MOST_ROWS, Draft, Signal
 from rotemina.sim.excitation.quantity import ExcitationError
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 
 
@@ -31,8 +32,11 @@ def assembled(parts: Mapping[str, Drawn], rate_hz: float, metadata: Mapping[str,
     rows = max(len(part.signal.values) for part in parts.values())
     if rows * len(parts) > MOST_ROWS:
         raise ExcitationError(
-            f"excitation: {rows} rows of {len(parts)} axes are more than {MOST_ROWS} values; "
-            "shorten it or lower the rate"
+            message(
+                "engine",
+                "excitation: {rows} rows of {count} axes are more than {most_rows} values; shorten "
+                "it or lower the rate",
+            ).fill(rows=rows, count=len(parts), most_rows=MOST_ROWS)
         )
     kinds = ", ".join(dict.fromkeys(part.kind for part in parts.values()))
     return Record.from_signals(

@@ -9,9 +9,10 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.excitation.moves import shortest_duration
 from rotemina.sim.excitation.quantity import Amount, ExcitationError, Share
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.robot.model import Axis, PiezoAxis
 from rotemina.sim.trajectory.limits import voltage_bounds
-from rotemina.sim.trajectory.wording import readable
 
 AMPLITUDE = 0.3  # of the range, to each side, where nothing is asked
 MOST_ROWS = 20_000_000
@@ -36,8 +37,8 @@ class Adjustment:
     @property
     def message(self) -> str:
         """What changed, by how much, and why."""
-        asked = readable(self.asked, self.unit)
-        used = readable(self.used, self.unit, scale=self.asked)
+        asked = exact(self.asked, self.unit)
+        used = exact(self.used, self.unit, size=self.asked)
         factor = f"{self.used / self.asked:.4g}"
         return f"axis {self.axis}: {self.parameter} {asked} → {used} (× {factor}), for {self.cause}"
 
@@ -160,11 +161,17 @@ class Draft:
         value = self.low + asked.of_whole * self.span if isinstance(asked, Share) else asked
         if not (isfinite(value) and self.low < value < self.high):
             stated = f"{100 * asked.of_whole:.6g} %" if isinstance(asked, Share) else value
-            said = stated if share else readable(value, self.unit, scale=self.high)
+            said = stated if share else exact(value, self.unit, size=self.high)
             raise ExcitationError(
-                f"axis {self.axis}: offset {said} leaves no room to move between "
-                f"{readable(self.low, self.unit, scale=self.high)} and "
-                f"{readable(self.high, self.unit)}"
+                message(
+                    "engine",
+                    "axis {axis}: offset {said} leaves no room to move between {low} and {high}",
+                ).fill(
+                    axis=self.axis,
+                    said=said,
+                    low=exact(self.low, self.unit, size=self.high),
+                    high=exact(self.high, self.unit),
+                )
             )
         return value
 
@@ -191,7 +198,9 @@ class Draft:
         value = asked.of_whole * self.span if isinstance(asked, Share) else asked
         if not (isfinite(value) and value > 0):
             raise ExcitationError(
-                f"axis {self.axis}: amplitude {value:.6g} {self.unit} must be above 0"
+                message("engine", "axis {axis}: amplitude {value} must be above 0").fill(
+                    axis=self.axis, value=exact(value, self.unit)
+                )
             )
         return self.limited("amplitude", value, most, self.unit)
 
@@ -222,11 +231,11 @@ class Draft:
 
     def speed_cause(self) -> str:
         """Name the limit of speed."""
-        return f"the speed limit {readable(self.speed, self.unit + '/s')}"
+        return f"the speed limit {exact(self.speed, self.unit + '/s')}"
 
     def acceleration_cause(self) -> str:
         """Name the limit of acceleration."""
-        return f"the acceleration limit {readable(self.acceleration, self.unit + '/s²')}"
+        return f"the acceleration limit {exact(self.acceleration, self.unit + '/s²')}"
 
     def top_speed(self) -> float:
         """Return the speed limit, or where none is declared the range in a second."""
@@ -262,8 +271,16 @@ class Draft:
         """
         if not duration_s * self.rate_hz <= MOST_ROWS:
             raise ExcitationError(
-                f"axis {self.axis}: {duration_s:.6g} s at {self.rate_hz:.6g} Hz is more than "
-                f"{MOST_ROWS} rows; shorten it or lower the rate"
+                message(
+                    "engine",
+                    "axis {axis}: {duration_s} s at {rate_hz} Hz is more than {most_rows} rows; "
+                    "shorten it or lower the rate",
+                ).fill(
+                    axis=self.axis,
+                    duration_s=rounded(duration_s, 6),
+                    rate_hz=rounded(self.rate_hz, 6),
+                    most_rows=MOST_ROWS,
+                )
             )
         return max(1, round(duration_s * self.rate_hz))
 
@@ -277,23 +294,39 @@ class Draft:
         """
         if value >= self.rate_hz / 2.0:
             raise ExcitationError(
-                f"axis {self.axis}: {name} {value:.6g} Hz must be below half the rate, "
-                f"{self.rate_hz / 2.0:.6g} Hz"
+                message(
+                    "engine",
+                    "axis {axis}: {name} {value} Hz must be below half the rate, {rate_hz} Hz",
+                ).fill(
+                    axis=self.axis,
+                    name=name,
+                    value=rounded(value, 6),
+                    rate_hz=rounded(self.rate_hz / 2.0, 6),
+                )
             )
 
     def _reduced(self, parameter: str, asked: float, used: float, unit: str, cause: str) -> float:
         if self.strict:
             side = "least" if used > asked else "most"
             raise ExcitationError(
-                f"axis {self.axis}: {parameter} {readable(asked, unit)} is beyond "
-                f"{readable(used, unit, scale=asked)}, the {side} within {cause}"
+                message(
+                    "engine",
+                    "axis {axis}: {parameter} {asked} is beyond {used}, the {side} within {cause}",
+                ).fill(
+                    axis=self.axis,
+                    parameter=parameter,
+                    asked=exact(asked, unit),
+                    used=exact(used, unit, size=asked),
+                    side=side,
+                    cause=cause,
+                )
             )
         self.adjustments.append(Adjustment(self.axis, parameter, asked, used, unit, cause))
         return used
 
     def _range_cause(self) -> str:
-        low = readable(self.low, self.unit, scale=self.high or self.low)
-        return f"the range {low} to {readable(self.high, self.unit, scale=self.high or self.low)}"
+        low = exact(self.low, self.unit, size=self.high or self.low)
+        return f"the range {low} to {exact(self.high, self.unit, size=self.high or self.low)}"
 
 
 def natural_frequency(axis: Axis) -> float | None:

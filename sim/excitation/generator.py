@@ -13,6 +13,8 @@ from rotemina.sim.excitation.levels import Prbs, Staircase, Steps
 from rotemina.sim.excitation.quantity import ExcitationError
 from rotemina.sim.excitation.swings import DecayingTriangle, Sweeps, Triangle
 from rotemina.sim.excitation.tones import Chirp, Multisine, Sine
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.dry_run import dry_run
@@ -96,12 +98,12 @@ def excite(
         If the model predicts a motion beyond the range whatever the amplitude.
     """
     if not plan:
-        raise ExcitationError("excitation: no axis is named; name one at least")
+        raise ExcitationError(message("engine", "excitation: no axis is named; name one at least"))
     _check_names(robot, plan)
     rate = default_rate(robot, plan) if rate_hz is None else rate_hz
     _check_rate(robot, plan, rate)
     if seed < 0:
-        raise ExcitationError(f"seed {seed}: must be 0 or more")
+        raise ExcitationError(message("engine", "seed {seed}: must be 0 or more").fill(seed=seed))
     request = _Request(robot, plan, rate, seed, strict)
     most: dict[str, float] = {}
     for _ in range(_TRIES):
@@ -166,15 +168,18 @@ def _check_names(robot: Robot, plan: Mapping[str, Kind]) -> None:
     for name in plan:
         if name not in robot.axes:
             raise ExcitationError(
-                f"axis {name!r}: robot {robot.name!r} has no such axis; "
-                f"use one of {', '.join(robot.axes)}"
+                message(
+                    "engine", "axis {name}: robot {robot_name} has no such axis; use one of {names}"
+                ).fill(name=repr(name), robot_name=repr(robot.name), names=", ".join(robot.axes))
             )
 
 
 def _check_rate(robot: Robot, plan: Mapping[str, Kind], rate_hz: float) -> None:
     if not (isfinite(rate_hz) and 0 < rate_hz <= _FASTEST_HZ):
         raise ExcitationError(
-            f"rate {rate_hz:.6g} Hz: must lie above 0 and up to {_FASTEST_HZ:.6g} Hz"
+            message("engine", "rate {rate_hz} Hz: must lie above 0 and up to {fastest_hz} Hz").fill(
+                rate_hz=rounded(rate_hz, 6), fastest_hz=rounded(_FASTEST_HZ, 6)
+            )
         )
     if rate_hz >= _SLOWEST_HZ:
         return
@@ -182,6 +187,9 @@ def _check_rate(robot: Robot, plan: Mapping[str, Kind], rate_hz: float) -> None:
         axis = robot.axes[name]
         if axis.max_speed is not None or axis.max_acceleration is not None:
             raise ExcitationError(
-                f"axis {name}: rate {rate_hz:.6g} Hz is below {_SLOWEST_HZ:.6g} Hz: the device "
-                "would stand between rows and jump, beyond its speed and acceleration"
+                message(
+                    "engine",
+                    "axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device would "
+                    "stand between rows and jump, beyond its speed and acceleration",
+                ).fill(name=name, rate_hz=rounded(rate_hz, 6), slowest_hz=rounded(_SLOWEST_HZ, 6))
             )

@@ -23,6 +23,8 @@ from rotemina.sim.excitation.quantity import (
     check_count,
     check_positive,
 )
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import rounded
 
 _RISE_S = 0.02  # of a step, where nothing is asked
 
@@ -103,7 +105,11 @@ class Steps:
         if self.jerk is None:
             return inf
         if isinstance(self.jerk, Share) or not self.jerk > 0:
-            raise ExcitationError(f"axis {draft.axis}: jerk {self.jerk} must be a value above 0")
+            raise ExcitationError(
+                message("engine", "axis {axis}: jerk {jerk} must be a value above 0").fill(
+                    axis=draft.axis, jerk=str(self.jerk)
+                )
+            )
         return self.jerk
 
     def _rise(self, draft: Draft, amplitude: float, jerk: float) -> float:
@@ -161,13 +167,14 @@ class Prbs:
         asked = self.frequency_hz or draft.useful_hz()
         if asked > draft.rate_hz:
             raise ExcitationError(
-                f"axis {draft.axis}: clock {asked:.6g} Hz must not exceed the rate "
-                f"{draft.rate_hz:.6g} Hz"
+                message(
+                    "engine", "axis {axis}: clock {asked} Hz must not exceed the rate {rate_hz} Hz"
+                ).fill(axis=draft.axis, asked=rounded(asked, 6), rate_hz=rounded(draft.rate_hz, 6))
             )
         chip = draft.rows(1.0 / asked)
         clock = draft.rate_hz / chip
         if self.frequency_hz is not None:
-            draft.rounded("frequency", asked, clock, "Hz", "whole rows in a chip")
+            draft.rounded("frequency", asked, clock, "Hz", marked("engine", "whole rows in a chip"))
         return chip, clock
 
 

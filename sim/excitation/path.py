@@ -11,6 +11,8 @@ from rotemina.sim.excitation.moves import (
     trapezoid,
 )
 from rotemina.sim.excitation.quantity import ExcitationError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 
 class Path:
@@ -66,6 +68,9 @@ class Path:
         rate = self._draft.rate_hz
         if not self._rows + duration_s * rate <= MOST_ROWS:
             raise ExcitationError(
-                f"axis {self._draft.axis}: it would take more than {MOST_ROWS} rows at "
-                f"{rate:.6g} Hz; shorten it, move faster or lower the rate"
+                message(
+                    "engine",
+                    "axis {axis}: it would take more than {most_rows} rows at {rate} Hz; shorten "
+                    "it, move faster or lower the rate",
+                ).fill(axis=self._draft.axis, most_rows=MOST_ROWS, rate=rounded(rate, 6))
             )

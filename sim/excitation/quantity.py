@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from math import isfinite
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.units import UnitError, from_unit, quantity
 
 _AMOUNT = re.compile(
@@ -44,18 +46,30 @@ def parse_amount(text: str) -> Stated | Share:
     """
     match = _AMOUNT.fullmatch(text)
     if match is None:
-        raise ExcitationError(f"{text[:40]!r} is no amount; write it like 200urad, 5um or 30%")
+        raise ExcitationError(
+            message("engine", "{text} is no amount; write it like 200urad, 5um or 30%").fill(
+                text=repr(text[:40])
+            )
+        )
     number, unit, per = float(match[1]), match[2], (match[3] or "").replace("³", "3")
     if not isfinite(number):
-        raise ExcitationError(f"{text[:40]!r} is not a finite number")
+        raise ExcitationError(
+            message("engine", "{text} is not a finite number").fill(text=repr(text[:40]))
+        )
     if unit == "%" and not per:
         return Share(number / 100.0)
     if not unit:
-        raise ExcitationError(f"{text[:40]!r} has no unit; write it like 200urad, 5um or 30%")
+        raise ExcitationError(
+            message("engine", "{text} has no unit; write it like 200urad, 5um or 30%").fill(
+                text=repr(text[:40])
+            )
+        )
     try:
         return Stated(float(from_unit(number, unit)), quantity(unit) + per)
     except UnitError as error:
-        raise ExcitationError(f"{text[:40]!r}: {error}") from error
+        raise ExcitationError(
+            message("engine", "{text}: {error}").fill(text=repr(text[:40]), error=str(error))
+        ) from error
 
 
 def amount_of(text: str, axis: str, unit: str) -> Amount:
@@ -70,7 +84,11 @@ def amount_of(text: str, axis: str, unit: str) -> Amount:
     if isinstance(amount, Share):
         return amount
     if amount.unit != unit:
-        raise ExcitationError(f"axis {axis}: {text[:40]!r} is in {amount.unit}, not in {unit}")
+        raise ExcitationError(
+            message("engine", "axis {axis}: {text} is in {unit}, not in {wanted}").fill(
+                axis=axis, text=repr(text[:40]), unit=amount.unit, wanted=unit
+            )
+        )
     return amount.value
 
 
@@ -84,7 +102,11 @@ def check_positive(**values: float | None) -> None:
     """
     for name, value in values.items():
         if value is not None and not (isfinite(value) and value > 0):
-            raise ExcitationError(f"{name} = {value:.6g}: must be a finite number above 0")
+            raise ExcitationError(
+                message("engine", "{name} = {value}: must be a finite number above 0").fill(
+                    name=name, value=rounded(value, 6)
+                )
+            )
 
 
 def check_count(least: int, most: int, **values: int | None) -> None:
@@ -97,4 +119,8 @@ def check_count(least: int, most: int, **values: int | None) -> None:
     """
     for name, value in values.items():
         if value is not None and not least <= value <= most:
-            raise ExcitationError(f"{name} = {value}: must lie between {least} and {most}")
+            raise ExcitationError(
+                message("engine", "{name} = {value}: must lie between {least} and {most}").fill(
+                    name=name, value=value, least=least, most=most
+                )
+            )

@@ -13,6 +13,8 @@ from rotemina.sim.excitation.draft import Draft, Signal
 from rotemina.sim.excitation.moves import cruise_speed, longest_stroke
 from rotemina.sim.excitation.path import Path
 from rotemina.sim.excitation.quantity import Amount, ExcitationError, Share, check_positive
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import exact
 
 _CRUISE = 0.5  # of a sweep's stroke at least is at constant speed
 _SPEEDS = (1.0, 1 / 3, 0.1)  # of the greatest, where none are asked
@@ -144,10 +146,16 @@ class Sweeps:
 
     def _speeds(self, draft: Draft, stroke: float) -> list[float]:
         unit = f"{draft.unit}/s"
-        most = {"constant speed over half the stroke": sqrt(_CRUISE * stroke * draft.acceleration)}
+        most = {
+            marked("engine", "constant speed over half the stroke"): sqrt(
+                _CRUISE * stroke * draft.acceleration
+            )
+        }
         if draft.speed < inf:
             most[draft.speed_cause()] = draft.speed
-        most["a row at constant speed at least"] = _CRUISE * stroke * draft.rate_hz
+        most[marked("engine", "a row at constant speed at least")] = (
+            _CRUISE * stroke * draft.rate_hz
+        )
         if not self.speeds:
             fastest = min(_HEADROOM * draft.speed, stroke / _SWEEP_S, *most.values())
             return [fastest * share for share in _SPEEDS]
@@ -158,7 +166,9 @@ class Sweeps:
         for speed in asked:
             if not 0 < speed < inf:
                 raise ExcitationError(
-                    f"axis {draft.axis}: speed {speed:.6g} {unit} must be above 0"
+                    message("engine", "axis {axis}: speed {speed} must be above 0").fill(
+                        axis=draft.axis, speed=exact(speed, unit)
+                    )
                 )
         return [draft.limited("speed", speed, most, unit) for speed in asked]
 
@@ -179,7 +189,9 @@ def _part_of_period(draft: Draft, asked: float, parts: int, *, stated: bool) -> 
     rows = draft.rows(1.0 / (parts * asked))
     frequency = draft.rate_hz / (parts * rows)
     if stated:
-        draft.rounded("frequency", asked, frequency, "Hz", "whole rows between its corners")
+        draft.rounded(
+            "frequency", asked, frequency, "Hz", marked("engine", "whole rows between its corners")
+        )
     return rows, frequency
 
 

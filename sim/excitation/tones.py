@@ -13,8 +13,10 @@ from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.excitation.draft import Draft, Signal
 from rotemina.sim.excitation.multisine import odd_lines, quietest_start, reduced_crest
 from rotemina.sim.excitation.quantity import Amount, ExcitationError, check_count, check_positive
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import rounded
 
-WHOLE_PERIODS = "whole periods"
+WHOLE_PERIODS = marked("engine", "whole periods")
 _ON_A_PERIOD = 1e-9  # periods: that many short of whole ones are whole
 
 
@@ -83,12 +85,22 @@ class Chirp:
         phase = rows / draft.rate_hz * self._cycles(share, low, high)
         if phase[-1] < 1.0:
             raise ExcitationError(
-                f"axis {draft.axis}: chirp from {low:.6g} Hz to {high:.6g} Hz has less than one "
-                f"period in {self.duration_s:.6g} s; lengthen it"
+                message(
+                    "engine",
+                    "axis {axis}: chirp from {low} Hz to {high} Hz has less than one period in "
+                    "{duration_s} s; lengthen it",
+                ).fill(
+                    axis=draft.axis,
+                    low=rounded(low, 6),
+                    high=rounded(high, 6),
+                    duration_s=rounded(self.duration_s, 6),
+                )
             )
         factor = floor(phase[-1] + _ON_A_PERIOD) / phase[-1]
         if self.high_hz is not None:
-            draft.rounded("end of the band", high, high * factor, "Hz", WHOLE_PERIODS)
+            draft.rounded(
+                marked("engine", "end of the band"), high, high * factor, "Hz", WHOLE_PERIODS
+            )
         shape = -np.cos(2.0 * np.pi * factor * phase)
         offset = draft.offset(self.offset)
         amplitude = draft.amplitude(self.amplitude, offset, draft.shape_amplitudes(shape))
@@ -168,16 +180,25 @@ class Multisine:
         )
         check_count(0, 1000, detection=self.detection)
         if self.detection == 1:
-            raise ExcitationError("detection = 1: would leave out every line; use 0 or 2 and more")
+            raise ExcitationError(
+                message("engine", "detection = 1: would leave out every line; use 0 or 2 and more")
+            )
         if not abs(self.slope) <= 4.0:
-            raise ExcitationError(f"slope = {self.slope:.6g}: must lie between -4 and 4")
+            raise ExcitationError(
+                message("engine", "slope = {slope}: must lie between -4 and 4").fill(
+                    slope=rounded(self.slope, 6)
+                )
+            )
 
     def _lines(self, draft: Draft, low: float, high: float) -> IntArray:
         lines = odd_lines(low, high, self.detection, draft.rng)
         if len(lines) == 0:
             raise ExcitationError(
-                f"axis {draft.axis}: no odd multiple of 1/period_s = {1 / self.period_s:.6g} Hz "
-                "lies in the band; widen it or lengthen the period"
+                message(
+                    "engine",
+                    "axis {axis}: no odd multiple of 1/period_s = {period_s} Hz lies in the band; "
+                    "widen it or lengthen the period",
+                ).fill(axis=draft.axis, period_s=rounded(1 / self.period_s, 6))
             )
         return lines
 
@@ -203,7 +224,9 @@ def band(draft: Draft, low: float | None, high: float | None) -> tuple[float, fl
     low = min(1.0, high / 10.0) if low is None else low
     if low > high:
         raise ExcitationError(
-            f"axis {draft.axis}: band from {low:.6g} Hz to {high:.6g} Hz ends below its beginning"
+            message(
+                "engine", "axis {axis}: band from {low} Hz to {high} Hz ends below its beginning"
+            ).fill(axis=draft.axis, low=rounded(low, 6), high=rounded(high, 6))
         )
-    draft.check_frequency("end of the band", high)
+    draft.check_frequency(marked("engine", "end of the band"), high)
     return low, high

@@ -17,6 +17,7 @@ from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.gains import Gains, OutputLimits
 from rotemina.sim.feedback.sampled_axis import SampledAxis, late_intervals
 from rotemina.sim.feedback.stability import PEAK_SENSITIVITY, check_stability
+from rotemina.sim.messages import message
 from rotemina.sim.plant import kernel
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.group import asked_position
@@ -241,17 +242,27 @@ def rows_after(
 def _check(robot: Robot, axis: str, rate_hz: float, delay: int) -> None:
     if axis not in robot.axes:
         raise FeedbackError(
-            f"axis {axis!r}: robot {robot.name!r} has no such axis; use one of "
-            f"{', '.join(robot.axes)}"
+            message(
+                "engine", "axis {axis}: robot {name} has no such axis; use one of {names}"
+            ).fill(axis=repr(axis), name=repr(robot.name), names=", ".join(robot.axes))
         )
     if isinstance(robot.axes[axis], ForceAxis):
         raise FeedbackError(
-            f"axis {axis}: it is moved by a force and keeps no position by itself; give it a "
-            "cascade controller in the robot file"
+            message(
+                "engine",
+                "axis {axis}: it is moved by a force and keeps no position by itself; give it a "
+                "cascade controller in the robot file",
+            ).fill(axis=axis)
         )
     if not 0.0 < rate_hz <= FASTEST_HZ:
         raise FeedbackError(
-            f"loop rate {rate_hz:g} Hz: must be more than 0, at most {FASTEST_HZ:g} Hz"
+            message(
+                "engine", "loop rate {rate_hz} Hz: must be more than 0, at most {fastest_hz} Hz"
+            ).fill(rate_hz=rate_hz, fastest_hz=FASTEST_HZ)
         )
     if not 0 <= delay <= _LONGEST_DELAY:
-        raise FeedbackError(f"loop delay of {delay} intervals: must be 0 to {_LONGEST_DELAY}")
+        raise FeedbackError(
+            message("engine", "loop delay of {delay} intervals: must be 0 to {longest_delay}").fill(
+                delay=delay, longest_delay=_LONGEST_DELAY
+            )
+        )

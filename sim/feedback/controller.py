@@ -14,6 +14,7 @@ from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.filters import THROUGH, Biquad, low_pass, notch
 from rotemina.sim.feedback.gains import AntiWindup, Gains, OutputLimits
+from rotemina.sim.messages import message
 
 NO_LIMITS = OutputLimits()
 _ANY = float(np.finfo(np.float64).max)  # of finite errors
@@ -89,8 +90,11 @@ class Controller:
         """
         if not (isfinite(reference) and isfinite(measured)):
             raise FeedbackError(
-                f"controller: reference {reference:g}, measured {measured:g}: both must be finite; "
-                "hold the last output until the sensor answers again"
+                message(
+                    "engine",
+                    "controller: reference {reference}, measured {measured}: both must be finite; "
+                    "hold the last output until the sensor answers again",
+                ).fill(reference=reference, measured=measured)
             )
         return self.answer(reference, measured)
 
@@ -130,7 +134,11 @@ class Controller:
 def numbers_of(gains: Gains, interval_s: float, limits: OutputLimits) -> FloatArray:
     """Return the numbers of the recurrence."""
     if not (isfinite(interval_s) and interval_s > 0.0):
-        raise FeedbackError(f"loop interval {interval_s:g} s: must be positive and finite")
+        raise FeedbackError(
+            message("engine", "loop interval {interval_s} s: must be positive and finite").fill(
+                interval_s=interval_s
+            )
+        )
     pole = _pole(gains, interval_s)
     numbers = np.zeros(kernel.NUMBERS)
     numbers[kernel.P] = gains.proportional

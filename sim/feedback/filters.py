@@ -14,6 +14,7 @@ import numpy as np
 
 from rotemina.sim.arrays import ComplexArray
 from rotemina.sim.feedback.errors import FeedbackError
+from rotemina.sim.messages import message
 
 
 class Biquad(NamedTuple):
@@ -64,8 +65,11 @@ def _warped(name: str, frequency_hz: float, rate_hz: float) -> float:
     """Return K/ω."""
     if not 0.0 < frequency_hz < 0.5 * rate_hz:
         raise FeedbackError(
-            f"{name} at {frequency_hz:g} Hz: it must lie above 0 and below half the loop's rate, "
-            f"{0.5 * rate_hz:g} Hz"
+            message(
+                "engine",
+                "{name} at {frequency_hz} Hz: it must lie above 0 and below half the loop's rate, "
+                "{rate_hz} Hz",
+            ).fill(name=name, frequency_hz=frequency_hz, rate_hz=0.5 * rate_hz)
         )
     return 1.0 / tan(pi * frequency_hz / rate_hz)
 

@@ -11,6 +11,8 @@ from math import inf, isfinite
 from pydantic import ConfigDict
 
 from rotemina.sim.feedback.errors import FeedbackError
+from rotemina.sim.messages import joined, marked, message
+from rotemina.sim.quantities import Number, rounded
 
 _STRICT = ConfigDict(extra="forbid")  # where a file is read
 _AMOUNTS = ("proportional", "integral", "double_integral", "derivative", "derivative_filter_s")
@@ -47,9 +49,11 @@ class Notch:
     depth: float = 0.05
 
     def __post_init__(self) -> None:
-        _check("notch frequency", self.frequency_hz, 0.0, inf, "Hz", open_below=True)
-        _check("notch damping", self.damping, 0.0, 10.0, "", open_below=True)
-        _check("notch depth", self.depth, 0.0, 1.0, "")
+        _check(
+            marked("engine", "notch frequency"), self.frequency_hz, 0.0, inf, "Hz", open_below=True
+        )
+        _check(marked("engine", "notch damping"), self.damping, 0.0, 10.0, "", open_below=True)
+        _check(marked("engine", "notch depth"), self.depth, 0.0, 1.0, "")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -116,10 +120,16 @@ class OutputLimits:
     def __post_init__(self) -> None:
         if not self.low < self.high:
             raise FeedbackError(
-                f"output limits: low {self.low:g}, high {self.high:g}: low must be less than high"
+                message(
+                    "engine", "output limits: low {low}, high {high}: low must be less than high"
+                ).fill(low=self.low, high=self.high)
             )
         if not self.rate > 0.0:
-            raise FeedbackError(f"output limits: rate {self.rate:g} per s: must be more than 0")
+            raise FeedbackError(
+                message("engine", "output limits: rate {rate} per s: must be more than 0").fill(
+                    rate=self.rate
+                )
+            )
 
 
 def _check(
@@ -127,6 +137,13 @@ def _check(
 ) -> None:
     if isfinite(value) and low <= value <= high and not (open_below and value == low):
         return
-    bound = f"more than {low:g}" if open_below else f"at least {low:g}"
-    above = f", at most {high:g}" if isfinite(high) else ""
-    raise FeedbackError(f"{name} {value:g} {unit}".rstrip() + f": must be finite, {bound}{above}")
+    template = (
+        message("engine", "{name} {value}: must be finite, more than {low}")
+        if open_below
+        else message("engine", "{name} {value}: must be finite, at least {low}")
+    )
+    bound = template.fill(name=name, value=Number(f"{rounded(value, 6)} {unit}".rstrip()), low=low)
+    if isfinite(high):
+        most = message("engine", "at most {high}").fill(high=high)
+        raise FeedbackError(joined((bound, most), ", "))
+    raise FeedbackError(bound)

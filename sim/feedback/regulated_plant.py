@@ -11,6 +11,7 @@ from rotemina.sim.feedback import loop_kernel
 from rotemina.sim.feedback.axis_loop import rows_after
 from rotemina.sim.feedback.controller import Controller
 from rotemina.sim.feedback.errors import LostLoopError
+from rotemina.sim.messages import message
 from rotemina.sim.plant import kernel
 from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.errors import PlantError
@@ -18,6 +19,7 @@ from rotemina.sim.plant.group import asked_position
 from rotemina.sim.plant.machine import Machine
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.state import Behind, Motion, PlantState
+from rotemina.sim.quantities import amount, percent
 
 Controllers = Mapping[int, Controller]
 
@@ -194,16 +196,24 @@ def _watch(
         return
     name = plant.axes[index]
     row = int(np.argmax(lost | led))
+    unit = plant.robot.unit(name) or ""
     what = (
-        f"its sensor is {error[row]:.3g} {plant.robot.unit(name)} away from where it shall be "
-        f"({_LOST:.0%} of the range at most)"
+        message(
+            "engine",
+            "its sensor is {much} away from where it should be ({share} of the range at most)",
+        ).fill(much=amount(float(error[row]), unit, digits=3), share=percent(_LOST))
         if lost[row]
-        else f"it has added {added[row] - controller.begun_at:.3g} {plant.robot.unit(name)} "
-        f"({_LED:.0%} of the range at most)"
+        else message("engine", "it has added {much} ({share} of the range at most)").fill(
+            much=amount(float(added[row] - controller.begun_at), unit, digits=3),
+            share=percent(_LED),
+        )
     )
     raise LostLoopError(
-        f"axis {name}: its loop was given up, as nothing answers it: {what}; check the sensor and "
-        "the actuator, clear the fault, then close the loop again"
+        message(
+            "engine",
+            "axis {name}: its loop was given up, as nothing answers it: {what}; check the sensor "
+            "and the actuator, clear the fault, then close the loop again",
+        ).fill(name=name, what=what)
     )
 
 
@@ -224,6 +234,9 @@ def _check(plant: Plant, position: FloatArray) -> None:
     finite = np.isfinite(position).all(axis=0)
     if not finite.all():
         raise PlantError(
-            f"axis {plant.axes[int(np.argmax(~finite))]}: the response under a loop grows beyond "
-            "what a number can hold; lower the gains"
+            message(
+                "engine",
+                "axis {axes}: the response under a loop grows beyond what a number can hold; lower "
+                "the gains",
+            ).fill(axes=plant.axes[int(np.argmax(~finite))])
         )

@@ -8,6 +8,7 @@ from rotemina.sim.feedback.gains import Gains
 from rotemina.sim.feedback.lead import lead_taps
 from rotemina.sim.feedback.spread import SPREAD, loops_of
 from rotemina.sim.feedback.stability import PEAK_SENSITIVITY, UnstableError, check_stability
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
 
@@ -51,7 +52,10 @@ class Regulation:
                 check_stability(other.sampled, gains, peak_sensitivity)
             except UnstableError as error:
                 raise UnstableError(
-                    f"{error} (with gain or resonance off by {100.0 * spread:g} %, as they may be)"
+                    message(
+                        "engine",
+                        "{error} (with gain or resonance off by {spread} %, as they may be)",
+                    ).fill(error=str(error), spread=100.0 * spread)
                 ) from error
         self.robot, self.axis, self.gains, self.rate_hz = robot, axis, gains, rate_hz
         self.limits = nominal.limits

@@ -15,9 +15,11 @@ import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.feedback.errors import FeedbackError
+from rotemina.sim.messages import message
 from rotemina.sim.plant.group import asked_position
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.sampling import step_matrices
+from rotemina.sim.quantities import rounded
 
 _WHOLE = 1e-6  # of an interval: how near to whole ones a delay must be
 
@@ -104,8 +106,15 @@ def late_intervals(plant: Plant, axis: str, interval_s: float) -> int:
     late = round(delay_s / interval_s)
     if abs(delay_s - late * interval_s) > _WHOLE * interval_s:
         raise FeedbackError(
-            f"axis {axis}: effect delay of {delay_s:g} s is {delay_s / interval_s:.4g} intervals "
-            f"of a loop at {1.0 / interval_s:g} Hz, and must be a whole number of them; "
-            "choose another rate or delay"
+            message(
+                "engine",
+                "axis {axis}: effect delay of {delay_s} s is {intervals} intervals of a loop at "
+                "{rate_hz} Hz, and must be a whole number of them; choose another rate or delay",
+            ).fill(
+                axis=axis,
+                delay_s=delay_s,
+                intervals=rounded(delay_s / interval_s, 4),
+                rate_hz=1.0 / interval_s,
+            )
         )
     return late

@@ -17,6 +17,8 @@ from rotemina.sim.feedback.controller import NO_LIMITS, numbers_of, response
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.gains import Gains
 from rotemina.sim.feedback.sampled_axis import SampledAxis
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 PEAK_SENSITIVITY = 1.7
 _EDGE = 1e-9  # a pole that is no nearer to the unit circle is taken to lie on it
@@ -118,16 +120,29 @@ def check_stability(
         If it is unstable, or its peak sensitivity greater than allowed, with what tells so.
     """
     found = LoopAnalysis(axis).stability(gains)
-    where = f"axis {axis.axis}: loop at {1.0 / axis.interval_s:.6g} Hz"
+    where = message("engine", "axis {axis}: loop at {interval_s} Hz").fill(
+        axis=axis.axis, interval_s=rounded(1.0 / axis.interval_s, 6)
+    )
     if not found.stable:
         raise UnstableError(
-            f"{where}: unstable, its largest pole {found.radius:.6g} is not inside the unit "
-            "circle; lower the gains, or put a notch at the resonance; nothing was applied"
+            message(
+                "engine",
+                "{where}: unstable, its largest pole {radius} is not inside the unit circle; lower "
+                "the gains, or put a notch at the resonance; nothing was applied",
+            ).fill(where=where, radius=rounded(found.radius, 6))
         )
     if found.peak_sensitivity > peak_sensitivity:
         raise UnstableError(
-            f"{where}: peak sensitivity Ms = {found.peak_sensitivity:.3g} at {found.peak_hz:.4g} "
-            f"Hz, {peak_sensitivity:g} at most; lower the gains; nothing was applied"
+            message(
+                "engine",
+                "{where}: peak sensitivity Ms = {peak} at {peak_hz} Hz, "
+                "{most} at most; lower the gains; nothing was applied",
+            ).fill(
+                where=where,
+                peak=rounded(found.peak_sensitivity, 3),
+                peak_hz=rounded(found.peak_hz, 4),
+                most=peak_sensitivity,
+            )
         )
     return found
 

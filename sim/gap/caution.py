@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from rotemina.sim.messages import Message
 from rotemina.sim.records.record import Record
 
 
@@ -12,14 +13,14 @@ class Caution:
 
     Attributes
     ----------
-    text : str
+    text : Message
         The same whatever the record's file name and place among the others.
     axis : str, optional
     record : int, optional
         Its number among the records, from 0; None for what concerns all of them.
     """
 
-    text: str
+    text: Message
     axis: str | None = None
     record: int | None = None
 
@@ -32,11 +33,11 @@ class Labelled:
     name: str
     number: int
 
-    def caution(self, text: str, axis: str | None = None) -> Caution:
+    def caution(self, text: Message, axis: str | None = None) -> Caution:
         """Return a caution about this record."""
         return Caution(text, axis, self.number)
 
 
-def remarks(cautions: Iterable[Caution], axis: str) -> tuple[str, ...]:
+def remarks(cautions: Iterable[Caution], axis: str) -> tuple[Message, ...]:
     """Return the sentences that concern an axis, in an order that no order of records changes."""
-    return tuple(sorted({one.text for one in cautions if one.axis in (None, axis)}))
+    return tuple(sorted({one.text for one in cautions if one.axis in (None, axis)}, key=str))

@@ -7,6 +7,8 @@ import numpy as np
 from rotemina.sim.gap.caution import Caution, Labelled
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.leaps import holes
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Tap
 
 _LOST = 1.5  # usual intervals from which a row in between is missing
@@ -34,21 +36,30 @@ def _unsteady(one: Labelled) -> Iterator[Caution]:
     missing = holes(intervals)
     if missing.any():
         yield one.caution(
-            f"Rows are missing in a record for up to {intervals[missing].max():.3g} s while no "
-            "axis is under way; the commands are taken as held meanwhile."
+            message(
+                "gap",
+                "Rows are missing in a record for up to {time} s while no axis is under way; the "
+                "commands are taken as held meanwhile.",
+            ).fill(time=rounded(intervals[missing].max(), 3))
         )
     usual = float(np.median(intervals))
     low, high = np.percentile(intervals, [5.0, 95.0])
     if high - low > _UNEVEN * usual:
         yield one.caution(
-            f"Rows of a record are {low:.3g} to {high:.3g} s apart; if these are times of a "
-            "computer and not of the device, their scatter passes for noise of the sensors."
+            message(
+                "gap",
+                "Rows of a record are {low} to {high} s apart; if these are times of a computer "
+                "and not of the device, their scatter passes for noise of the sensors.",
+            ).fill(low=rounded(low, 3), high=rounded(high, 3))
         )
         return
     lost = int(np.sum((intervals > _LOST * usual) & ~missing))
     if lost:
         yield one.caution(
-            f"Rows are missing at {lost} places of a record; the commands are taken as held there."
+            message(
+                "gap",
+                "Rows are missing at {n} places of a record; the commands are taken as held there.",
+            ).fill(n=str(lost))
         )
 
 
@@ -64,7 +75,10 @@ def _check_period(one: Labelled) -> None:
         if float(off.max()) > _REPEATS * float(np.ptp(command)):
             row = int(np.argmax(off)) + period
             raise GapError(
-                f"{one.name}: '# history: periodic' with period_samples = {period}, but {axis}.cmd "
-                f"at row {row + 1} is not what it was a period before; correct period_samples, or "
-                "write '# history: unknown'"
+                message(
+                    "gap",
+                    "{name}: '# history: periodic' with period_samples = {period}, but {axis}.cmd "
+                    "at row {row} is not what it was a period before; correct period_samples, or "
+                    "write '# history: unknown'",
+                ).fill(name=one.name, period=period, axis=axis, row=row + 1)
             )

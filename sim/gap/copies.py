@@ -8,6 +8,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.caution import Labelled
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Channel, Record, Tap
 
 _WINDOW_ROWS = 200  # that are looked for in the other record
@@ -33,8 +34,11 @@ def check_copies(records: Sequence[Labelled]) -> None:
         signals = [each.record.signal(*channel) for each in (one, other)]
         if _holds_part(*signals) or _holds_part(*reversed(signals)):
             raise GapError(
-                f"{other.name}: it holds measurements of {one.name} again ({channel}); give each "
-                "record once, and parts of one record without overlap"
+                message(
+                    "gap",
+                    "{name}: it holds measurements of {one_name} again ({channel}); give each "
+                    "record once, and parts of one record without overlap",
+                ).fill(name=other.name, one_name=one.name, channel=str(channel))
             )
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from rotemina.sim.gap.where import Place
+from rotemina.sim.messages import Message
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect, Robot
 
@@ -190,14 +191,6 @@ class Ranked:
 
 
 @dataclass(frozen=True, slots=True)
-class Untestable:
-    """An effect that the records cannot speak of, and why."""
-
-    effect: str
-    reason: str
-
-
-@dataclass(frozen=True, slots=True)
 class AxisDiagnosis:
     """Everything said of one axis."""
 
@@ -207,8 +200,9 @@ class AxisDiagnosis:
     causes: tuple[Cause, ...] = ()
     shrinkage: tuple[Shrinkage, ...] = ()
     ranking: tuple[Ranked, ...] = ()
-    untestable: tuple[Untestable, ...] = ()
-    remarks: tuple[str, ...] = ()  # whole sentences: on what a remainder depends, what was masked
+    remarks: tuple[
+        Message, ...
+    ] = ()  # whole sentences: on what a remainder depends, what was masked
     fitted: tuple[AxisEffect, ...] = ()  # what corrects the model, re-tuned parameters included
     suspected: tuple[Suspected, ...] = ()
     remainder: Remainder | None = None  # None where there is no gap
@@ -224,7 +218,7 @@ class Experiment:
     axis : str
     splits : tuple of str
         The rivals' ids; none where the records tell too little for rivals.
-    why : str
+    why : Message
         One sentence.
     time_s : tuple of float
     commands : mapping axis -> tuple of float
@@ -237,7 +231,7 @@ class Experiment:
 
     axis: str
     splits: tuple[str, ...]
-    why: str
+    why: Message
     time_s: tuple[float, ...]
     commands: Mapping[str, tuple[float, ...]]
     predictions: Mapping[str, tuple[float, ...]]

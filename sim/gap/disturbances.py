@@ -24,6 +24,8 @@ from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.jumps import jumps as jumps_in
 from rotemina.sim.gap.tones import tone_signals, tones
 from rotemina.sim.gap.whiteness import common_level, noise_level
+from rotemina.sim.messages import Listed, Message, message
+from rotemina.sim.quantities import Number, exact, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, StepperAxis
 
@@ -50,7 +52,7 @@ class Disturbance:
     sign: Sign
     tap: Tap
     power: float
-    note: str
+    note: Message
     step: float | None = None
 
     @property
@@ -109,7 +111,9 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         return evidence, []  # a play that is used up, or what else is there in all records
     if power and _is_loose(evidence):
         return evidence, []
-    note = f"{count} sudden jumps by whole multiples of four full steps were taken back."
+    note = message(
+        "gap", "{n} sudden jumps by whole multiples of four full steps were taken back."
+    ).fill(n=str(count))
     return evidence.with_observations(observations), [
         Disturbance(Sign.JUMPS, tap, total / _rows(evidence, tap), note)
         for tap, total in power.items()
@@ -195,7 +199,7 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
         observations[number] = replace(observation, kept=masks)
     if not count:
         return evidence, []
-    note = f"{count} spikes or dropouts of the sensor were left out."
+    note = message("gap", "{n} spikes or dropouts of the sensor were left out.").fill(n=str(count))
     share = power / _rows(evidence, Tap.MEAS)
     return evidence.with_observations(observations), [
         Disturbance(Sign.SPIKES, Tap.MEAS, share, note)
@@ -261,8 +265,9 @@ def _without_tones(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
         observations.append(replace(observation, nuisance=signals))
     quiet = evidence.with_observations(observations)
     before, after = evidence.residual(), quiet.residual()
-    listed = ", ".join(f"{np.mean(lines):.4g} Hz" for lines in shared)
-    note = f"A vibration of {listed}, whatever the axis did, was set aside."
+    listed = Listed(tuple(Number(f"{rounded(float(np.mean(lines)))} Hz") for lines in shared))
+    note = message("gap", "A vibration of {frequencies}, whatever the axis did, was set aside.")
+    note = note.fill(frequencies=listed)
     return quiet, [
         Disturbance(Sign.TONES, tap, power, note)
         for tap in dict.fromkeys(one for one in taps if one is not None)
@@ -297,13 +302,16 @@ def _with_true_floors(evidence: Evidence, *, cells: bool) -> tuple[Evidence, lis
     level = common_level(levels)
     if step is not None:
         power = (step / floor) ** 2 / 12.0
-        note = f"The sensor reads in steps of {step:.3g}."
+        unit = evidence.observations[0].record.units[evidence.axis]
+        note = message("gap", "The sensor reads in steps of {step}.")
+        note = note.fill(step=exact(step, unit))
         # At rest an error of up to half a step stays as it is, which no mean over errors tells.
         raised = _raised(evidence, float(np.sqrt(1.0 + 3.0 * power)))
         seen = _by_cells(evidence, raised, answers, step) if cells else raised
         return seen, [Disturbance(Sign.STEPS, Tap.MEAS, power, note, step)]
     if level > _MORE_NOISE:
-        note = f"The sensor is {level:.3g} times as noisy as declared."
+        note = message("gap", "The sensor is {times} times as noisy as declared.")
+        note = note.fill(times=rounded(level, 3))
         return _raised(evidence, level), [Disturbance(Sign.NOISE, Tap.MEAS, level**2 - 1.0, note)]
     return evidence, []
 

@@ -79,11 +79,7 @@ def as_json(diagnosis: Diagnosis, files: Sequence[ExperimentFiles] = ()) -> Json
         "candidates": {name: _candidates(one) for name, one in axes.items()},
         "next_experiments": [_experiment(one, names) for one, names in suggested],
         "model": _model(diagnosis),
-        "untestable": {
-            name: [{"effect": each.effect, "reason": each.reason} for each in one.untestable]
-            for name, one in axes.items()
-        },
-        "remarks": {name: list(one.remarks) for name, one in axes.items()},
+        "remarks": {name: [str(text) for text in one.remarks] for name, one in axes.items()},
         "seed": diagnosis.seed,
     }
 
@@ -243,7 +239,7 @@ def _experiment(experiment: Experiment, files: ExperimentFiles | None) -> Json:
     return {
         "axis": experiment.axis,
         "splits": list(experiment.splits),
-        "why": experiment.why,
+        "why": str(experiment.why),
         "commands": files.commands if files is not None else None,
         "predictions": dict(files.predictions) if files is not None else {},
         "tap": str(experiment.tap),

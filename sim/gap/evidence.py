@@ -18,6 +18,7 @@ from rotemina.sim.gap.cells import beyond
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.floors import floors
 from rotemina.sim.gap.history import other_starts, start
+from rotemina.sim.messages import message
 from rotemina.sim.plant.finely import respond
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import check_axes, run_of
@@ -106,8 +107,11 @@ class Evidence:
                 observations.append(observation)
         if not observations:
             raise GapError(
-                f"axis {axis!r}: no record holds a measured channel of it (u, ref or meas) whose "
-                "noise floor is known or can be measured; nothing can be compared"
+                message(
+                    "gap",
+                    "axis {axis}: no record holds a measured channel of it (u, ref or meas) whose "
+                    "noise floor is known or can be measured; nothing can be compared",
+                ).fill(axis=repr(axis))
             )
         return cls(robot, axis, tuple(observations))
 

@@ -13,7 +13,6 @@ import numpy as np
 from rotemina.sim.gap.diagnosis import CORRECTING, Experiment, Verdict
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination
-from rotemina.sim.gap.report.words import effect_title, listed
 from rotemina.sim.gap.rivals import Rival, not_ruled_out
 from rotemina.sim.gap.separation import (
     Answer,
@@ -26,9 +25,11 @@ from rotemina.sim.gap.separation import (
     plainly_apart,
 )
 from rotemina.sim.gap.trials import RICH, Trial, trials
+from rotemina.sim.gap.wording import effect_on
+from rotemina.sim.messages import AxisName, Listed, Message, message
+from rotemina.sim.quantities import amount, rounded
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.wording import readable
 
 _MOST_SETS = 2
 _MOST_RIVALS = 4
@@ -98,8 +99,11 @@ def _rich(axis: str, trial: Trial) -> Experiment:
     return Experiment(
         axis=axis,
         splits=(),
-        why=f"The records move {axis} too little to tell effects apart. Play this: "
-        f"{_described(trial, axis)}; it goes through many amplitudes and speeds.",
+        why=message(
+            "gap",
+            "The records move {axis} too little to tell effects apart. Play this: {test}; it goes "
+            "through many amplitudes and speeds.",
+        ).fill(axis=AxisName(axis), test=_described(trial, axis)),
         time_s=tuple(record.time_s.tolist()),
         commands={name: tuple(record.signal(name, Tap.CMD).tolist()) for name in record.axes},
         predictions={},
@@ -268,42 +272,45 @@ def _why(
     left_out: Sequence[Rival],
     *,
     doubtful: bool,
-) -> str:
-    closest = "" if len(rivals) == 2 else ", the closest two of them,"
-    floors = f"{float(f'{choice.apart:.2g}'):g} noise floors (rms)"
-    said = (
-        f"To tell {_listed(rivals)} apart, play this: {_described(choice.trial, axis)}; it sets "
-        f"them{closest} {floors} apart, even once each is fitted to it"
+) -> Message:
+    said = message(
+        "gap",
+        "To tell {effects} apart, play this: {test}; it sets them{closest} {n} noise floors (rms) "
+        "apart, even once each is fitted to it{doubt}{reference}{others}.",
     )
-    if doubtful:
-        said += ", which may be too little"
-    if choice.need_reference:
-        said += (
-            f", if the reference (ref) of {axis} is recorded too: without it, it does not tell "
-            f"{_listed(choice.need_reference)} apart"
-        )
-    if left_out:
-        said += f"; no test here tells {_listed(left_out, 'or')} from one of them"
-    return f"{said}."
+    closest = message("gap", ", the closest two of them,")
+    doubt = message("gap", ", which may be too little")
+    reference = message(
+        "gap",
+        ", if the reference (ref) of {axis} is recorded too: without it, it does not tell "
+        "{effects} apart",
+    ).fill(axis=AxisName(axis), effects=_listed(choice.need_reference))
+    others = message("gap", "; no test here tells {any} from one of them")
+    return said.fill(
+        effects=_listed(rivals),
+        test=_described(choice.trial, axis),
+        closest=closest if len(rivals) > 2 else "",
+        n=rounded(choice.apart, 2),
+        doubt=doubt if doubtful else "",
+        reference=reference if choice.need_reference else "",
+        others=others.fill(any=_listed(left_out, one_of_them=True)) if left_out else "",
+    )
 
 
-def _listed(rivals: Sequence[Rival], word: str = "and") -> str:
-    return listed([_title(one) for one in rivals], word)
+def _listed(rivals: Sequence[Rival], *, one_of_them: bool = False) -> Listed:
+    return Listed(tuple(effect_on(one.effect, one.from_axis) for one in rivals), one_of_them)
 
 
-def _described(trial: Trial, axis: str) -> str:
+def _described(trial: Trial, axis: str) -> Message:
     """Return a test in words: what moves, by how much, for how long."""
     record = trial.record
     moved = next((one for one in record.axes if np.ptp(record.signal(one, Tap.CMD)) > 0.0), axis)
     command = record.signal(moved, Tap.CMD)
     low, high = float(command.min()), float(command.max())
     size, middle = (
-        readable(float(f"{value:.{digits}g}"), record.units[moved])
+        amount(value, record.units[moved], digits=digits)
         for value, digits in (((high - low) / 2.0, 3), ((high + low) / 2.0, 4))
     )
-    return f"{trial.name}, ±{size} about {middle}, {record.duration_s:.3g} s"
-
-
-def _title(rival: Rival) -> str:
-    title = effect_title(rival.effect).lower()
-    return title if rival.from_axis is None else f"{title} from {rival.from_axis}"
+    said = message("gap", "{name}, ±{size} about {middle}, {time} s")
+    time = rounded(record.duration_s, 3)
+    return said.fill(name=trial.name, size=size, middle=middle, time=time)

@@ -6,6 +6,8 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.caution import Labelled
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.slow_motion import SlowMotion, follows_command
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import Robot
 
@@ -48,11 +50,28 @@ def _check(one: Labelled, axis: str, tap: Tap, motion: SlowMotion) -> None:
     if gain is None or abs(gain[0]) + _SURE * gain[1] >= _LEAST_GAIN:
         return
     followed = [name for name, other in motion.others.items() if _alike(read, other)]
-    instead = f" but {followed[0]}.cmd: channels may be swapped" if followed else ""
-    advice = "correct the columns" if followed else "switch the axis on, or leave its columns out"
+    said = (
+        message(
+            "gap",
+            "{name}: {axis}.{tap} does not follow {axis}.cmd but {other}.cmd (its gain is {gain} ± "
+            "{deviation}): channels may be swapped; correct the columns",
+        )
+        if followed
+        else message(
+            "gap",
+            "{name}: {axis}.{tap} does not follow {axis}.cmd (its gain is {gain} ± {deviation}); "
+            "switch the axis on, or leave its columns out",
+        )
+    )
     raise GapError(
-        f"{one.name}: {axis}.{tap} does not follow {axis}.cmd{instead} (its gain is "
-        f"{gain[0]:.2g} ± {gain[1]:.1g}); {advice}"
+        said.fill(
+            name=one.name,
+            axis=axis,
+            tap=tap,
+            other=followed[0] if followed else "",
+            gain=rounded(gain[0], 2),
+            deviation=rounded(gain[1], 1),
+        )
     )
 
 

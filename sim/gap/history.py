@@ -42,8 +42,8 @@ def other_starts(plant: Plant, record: Record, run: Run, axis: str) -> Iterator[
     An axis that a force moves has no place that it rests at: what was measured tells its start.
     """
     described = plant.robot.axes[axis]
-    remembers = bool(plant.effects) or not described.static
-    if record.history != "unknown" or isinstance(described, ForceAxis) or not remembers:
+    forgets = isinstance(described, ForceAxis) or not plant.assembly.remembers
+    if record.history != "unknown" or forgets:
         return
     before_s = run.time_s[0] - (run.time_s[1] - run.time_s[0])
     for end in described.range:

@@ -17,6 +17,7 @@ from rotemina.sim.gap.following import check_following
 from rotemina.sim.gap.leaps import LEAST_ROWS, check_leaps, default_names, pieces
 from rotemina.sim.gap.scales import check_scales
 from rotemina.sim.gap.stuck import check_sensors
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import ForceAxis, Robot
 
@@ -46,7 +47,7 @@ def check(
         With record, axis, value, bound and what to do.
     """
     if not records:
-        raise GapError("no record was given; name at least one")
+        raise GapError(message("gap", "no record was given; name at least one"))
     called = names or default_names(records)
     cautions = list(check_leaps(records, called))
     labelled = pieces(records, called)
@@ -60,8 +61,11 @@ def check(
     check_copies(labelled)
     if not any(_is_measured(one.record, axis) for one in labelled for axis in one.record.axes):
         raise GapError(
-            f"{_listed(labelled)}: no measured channel (u, ref or meas) but only commands; "
-            "give records of the real machine"
+            message(
+                "gap",
+                "{listed}: no measured channel (u, ref or meas) but only commands; give records "
+                "of the real machine",
+            ).fill(listed=_listed(labelled))
         )
     cautions += _missing(robot, records)
     return tuple(cautions)
@@ -76,24 +80,47 @@ def _check_fit(robot: Robot, one: Labelled) -> None:
     for axis in record.axes:
         if axis not in robot.axes:
             raise GapError(
-                f"{one.name}: robot {robot.name!r} has no axis {axis!r}; its axes are "
-                f"{', '.join(robot.axes)}; name the right robot by --robot"
+                message(
+                    "gap",
+                    "{name}: robot {robot_name} has no axis {axis}; its axes are {names}; name "
+                    "the right robot by --robot",
+                ).fill(
+                    name=one.name,
+                    robot_name=repr(robot.name),
+                    axis=repr(axis),
+                    names=", ".join(robot.axes),
+                )
             )
         unit = robot.unit(axis)
         if unit is not None and record.units[axis] != unit:
             raise GapError(
-                f"{one.name}: axis {axis!r} is in units of {record.units[axis]}, but robot "
-                f"{robot.name!r} moves it in units of {unit}; correct the unit"
+                message(
+                    "gap",
+                    "{name}: axis {axis} is in units of {units}, but robot {robot_name} moves it "
+                    "in units of {unit}; correct the unit",
+                ).fill(
+                    name=one.name,
+                    axis=repr(axis),
+                    units=record.units[axis],
+                    robot_name=repr(robot.name),
+                    unit=unit,
+                )
             )
         if not record.has(axis, Tap.CMD):
             raise GapError(
-                f"{one.name}: axis {axis!r} has no {axis}.cmd column to drive the model; add it"
+                message(
+                    "gap",
+                    "{name}: axis {quoted} has no {axis}.cmd column to drive the model; add it",
+                ).fill(name=one.name, quoted=repr(axis), axis=axis)
             )
         _check_drive(robot, one, axis)
     if len(record.time_s) < LEAST_ROWS:
         raise GapError(
-            f"{one.name}: {len(record.time_s)} rows; a diagnosis needs {LEAST_ROWS} rows or more "
-            "in each record: leave it out, or record longer"
+            message(
+                "gap",
+                "{name}: {count} rows; a diagnosis needs {least_rows} rows or more in each "
+                "record: leave it out, or record longer",
+            ).fill(name=one.name, count=len(record.time_s), least_rows=LEAST_ROWS)
         )
 
 
@@ -104,8 +131,11 @@ def _check_drive(robot: Robot, one: Labelled, axis: str) -> None:
     if one.record.closed_loop and described.controller is not None:
         return
     raise GapError(
-        f"{one.name}: axis {axis!r} is moved by a force, and no {axis}.u column tells which: add "
-        "it, or write '# mode: closed_loop' and give the robot file its controller"
+        message(
+            "gap",
+            "{name}: axis {quoted} is moved by a force, and no {axis}.u column tells which: add "
+            "it, or write '# mode: closed_loop' and give the robot file its controller",
+        ).fill(name=one.name, quoted=repr(axis), axis=axis)
     )
 
 
@@ -121,20 +151,24 @@ def _missing(robot: Robot, records: Sequence[Record]) -> Iterator[Caution]:
         if not own:
             continue
         if not taps & set(_MEASURED):
-            yield Caution("The axis was commanded but not measured: nothing is said of it.", axis)
+            said = message("gap", "The axis was commanded but not measured: nothing is said of it.")
+            yield Caution(said, axis)
             continue
         if all(np.ptp(record.signal(axis, Tap.CMD)) == 0.0 for record in own):
-            yield Caution(
+            said = message(
+                "gap",
                 "The axis was never commanded to move: only what acts without motion can show.",
-                axis,
             )
+            yield Caution(said, axis)
         if Tap.MEAS not in taps:
-            yield Caution(
-                "The axis' own sensor was not recorded: nothing is said of that sensor.", axis
+            said = message(
+                "gap", "The axis' own sensor was not recorded: nothing is said of that sensor."
             )
+            yield Caution(said, axis)
         elif Tap.REF not in taps:
-            yield Caution(
+            said = message(
+                "gap",
                 "No independent reference (ref) was recorded: effects of the sensor cannot be told "
                 "from those of the axis.",
-                axis,
             )
+            yield Caution(said, axis)

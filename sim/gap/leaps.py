@@ -9,6 +9,8 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.gap.caution import Caution, Labelled
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record, Tap
 
 LEAST_ROWS = 100  # of a record, and of a piece of one
@@ -42,7 +44,11 @@ def pieces(records: Sequence[Record], names: Sequence[str] = ()) -> list[Labelle
     for number, (record, name) in enumerate(zip(records, called, strict=True)):
         slices = _contiguous(record)
         for rows in slices:
-            label = name if len(slices) == 1 else f"{name}, rows {rows.start + 1} to {rows.stop}"
+            label = name
+            if len(slices) > 1:
+                label = message("gap", "{name}, rows {first} to {last}").fill(
+                    name=name, first=rows.start + 1, last=rows.stop
+                )
             if len(slices) == 1 or rows.stop - rows.start >= LEAST_ROWS:
                 found.append(Labelled(_piece(record, rows), label, number))
     return found
@@ -51,7 +57,9 @@ def pieces(records: Sequence[Record], names: Sequence[str] = ()) -> list[Labelle
 def default_names(records: Sequence[Record]) -> list[str]:
     """Return what messages call records without a name."""
     return [
-        f"record {number} ({len(record.time_s)} rows, {record.duration_s:.6g} s)"
+        message("gap", "record {number} ({rows} rows, {duration} s)").fill(
+            number=number, rows=len(record.time_s), duration=rounded(record.duration_s, 6)
+        )
         for number, record in enumerate(records, start=1)
     ]
 
@@ -105,21 +113,30 @@ def check_leaps(records: Sequence[Record], names: Sequence[str]) -> Iterator[Cau
         longest_s = np.diff(record.time_s)[leaps].max()
         if rows.max() < LEAST_ROWS:
             raise GapError(
-                f"{name}: time leaps {len(leaps)} ×, by up to {longest_s:.3g} s, and no piece "
-                f"between has more than {rows.max()} rows; a diagnosis needs {LEAST_ROWS} or more "
-                "without a leap: leave the record out, or record without losses"
+                message(
+                    "gap",
+                    "{name}: time leaps {count} ×, by up to {longest_s} s, and no piece between "
+                    "has more than {max} rows; a diagnosis needs {least_rows} or more without a "
+                    "leap: leave the record out, or record without losses",
+                ).fill(
+                    name=name,
+                    count=len(leaps),
+                    longest_s=rounded(longest_s, 3),
+                    max=rows.max(),
+                    least_rows=LEAST_ROWS,
+                )
             )
-        said = (
-            f"Time leaps {len(leaps)} ×, by up to {longest_s:.3g} s: the record is split there, "
-            "and what came before a piece is unknown."
-        )
         short = rows[rows < LEAST_ROWS].sum()
-        if short:
-            said = (
-                f"Time leaps {len(leaps)} ×, by up to {longest_s:.3g} s: the record is split "
-                f"there, and what came before a piece is unknown; {short} rows in pieces shorter "
-                f"than {LEAST_ROWS} are left out."
-            )
+        left_out = message("gap", "; {rows} rows in pieces shorter than {least} are left out")
+        said = message(
+            "gap",
+            "Time leaps {n} ×, by up to {time} s: the record is split there, and what came before "
+            "a piece is unknown{left_out}.",
+        ).fill(
+            n=str(len(leaps)),
+            time=rounded(longest_s, 3),
+            left_out=left_out.fill(rows=str(short), least=str(LEAST_ROWS)) if short else "",
+        )
         yield Caution(said, record=number)
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from rotemina.sim.gap.caution import remarks
+from rotemina.sim.gap.caution import Caution, remarks
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Offset, Verdict
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
@@ -31,6 +31,7 @@ from rotemina.sim.gap.order import examination_order
 from rotemina.sim.gap.progress import Account, Listener, Progress, unheard
 from rotemina.sim.gap.telling import told_of
 from rotemina.sim.gap.where import Place, locate
+from rotemina.sim.messages import AxisName, joined, message
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.group import coupled_axes
 from rotemina.sim.records.record import Record, Tap
@@ -51,6 +52,7 @@ def diagnose(
     seed: int = 0,
     jobs: int = 1,
     listener: Listener = unheard,
+    cautions: Sequence[Caution] | None = None,
 ) -> Diagnosis:
     """Tell where the gap between a robot's model and records of it lies, and what causes it.
 
@@ -67,13 +69,16 @@ def diagnose(
         How many candidates are tried at a time.
     listener : Listener
         Is told of every step; what it raises ends the diagnosis.
+    cautions : sequence of Caution, optional
+        What :func:`~rotemina.sim.gap.intake.check` said of these records; None: check them here.
 
     Raises
     ------
     GapError, PlantError, EffectError
         If the records cannot be diagnosed.
     """
-    cautions = check(robot, records)
+    if cautions is None:
+        cautions = check(robot, records)
     whole = [one.record for one in pieces(records)]
     run = _Run(robot, _in_order(whole), np.random.default_rng(seed), jobs, listener)
     # Threads of the linear algebra library only get in the way of matrices as narrow as these.
@@ -150,7 +155,11 @@ class _Run:
                 except GapError as error:
                     refusals.append(str(error))
         if not found:
-            raise GapError("; ".join(refusals) or "the records name no axis of the robot")
+            raise GapError(
+                joined(refusals, "; ")
+                if refusals
+                else message("gap", "the records name no axis of the robot")
+            )
         return found
 
     def _examine(self, name: str, evidence: Evidence, begin: float, share: float) -> None:
@@ -179,10 +188,11 @@ class _Run:
         if name in self.examined:
             return told_of(self.examined[name], places, self.rng)
         if name in self.failed:
-            why = f"Its numbers fail, so that no cause can be found: {self.failed[name]}."
-            return AxisDiagnosis(name, Verdict.UNKNOWN, places, remarks=(why,))
-        said = ("Its gap comes from what was found on other axes.",) if has_gap else ()
-        return AxisDiagnosis(name, Verdict.NONE, places, remarks=said)
+            why = message("gap", "Its numbers fail, so that no cause can be found: {error}.")
+            said = (why.fill(error=self.failed[name]),)
+            return AxisDiagnosis(name, Verdict.UNKNOWN, places, remarks=said)
+        elsewhere = message("gap", "Its gap comes from what was found on other axes.")
+        return AxisDiagnosis(name, Verdict.NONE, places, remarks=(elsewhere,) if has_gap else ())
 
     def _shaken(self, one: AxisDiagnosis, told: Mapping[str, AxisDiagnosis]) -> AxisDiagnosis:
         """Return what is said of an axis that one without explanation shakes through a coupling."""
@@ -195,7 +205,10 @@ class _Run:
                     and told[other].verdict in (Verdict.UNKNOWN, Verdict.INSUFFICIENT)
                     and _excess(told[other]) > _SHAKES * _excess(one)
                 ):
-                    said = f"It is coupled to axis {other}, whose gap is larger and not explained."
+                    said = message(
+                        "gap",
+                        "It is coupled to axis {axis}, whose gap is larger and not explained.",
+                    ).fill(axis=AxisName(other))
                     return replace(
                         one, verdict=Verdict.NONE, causes=(), remarks=(said, *one.remarks)
                     )

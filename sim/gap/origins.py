@@ -17,6 +17,7 @@ from rotemina.sim.effects.facts import Facts
 from rotemina.sim.gap.catalogue import catalogue
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.lines import line_over
+from rotemina.sim.messages import Message, message
 from rotemina.sim.records.record import Tap
 
 _MOSTLY = 0.5  # of a record's gap, that its line makes
@@ -69,15 +70,17 @@ def with_origins(evidence: Evidence) -> Evidence:
     )
 
 
-def origin_remarks(evidence: Evidence) -> tuple[str, ...]:
+def origin_remarks(evidence: Evidence) -> tuple[Message, ...]:
     """Return a sentence where records count their place from different origins."""
     count = sum(one.origin != 0.0 for one in evidence.observations)
     if count == 0:
         return ()
-    return (
-        f"{count} of {len(evidence.observations)} records count their place from another origin: "
-        "what is locked to the position has the same period in all, at another phase in these.",
+    said = message(
+        "gap",
+        "{n} of {all} records count their place from another origin: what is locked to the "
+        "position has the same period in all, at another phase in these.",
     )
+    return (said.fill(n=str(count), all=str(len(evidence.observations))),)
 
 
 def _periods(evidence: Evidence) -> tuple[float, float] | None:

@@ -7,6 +7,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.diagnosis import Offset
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.messages import message
 from rotemina.sim.plant.assembly import assemble
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
@@ -84,16 +85,25 @@ def _joined(robot: Robot, after: Record, commands: Record, pause_s: float) -> Re
     What was measured before tells how the run starts; of the commands nothing was measured.
     """
     if not pause_s >= 0.0:
-        raise GapError(f"pause = {pause_s:g} s: must be 0 s or more")
+        raise GapError(
+            message("gap", "pause = {pause_s} s: must be 0 s or more").fill(pause_s=pause_s)
+        )
     missing = [axis for axis in commands.axes if axis not in after.axes]
     if missing:
         raise GapError(
-            f"axis {missing[0]!r} of the commands: the motion before has {', '.join(after.axes)}; "
-            "name a record of all axes that are commanded"
+            message(
+                "gap",
+                "axis {missing} of the commands: the motion before has {names}; name a record of "
+                "all axes that are commanded",
+            ).fill(missing=repr(missing[0]), names=", ".join(after.axes))
         )
     _check_axes(robot, after)
     if after.closed_loop != commands.closed_loop:
-        raise GapError("the motion before and the commands differ in mode; name a record of one")
+        raise GapError(
+            message(
+                "gap", "the motion before and the commands differ in mode; name a record of one"
+            )
+        )
     step_s = float(np.median(np.diff(after.time_s))) if len(after.time_s) > 1 else 0.0
     shift_s = float(after.time_s[-1]) + step_s + pause_s - float(commands.time_s[0])
     signals: dict[tuple[str, Tap], FloatArray] = {}
@@ -116,14 +126,20 @@ def _check_axes(robot: Robot, commands: Record) -> None:
     for axis in commands.axes:
         if axis not in robot.axes:
             raise GapError(
-                f"axis {axis!r} of the commands: the diagnosed robot {robot.name!r} has "
-                f"{', '.join(robot.axes)}"
+                message(
+                    "gap", "axis {axis} of the commands: the diagnosed robot {name} has {names}"
+                ).fill(axis=repr(axis), name=repr(robot.name), names=", ".join(robot.axes))
             )
         unit = robot.unit(axis)
         if unit is not None and commands.units[axis] != unit:
             raise GapError(
-                f"axis {axis!r} of the commands is in units of {commands.units[axis]}, but the "
-                f"diagnosed robot {robot.name!r} moves it in units of {unit}; correct the unit"
+                message(
+                    "gap",
+                    "axis {axis} of the commands is in units of {units}, but the diagnosed robot "
+                    "{name} moves it in units of {unit}; correct the unit",
+                ).fill(
+                    axis=repr(axis), units=commands.units[axis], name=repr(robot.name), unit=unit
+                )
             )
 
 

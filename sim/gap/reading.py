@@ -15,6 +15,7 @@ from rotemina.sim.gap.diagnosis import Offset, Verdict
 from rotemina.sim.gap.document import FORMAT
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.input_files import parse_json, read_text
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import parse_robot
 from rotemina.sim.robot.model import AxisEffect, Robot
@@ -55,18 +56,27 @@ def read_document(path: str | PathLike[str]) -> Document:
         If the file cannot be read, is no such document, or its model is none, with the key.
     """
     name = fspath(path)
-    text = read_text(path, GapError, MAX_BYTES, advice="name the JSON file of a diagnosis")
-    table = _table(name, parse_json(text, name, GapError), "the document")
+    text = read_text(
+        path, GapError, MAX_BYTES, advice=message("gap", "name the JSON file of a diagnosis")
+    )
+    table = _table(name, parse_json(text, name, GapError), message("gap", "the document"))
     if table.get("format") != FORMAT:
         raise GapError(
-            f"{name}: format = {_short(table.get('format'))}: must be {FORMAT!r}; name a file that "
-            "'rotemina gap diagnose --json' wrote"
+            message(
+                "gap",
+                "{name}: format = {short}: must be {format}; name a file that 'rotemina gap "
+                "diagnose --json' wrote",
+            ).fill(name=name, short=_short(table.get("format")), format=repr(FORMAT))
         )
     model = _table(name, table.get("model"), "model")
     robot = _robot(name, model.get("robot"))
     effects = model.get("effects")
     if not isinstance(effects, list):
-        raise GapError(f"{name}: model.effects = {_short(effects)}: must be a list")
+        raise GapError(
+            message("gap", "{name}: model.effects = {short}: must be a list").fill(
+                name=name, short=_short(effects)
+            )
+        )
     axes = {
         axis: _verdict(name, f"axes.{axis}", verdict)
         for axis, verdict in _table(name, table.get("axes"), "axes").items()
@@ -86,15 +96,22 @@ def read_document(path: str | PathLike[str]) -> Document:
 def _table(name: str, value: object, key: str) -> Json:
     if not isinstance(value, dict):
         raise GapError(
-            f"{name}: {key} = {_short(value)}: must be an object; name a file that "
-            "'rotemina gap diagnose --json' wrote"
+            message(
+                "gap",
+                "{name}: {key} = {short}: must be an object; name a file that 'rotemina gap "
+                "diagnose --json' wrote",
+            ).fill(name=name, key=key, short=_short(value))
         )
     return value
 
 
 def _verdict(name: str, key: str, value: object) -> Verdict:
     if not isinstance(value, str) or value not in list(Verdict):
-        raise GapError(f"{name}: {key} = {_short(value)}: must be one of {', '.join(Verdict)}")
+        raise GapError(
+            message("gap", "{name}: {key} = {short}: must be one of {names}").fill(
+                name=name, key=key, short=_short(value), names=", ".join(Verdict)
+            )
+        )
     return Verdict(value)
 
 
@@ -103,11 +120,19 @@ def _offsets(name: str, robot: Robot, table: Json) -> dict[str, dict[Tap, Offset
     found: dict[str, dict[Tap, Offset]] = {}
     for axis, taps in table.items():
         if axis not in robot.axes:
-            raise GapError(f"{name}: offset.{_short(axis)}: must be one of {list(robot.axes)}")
+            raise GapError(
+                message("gap", "{name}: offset.{short}: must be one of {names}").fill(
+                    name=name, short=_short(axis), names=", ".join(robot.axes)
+                )
+            )
         for tap, one in _table(name, taps, f"offset.{axis}").items():
             where = f"offset.{axis}.{_short(tap)}"
             if tap not in list(Tap):
-                raise GapError(f"{name}: {where}: must be one of {', '.join(Tap)}")
+                raise GapError(
+                    message("gap", "{name}: {where}: must be one of {names}").fill(
+                        name=name, where=where, names=", ".join(Tap)
+                    )
+                )
             if one is not None:
                 numbers = _table(name, one, where)
                 value, deviation = (
@@ -120,14 +145,22 @@ def _offsets(name: str, robot: Robot, table: Json) -> dict[str, dict[Tap, Offset
 
 def _finite(name: str, key: str, value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-        raise GapError(f"{name}: {key} = {_short(value)}: must be a finite number")
+        raise GapError(
+            message("gap", "{name}: {key} = {short}: must be a finite number").fill(
+                name=name, key=key, short=_short(value)
+            )
+        )
     return float(value)
 
 
 def _robot(name: str, text: object) -> Robot:
     where = f"{name}: model.robot"
     if not isinstance(text, str) or not _encodable(text):
-        raise GapError(f"{where} = {_short(text)}: must be the text of a robot file")
+        raise GapError(
+            message("gap", "{where} = {short}: must be the text of a robot file").fill(
+                where=where, short=_short(text)
+            )
+        )
     return parse_robot(text, source=where)
 
 
@@ -142,21 +175,39 @@ def _encodable(text: str) -> bool:
 
 def _effect(where: str, robot: Robot, value: object) -> AxisEffect:
     if not isinstance(value, dict):
-        raise GapError(f"{where} = {_short(value)}: must be an object")
+        raise GapError(
+            message("gap", "{where} = {short}: must be an object").fill(
+                where=where, short=_short(value)
+            )
+        )
     axis, parameters = value.get("axis"), value.get("parameters", {})
     if not isinstance(axis, str) or axis not in robot.axes:
-        raise GapError(f"{where}.axis = {_short(axis)}: must be one of {list(robot.axes)}")
+        raise GapError(
+            message("gap", "{where}.axis = {short}: must be one of {names}").fill(
+                where=where, short=_short(axis), names=", ".join(robot.axes)
+            )
+        )
     if not isinstance(parameters, dict):
-        raise GapError(f"{where}.parameters = {_short(parameters)}: must be an object")
+        raise GapError(
+            message("gap", "{where}.parameters = {short}: must be an object").fill(
+                where=where, short=_short(parameters)
+            )
+        )
     clashing = [key for key in parameters if key in RESERVED]
     if clashing:
-        raise GapError(f"{where}.parameters.{clashing[0]}: no parameter has this name")
+        raise GapError(
+            message("gap", "{where}.parameters.{clashing}: no parameter has this name").fill(
+                where=where, clashing=clashing[0]
+            )
+        )
     own = {key: value.get(key) for key in ("formulation", "from_axis")}
     try:
         asked = parse_effect(axis, {"id": value.get("effect"), **own, **parameters})
         Attached.of(robot, asked)
     except InputError as error:
-        raise GapError(f"{where}: {error}") from error
+        raise GapError(
+            message("gap", "{where}: {error}").fill(where=where, error=str(error))
+        ) from error
     return asked
 
 

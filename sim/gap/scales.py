@@ -11,9 +11,10 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.caution import Caution, Labelled
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.slow_motion import SlowMotion, follows_command, under_controller
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Axis, PiezoAxis, Robot
-from rotemina.sim.trajectory.wording import readable
 from rotemina.sim.units import per_si, units_of
 
 _ALIKE = 0.95  # correlation from which a reading follows its command
@@ -51,25 +52,53 @@ def _check_command(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
     low, high = described.range
     outside = np.maximum(low - command, command - high)
     row = int(np.argmax(outside))
-    bounds = f"{readable(low, unit, scale=high)} to {readable(high, unit)}"
+    bounds = message("gap", "{low} to {high}").fill(
+        low=exact(low, unit, size=high), high=exact(high, unit)
+    )
     if outside[row] > _OUTSIDE * described.span:
         raise GapError(
-            f"{one.name}: {axis}.cmd = {readable(float(command[row]), unit)} at row {row + 1} is "
-            f"far outside the range {bounds} of robot {robot.name!r}: this looks like a unit "
-            "error; correct the unit in the header, or the robot file"
+            message(
+                "gap",
+                "{name}: {axis}.cmd = {command} at row {row} is far outside the range {bounds} of "
+                "robot {robot_name}: this looks like a unit error; correct the unit in the "
+                "header, or the robot file",
+            ).fill(
+                name=one.name,
+                axis=axis,
+                command=exact(float(command[row]), unit),
+                row=row + 1,
+                bounds=bounds,
+                robot_name=repr(robot.name),
+            )
         )
     if outside[row] > _SLACK * described.span:
         yield one.caution(
-            f"A command goes beyond the range {bounds}, to {readable(float(command[row]), unit)}; "
-            "the model knows no ends of the range.",
+            message(
+                "gap",
+                "A command goes beyond the range {low} to {high}, to {value}; the model knows no "
+                "ends of the range.",
+            ).fill(
+                low=exact(low, unit, size=high),
+                high=exact(high, unit),
+                value=exact(float(command[row]), unit),
+            ),
             axis,
         )
     speeds = np.abs(np.diff(command)) / np.diff(one.record.time_s)
     if described.max_speed is not None and np.median(speeds) > _HASTE * described.max_speed:
         raise GapError(
-            f"{one.name}: axis {axis!r} is commanded at {np.median(speeds):.3g} {unit}/s, "
-            f"{np.median(speeds) / described.max_speed:.3g} × its speed limit: this looks like a "
-            "unit error of time; correct the unit of t, such as ms for s"
+            message(
+                "gap",
+                "{name}: axis {axis} is commanded at {speed} {unit}/s, {times} × its speed "
+                "limit: this looks like a unit error of time; correct the unit of t, such as ms "
+                "for s",
+            ).fill(
+                name=one.name,
+                axis=repr(axis),
+                speed=rounded(np.median(speeds), 3),
+                unit=unit,
+                times=rounded(np.median(speeds) / described.max_speed, 3),
+            )
         )
 
 
@@ -95,14 +124,19 @@ def _check_readings(
         factor = _unit_factor(abs(gain), one.record.units[axis])
         if factor is not None and not _moves_with_another(one.record, axis):
             raise GapError(
-                f"{one.name}: {axis}.{tap} is {gain:.4g} × what {axis}.cmd asks for: this looks "
-                f"like a unit error, a factor of {factor.text}; correct the unit of the column "
-                "that is wrong"
+                message(
+                    "gap",
+                    "{name}: {axis}.{tap} is {gain} × what {axis}.cmd asks for: this looks like a "
+                    "unit error, a factor of {text}; correct the unit of the column that is wrong",
+                ).fill(name=one.name, axis=axis, tap=tap, gain=rounded(gain, 4), text=factor.text)
             )
         if factor is not None or abs(gain) > _PLAUSIBLE or gain < 0.0:
             yield one.caution(
-                f"The {tap} channel is {gain:.3g} × what is commanded, which no single effect "
-                "brings about: check signs, units and the gain in the robot file.",
+                message(
+                    "gap",
+                    "The {tap} channel is {gain} × what is commanded, which no single effect "
+                    "brings about: check signs, units and the gain in the robot file.",
+                ).fill(tap=str(tap), gain=rounded(gain, 3)),
                 axis,
             )
 
@@ -167,9 +201,12 @@ def _check_voltage(one: Labelled, axis: str, gain: float) -> None:
     if 1.0 / _PLAUSIBLE <= gain <= _PLAUSIBLE:
         return
     raise GapError(
-        f"{one.name}: {axis}.u is {gain:.4g} × cmd/gain, the output of the amplifier: this looks "
-        "like a unit error, or a voltage before the amplifier; correct the column, leave it out, "
-        "or correct the gain in the robot file"
+        message(
+            "gap",
+            "{name}: {axis}.u is {gain} × cmd/gain, the output of the amplifier: this looks like "
+            "a unit error, or a voltage before the amplifier; correct the column, leave it out, "
+            "or correct the gain in the robot file",
+        ).fill(name=one.name, axis=axis, gain=rounded(gain, 4))
     )
 
 
@@ -184,7 +221,8 @@ class _Factor:
 def _factors(si_unit: str) -> Iterator[_Factor]:
     for right, wrong in permutations(units_of(si_unit), 2):
         value = per_si(wrong) / per_si(right)
-        yield _Factor(value, f"{value:.6g}, such as {wrong} read as {right}")
+        text = message("gap", "{factor}, such as {wrong} read as {right}")
+        yield _Factor(value, text.fill(factor=rounded(value, 6), wrong=wrong, right=right))
 
 
 def _unit_factor(gain: float, si_unit: str) -> _Factor | None:

@@ -8,9 +8,10 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.gap.caution import Caution, Labelled
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.messages import Message, message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.wording import readable
 
 _RUN_ROWS = 20  # equal readings in a row that count as standing still
 _MOVED = 0.02  # of its span, that the command moves meanwhile
@@ -83,20 +84,31 @@ def _check_sensor(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
         stands = _reference_stands(record, axis, own)
         if stands and np.ptp(reading) > 0.0:
             continue
-        told = (
-            f"{readable(value, record.units[axis])} for "
-            f"{100.0 * own.rows.sum() / len(reading):.3g} % of the rows, while the axis is "
-            "commanded to move"
-        )
+        stand = exact(value, record.units[axis])
+        percent = rounded(100.0 * own.rows.sum() / len(reading), 3)
         if np.ptp(reading) == 0.0 or stands is False or _flickers(robot, axis):
             raise GapError(
-                f"{one.name}: {axis}.meas stands at exactly {told} (first at "
-                f"t = {record.time_s[own.begin[0]]:.9g} s): the sensor is {what}; repair it, stay "
-                "within what it can read, or leave the column out"
+                message(
+                    "gap",
+                    "{name}: {axis}.meas stands at exactly {stand} for {percent} % of the rows, "
+                    "while the axis is commanded to move (first at t = {time_s} s): the sensor is "
+                    "{what}; repair it, stay within what it can read, or leave the column out",
+                ).fill(
+                    name=one.name,
+                    axis=axis,
+                    stand=stand,
+                    percent=percent,
+                    time_s=rounded(record.time_s[own.begin[0]], 9),
+                    what=what,
+                )
             )
         yield one.caution(
-            f"The reading stands at exactly {told}: either the axis does not follow, or the sensor "
-            f"is {what}, and the records cannot tell which.",
+            message(
+                "gap",
+                "The reading stands at exactly {stand} for {percent} % of the rows, while the axis "
+                "is commanded to move: either the axis does not follow, or the sensor is {fault}, "
+                "and the records cannot tell which.",
+            ).fill(stand=stand, percent=percent, fault=what),
             axis,
         )
 
@@ -124,16 +136,16 @@ def _standing(robot: Robot, record: Record, axis: str) -> _Runs:
     return runs.where((way >= least) & (least > 0.0))
 
 
-def _faults(reading: FloatArray, runs: _Runs) -> Iterator[tuple[float, str]]:
+def _faults(reading: FloatArray, runs: _Runs) -> Iterator[tuple[float, Message]]:
     """Give the value, and what seems to be wrong, for each fault."""
     for value in np.unique(runs.value):
         own = runs.of(value)
         if own.rows.max() >= _STUCK * len(reading):
-            yield float(value), "stuck or not connected"
+            yield float(value), message("gap", "stuck or not connected")
         elif value in (reading.min(), reading.max()):
             saturated = own.rows[_comes_and_goes(reading, own)].sum()
             if saturated >= _SATURATED * len(reading):
-                yield float(value), "saturated"
+                yield float(value), message("gap", "saturated")
 
 
 def _comes_and_goes(reading: FloatArray, runs: _Runs) -> BoolArray:

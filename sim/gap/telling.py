@@ -29,9 +29,12 @@ from rotemina.sim.gap.rivals import not_ruled_out, paired_blocks, probability
 from rotemina.sim.gap.selection import NOTICED
 from rotemina.sim.gap.shrinkage import LeftBy, at_tap, closing, rms, shrinkage
 from rotemina.sim.gap.where import Place
+from rotemina.sim.gap.wording import group
+from rotemina.sim.messages import Listed, Message, message
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
+_MOST_GROUPS = 3  # that a remark names
 _SURE = 1.96  # standard deviations of a 95 % interval
 # How often a cause named on unseen cases was there, though no rival could take its place: nothing
 # that was tried is quite the machine. Counted on 330 blind cases that the report does not contain.
@@ -299,7 +302,7 @@ def _ranking(examination: Examination, rng: np.random.Generator) -> tuple[Ranked
     return tuple(told)
 
 
-def _remarks(examination: Examination) -> tuple[str, ...]:
+def _remarks(examination: Examination) -> tuple[Message, ...]:
     best, probe = examination.best, examination.probe
     said = (
         *(one.note for one in examination.disturbances),
@@ -307,8 +310,14 @@ def _remarks(examination: Examination) -> tuple[str, ...]:
     )
     if best.score <= NOTICED or not probe.depends_on:
         return said
-    groups = ", ".join(f"{name} ({share:.0%})" for name, share in probe.depends_on[:3])
-    return (
-        *said,
-        f"What is left depends on {groups}, as far as simple features predict it.",
+    share = message("gap", "{group} ({percent})")
+    groups = Listed(
+        tuple(
+            share.fill(group=group(name), percent=f"{part:.0%}")
+            for name, part in probe.depends_on[:_MOST_GROUPS]
+        )
     )
+    depends = message(
+        "gap", "What is left depends on {groups}, as far as simple features predict it."
+    )
+    return (*said, depends.fill(groups=groups))

@@ -17,13 +17,15 @@ from rotemina.sim.excitation.generator import Kind, default_rate, excite
 from rotemina.sim.excitation.levels import Staircase, Steps
 from rotemina.sim.excitation.swings import DecayingTriangle, Sweeps, Triangle
 from rotemina.sim.excitation.tones import Chirp, Multisine, Sine
+from rotemina.sim.messages import AxisName, Message, message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import KeepOut, Robot, StepperAxis
 from rotemina.sim.trajectory.dry_run import mode_of
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 
 LONGEST_S = 25.0
-RICH = "decaying triangle"  # the test of many amplitudes and speeds
+RICH = message("gap", "decaying triangle")  # the test of many amplitudes and speeds
 _MOST_ROWS = 30_000
 _USUAL_HZ = 1.0 / SETPOINT_PERIOD_S
 _PER_RESONANCE = 2.0  # rows in a period of the resonance, with which the usual rate will do
@@ -31,7 +33,9 @@ _SMALL = 0.1  # of the usual amplitude
 _PITCHES = 2.5  # to each side, so that what repeats with the screw shows
 _HASTE = 0.9  # of the greatest speed and acceleration
 _LEAST_SHARE = 1e-4  # of the range, as an amplitude where the records hardly moved
-_OF_OTHERS = ("fast triangle", "slow triangle", "row of steps", "multisine")
+_FAST, _SLOW = message("gap", "fast {size}triangle"), message("gap", "slow {size}triangle")
+_ROW_OF_STEPS, _MULTISINE = message("gap", "row of steps"), message("gap", "multisine")
+_OF_OTHERS = (_FAST.fill(size=""), _SLOW.fill(size=""), _ROW_OF_STEPS, _MULTISINE)
 _CROSSING_S = 1.0  # for its range, that an axis without declared speed is given
 
 
@@ -39,7 +43,7 @@ _CROSSING_S = 1.0  # for its range, that an axis without declared speed is given
 class Trial:
     """A test: what it is called, and its commands."""
 
-    name: str
+    name: Message
     record: Record
 
 
@@ -85,7 +89,8 @@ def trials(
             if name != axis:
                 if title not in _OF_OTHERS:
                     continue
-                title = f"{title} of {name} while {axis} is held"
+                held = message("gap", "{name} of {moved} while {held} is held")
+                title = held.fill(name=title, moved=AxisName(name), held=AxisName(axis))
             try:
                 record = excite(robot, {name: kind}, rate_hz=rate).record
             except InputError:
@@ -97,18 +102,18 @@ def trials(
     return found
 
 
-def _kinds(room: _Room, pace: float) -> Iterator[tuple[str, Kind]]:
+def _kinds(room: _Room, pace: float) -> Iterator[tuple[Message, Kind]]:
     """Give tests by name; ``pace`` shortens all of them, and makes them as much faster."""
     centre, usual, large = room.centre, room.usual, room.large
-    for name, amplitude in _amplitudes(room):
+    for size, amplitude in _amplitudes(room):
         yield (
-            f"fast {name}triangle",
+            _FAST.fill(size=size),
             Triangle(
                 amplitude=amplitude, offset=centre, frequency_hz=1.0 / pace, duration_s=6.0 * pace
             ),
         )
         yield (
-            f"slow {name}triangle",
+            _SLOW.fill(size=size),
             Triangle(
                 amplitude=amplitude,
                 offset=centre,
@@ -122,16 +127,17 @@ def _kinds(room: _Room, pace: float) -> Iterator[tuple[str, Kind]]:
             amplitude=large, offset=centre, frequency_hz=0.5 / pace, duration_s=12.0 * pace
         ),
     )
-    yield "staircase", Staircase(amplitude=large, offset=centre, hold_s=0.5 * pace)
-    yield "row of steps", Steps(amplitude=usual, offset=centre, hold_s=0.4 * pace, cycles=3)
-    yield "steps with long holds", Steps(amplitude=large, offset=centre, hold_s=4.0 * pace)
+    yield message("gap", "staircase"), Staircase(amplitude=large, offset=centre, hold_s=0.5 * pace)
+    yield _ROW_OF_STEPS, Steps(amplitude=usual, offset=centre, hold_s=0.4 * pace, cycles=3)
+    long_holds = Steps(amplitude=large, offset=centre, hold_s=4.0 * pace)
+    yield message("gap", "steps with long holds"), long_holds
     yield (
-        "one step there and back with very long holds",
+        message("gap", "one step there and back with very long holds"),
         Staircase(amplitude=large, offset=centre, levels=2, hold_s=6.0 * pace),
     )
     way = max(large, _PITCHES * room.pitch) if room.pitch else large
     yield (
-        "ramps at two constant speeds",
+        message("gap", "ramps at two constant speeds"),
         Sweeps(
             amplitude=way,
             offset=centre,
@@ -142,12 +148,12 @@ def _kinds(room: _Room, pace: float) -> Iterator[tuple[str, Kind]]:
     yield from _tones(room, pace)
 
 
-def _tones(room: _Room, pace: float) -> Iterator[tuple[str, Kind]]:
+def _tones(room: _Room, pace: float) -> Iterator[tuple[Message, Kind]]:
     centre = room.centre
     for hertz, seconds in ((0.3, 10.0), (3.0, 4.0), (20.0, 3.0)):
         frequency = hertz / pace
         yield (
-            f"{frequency:.3g} Hz sine",
+            message("gap", "{hz} Hz sine").fill(hz=rounded(frequency, 3)),
             Sine(
                 amplitude=room.usual,
                 offset=centre,
@@ -157,7 +163,7 @@ def _tones(room: _Room, pace: float) -> Iterator[tuple[str, Kind]]:
         )
     if room.hasty_hz < inf:
         yield (
-            f"fast {room.hasty_hz:.3g} Hz sine",
+            message("gap", "fast {hz} Hz sine").fill(hz=rounded(room.hasty_hz, 3)),
             Sine(
                 amplitude=room.large,
                 offset=centre,
@@ -166,11 +172,11 @@ def _tones(room: _Room, pace: float) -> Iterator[tuple[str, Kind]]:
             ),
         )
     yield (
-        "chirp",
+        message("gap", "chirp"),
         Chirp(amplitude=room.usual, offset=centre, low_hz=1.0 / pace, duration_s=10.0 * pace),
     )
     yield (
-        "multisine",
+        _MULTISINE,
         Multisine(
             amplitude=room.usual,
             offset=centre,
@@ -184,11 +190,11 @@ def _tones(room: _Room, pace: float) -> Iterator[tuple[str, Kind]]:
     )
 
 
-def _amplitudes(room: _Room) -> Iterator[tuple[str, float]]:
+def _amplitudes(room: _Room) -> Iterator[tuple[str | Message, float]]:
     yield "", room.usual
-    yield "small ", _SMALL * room.usual
+    yield message("gap", "small "), _SMALL * room.usual
     if room.large > 1.5 * room.usual:
-        yield "large ", room.large
+        yield message("gap", "large "), room.large
 
 
 def _commanded(axis: str, records: Sequence[Record]) -> bool:

@@ -6,6 +6,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from rotemina.sim.gap.errors import GapError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.file import load_robot, robot_file_text, shipped_robots
 from rotemina.sim.robot.model import AxisEffect, Robot
 from rotemina.sim.robot.writing import by_axis, robot_text, with_effects
@@ -42,9 +43,12 @@ def twin_text(
     found = load_robot(source)
     if not _same(found, robot):
         raise GapError(
-            f"{name}: it describes another robot than the one that was diagnosed, {robot.name!r}: "
-            f"they differ in {_differences(found, robot)}; diagnose again with this file, or leave "
-            "it out to write the diagnosed one"
+            message(
+                "gap",
+                "{name}: it describes another robot than the one that was diagnosed, "
+                "{robot_name}: they differ in {differences}; diagnose again with this file, or "
+                "leave it out to write the diagnosed one",
+            ).fill(name=name, robot_name=repr(robot.name), differences=_differences(found, robot))
         )
     return with_effects(robot_file_text(source), effects, name)
 
@@ -58,7 +62,11 @@ def write_twin(text: str, path: str | PathLike[str]) -> None:
         If there is a file already, or none can be written.
     """
     if Path(path).exists():
-        raise FileWriteError(f"{fspath(path)}: it exists already; name another file")
+        raise FileWriteError(
+            message("gap", "{fspath}: it exists already; name another file").fill(
+                fspath=fspath(path)
+            )
+        )
     with replaced(path) as file:
         file.write(text.encode("utf-8"))
 

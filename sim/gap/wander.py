@@ -11,6 +11,7 @@ from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.gap.disturbances import Disturbance, resting
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Tap
 
 _LATER_S = (0.02, 0.1, 0.5)  # over which a wander is told from a fixed offset
@@ -147,8 +148,11 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     proven = rested or (walked and evidence.has(Tap.REF))
     if not proven or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
         return None
-    also = ", at rest as well," if rested else ", though the reference does not,"
-    note = f"The reading wanders{also} whatever the axis does."
+    note = message(
+        "gap", "The reading wanders whatever the axis does, though the reference does not."
+    )
+    if rested:
+        note = message("gap", "The reading wanders whatever the axis does, at rest as well.")
     return Disturbance(Sign.WANDER, Tap.MEAS, total / rows, note)
 
 

@@ -16,6 +16,7 @@ from rotemina.sim.gap.regimes import DOING, Regime, Ways, regimes
 from rotemina.sim.records.record import Record, Tap
 
 _LIKELY = 0.95  # of intervals
+_LEAST_ROWS = 0.02  # of all, of a regime that a sentence names
 _LEAST_BLOCKS = 8
 _MOMENT_ROWS = 50  # at least
 _SUDDEN = 100.0  # mean square over the floor's, that no noise has for a moment
@@ -72,9 +73,19 @@ class Place:
 
     @property
     def worst_regime(self) -> Regime | None:
-        """What the axis was doing where the mean square is greatest."""
-        doing = {regime: self.by_regime[regime] for regime in DOING if regime in self.by_regime}
-        return max(doing, key=lambda regime: doing[regime].excess or 0.0, default=None)
+        """What the axis was doing where the mean square is greatest; not what it hardly did."""
+        excess = {
+            regime: self.by_regime[regime].excess or 0.0
+            for regime in DOING
+            if regime in self.by_regime and self._rows(self.by_regime[regime]) >= _LEAST_ROWS
+        }
+        return max(excess, key=lambda regime: excess[regime], default=None)
+
+    def _rows(self, portion: Portion) -> float:
+        """Return the share of all rows that a portion has, by its shares of the power."""
+        if not portion.excess or portion.excess < 0.0:
+            return 1.0  # which does not tell, and is no maximum
+        return portion.share * max(self.excess, 0.0) / portion.excess
 
     @property
     def significant(self) -> bool:

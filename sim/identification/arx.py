@@ -21,6 +21,8 @@ from rotemina.sim.identification.transfer_function import (
     shifted,
     stabilised,
 )
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 LEAST_RANK = 1e-11  # smallest over largest singular value of scaled regressors that still counts
 
@@ -169,9 +171,18 @@ def least_squares(matrix: FloatArray, target: FloatArray, what: str) -> Solution
     left, sizes, right = np.linalg.svd(matrix / length, full_matrices=False)
     if sizes[-1] <= LEAST_RANK * sizes[0]:
         raise ExcitationError(
-            f"{what}: the record does not determine all {len(sizes)} parameters (singular values "
-            f"{sizes[-1]:.2g} to {sizes[0]:.2g}, bound {LEAST_RANK:g}); choose lower orders or "
-            "excite more frequencies"
+            message(
+                "engine",
+                "{what}: the record does not determine all {count} parameters (singular values "
+                "{least} to {most}, bound {bound}); choose lower orders or excite more "
+                "frequencies",
+            ).fill(
+                what=what,
+                count=len(sizes),
+                least=rounded(sizes[-1], 2),
+                most=rounded(sizes[0], 2),
+                bound=LEAST_RANK,
+            )
         )
     inverse = (right.T / sizes**2) @ right
     parameters = right.T @ ((left.T @ target) / sizes) / length

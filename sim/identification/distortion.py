@@ -9,6 +9,7 @@ from rotemina.sim.identification.errors import ExcitationError
 from rotemina.sim.identification.frequency_response import EXCITED_ABOVE
 from rotemina.sim.identification.multisine import PeriodSpectra, period_spectra
 from rotemina.sim.identification.signals import Signals, check_moving
+from rotemina.sim.messages import message
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -113,8 +114,11 @@ def distortion(
     multiples = np.setdiff1d(np.arange(base, highest + 1, base), excited)
     if len(multiples) == 0:
         raise ExcitationError(
-            f"distortion: all {len(excited)} lines are excited, none is left to show it; "
-            "use a multisine of odd lines with some left out"
+            message(
+                "engine",
+                "distortion: all {count} lines are excited, none is left to show it; use a "
+                "multisine of odd lines with some left out",
+            ).fill(count=len(excited))
         )
     even, odd = (
         _lines(spectra, excited, multiples[multiples // base % 2 == parity], spacing_hz)

@@ -11,6 +11,8 @@ from rotemina.sim.identification.errors import (
     TooShortError,
 )
 from rotemina.sim.identification.signals import Signals, check_moving
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 EXCITED_ABOVE = 1e-2  # of the largest input amplitude, from which a line counts as excited
 
@@ -69,7 +71,7 @@ def check_alike(experiments: tuple[Signals, ...]) -> None:
     TooShortError, IdentificationError, ExcitationError
     """
     if not experiments:
-        raise TooShortError("experiments: none given; one at least is needed")
+        raise TooShortError(message("engine", "experiments: none given; one at least is needed"))
     first = experiments[0]
     for number, each in enumerate(experiments):
         same_columns = (each.input_names, each.output_names) == (
@@ -78,10 +80,19 @@ def check_alike(experiments: tuple[Signals, ...]) -> None:
         )
         if not same_columns or abs(each.rate_hz / first.rate_hz - 1.0) > 1e-4:
             raise IdentificationError(
-                f"experiment {number}: {', '.join(each.input_names)} → "
-                f"{', '.join(each.output_names)} at {each.rate_hz:.6g} Hz, the first has "
-                f"{', '.join(first.input_names)} → {', '.join(first.output_names)} at "
-                f"{first.rate_hz:.6g} Hz; all must be alike"
+                message(
+                    "engine",
+                    "experiment {number}: {inputs} → {outputs} at {rate_hz} Hz, the first has "
+                    "{first_inputs} → {first_outputs} at {first_rate_hz} Hz; all must be alike",
+                ).fill(
+                    number=number,
+                    inputs=", ".join(each.input_names),
+                    outputs=", ".join(each.output_names),
+                    rate_hz=rounded(each.rate_hz, 6),
+                    first_inputs=", ".join(first.input_names),
+                    first_outputs=", ".join(first.output_names),
+                    first_rate_hz=rounded(first.rate_hz, 6),
+                )
             )
     for column, name in enumerate(first.input_names):
         check_moving(np.concatenate([each.inputs[:, column] for each in experiments]), name)
@@ -107,9 +118,12 @@ def excited_lines(power: ComplexArray, excited_above: float) -> IntArray:
     lines = np.flatnonzero(least >= excited_above**2)
     if len(lines) == 0:
         raise ExcitationError(
-            f"inputs: on no line do all {len(size)} move independently at {excited_above:g} of "
-            "the largest amplitude or more; excite them one after another, with independent "
-            "signals, or in as many experiments as there are inputs"
+            message(
+                "engine",
+                "inputs: on no line do all {count} move independently at {excited_above} of the "
+                "largest amplitude or more; excite them one after another, with independent "
+                "signals, or in as many experiments as there are inputs",
+            ).fill(count=len(size), excited_above=excited_above)
         )
     return lines
 

@@ -9,6 +9,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.identification.errors import ExcitationError, SettingError, TooShortError
 from rotemina.sim.identification.signals import check_moving
+from rotemina.sim.messages import message
 
 _GRID = 401  # inputs at which the two branches are compared
 _COMMON = 0.6  # of a cycle's input span, that both branches must share
@@ -72,14 +73,20 @@ def loops(
     """
     if lag_samples < 0 or not 0.0 < least_swing < 1.0:
         raise SettingError(
-            f"loops: {lag_samples} samples of lag, least swing {least_swing!r}; use 0 or more, "
-            "and a swing in (0, 1)"
+            message(
+                "engine",
+                "loops: {lag_samples} samples of lag, least swing {least_swing}; use 0 or more, "
+                "and a swing in (0, 1)",
+            ).fill(lag_samples=lag_samples, least_swing=repr(least_swing))
         )
     count = len(driven) - lag_samples
     if count < 3 or len(answer) != len(driven):
         raise TooShortError(
-            f"loops: {len(driven)} samples of input, {len(answer)} of output, {lag_samples} of "
-            "lag; as many of both and at least three are needed"
+            message(
+                "engine",
+                "loops: {inputs} samples of input, {outputs} of output, {lag_samples} of lag; as "
+                "many of both and at least three are needed",
+            ).fill(inputs=len(driven), outputs=len(answer), lag_samples=lag_samples)
         )
     x, y = driven[:count], answer[lag_samples:]
     check_moving(x, "input")
@@ -87,8 +94,11 @@ def loops(
     found = _cycles(x, y, lows, highs) or [_mirrored(each) for each in _cycles(-x, -y, highs, lows)]
     if not found:
         raise ExcitationError(
-            "loops: the input makes no whole cycle from one turning point to the next of its "
-            "kind; record one cycle more"
+            message(
+                "engine",
+                "loops: the input makes no whole cycle from one turning point to the next of its "
+                "kind; record one cycle more",
+            )
         )
     return tuple(found)
 
@@ -130,11 +140,16 @@ def amplitude_exponent(measured: tuple[Loop, ...]) -> float:
     width = np.abs([each.width_max for each in measured])
     if len(measured) < 2 or amplitude.max() < _LEAST_SPREAD * amplitude.min():
         raise ExcitationError(
-            f"amplitude dependence: {len(measured)} loops whose amplitudes differ by less than a "
-            f"factor of {_LEAST_SPREAD}; record growing or decaying cycles"
+            message(
+                "engine",
+                "amplitude dependence: {count} loops whose amplitudes differ by less than a factor "
+                "of {least_spread}; record growing or decaying cycles",
+            ).fill(count=len(measured), least_spread=_LEAST_SPREAD)
         )
     if np.any(width == 0.0):
-        raise ExcitationError("amplitude dependence: a loop has no width; there is nothing to fit")
+        raise ExcitationError(
+            message("engine", "amplitude dependence: a loop has no width; there is nothing to fit")
+        )
     slope, _ = np.polyfit(np.log(amplitude), np.log(width), 1)
     return float(slope)
 

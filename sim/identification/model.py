@@ -9,6 +9,8 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.identification.errors import SettingError, TooShortError
 from rotemina.sim.identification.signals import Signals, check_moving
 from rotemina.sim.identification.transfer_function import TransferFunction, filtered, shifted
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 _ROWS_A_PARAMETER = 4
 
@@ -99,8 +101,11 @@ def simulate(model: TransferFunction, signals: Signals) -> Simulation:
     """
     if abs(signals.rate_hz / model.rate_hz - 1.0) > 1e-4:
         raise SettingError(
-            f"simulation: the model is sampled at {model.rate_hz:.6g} Hz, the record at "
-            f"{signals.rate_hz:.6g} Hz; resample the record"
+            message(
+                "engine",
+                "simulation: the model is sampled at {rate_hz} Hz, the record at {signals_rate_hz} "
+                "Hz; resample the record",
+            ).fill(rate_hz=rounded(model.rate_hz, 6), signals_rate_hz=rounded(signals.rate_hz, 6))
         )
     driven, measured = signals.single()
     return against(model, driven, measured)
@@ -151,14 +156,20 @@ def checked(signals: Signals, orders: Orders) -> tuple[FloatArray, FloatArray]:
     """
     if orders.poles < 0 or orders.coefficients < 1 or orders.delay < 0:
         raise SettingError(
-            f"{orders}: poles and delay cannot be negative, and the numerator needs at least "
-            "one coefficient"
+            message(
+                "engine",
+                "{orders}: poles and delay cannot be negative, and the numerator needs at least "
+                "one coefficient",
+            ).fill(orders=str(orders))
         )
     needed = past_length(orders) + _ROWS_A_PARAMETER * (orders.poles + orders.coefficients + 1)
     if signals.count < needed:
         raise TooShortError(
-            f"signals: {signals.count} samples, but {orders} needs at least {needed}; record "
-            "longer or choose lower orders"
+            message(
+                "engine",
+                "signals: {inputs} samples, but {orders} needs at least {needed}; record longer or "
+                "choose lower orders",
+            ).fill(inputs=signals.count, orders=str(orders), needed=needed)
         )
     driven, measured = signals.single()
     check_moving(driven, signals.input_names[0])

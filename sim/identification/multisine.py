@@ -14,6 +14,7 @@ from rotemina.sim.identification.frequency_response import (
     excited_lines,
 )
 from rotemina.sim.identification.signals import Signals
+from rotemina.sim.messages import message
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,14 +75,20 @@ def period_spectra(signals: Signals, skip_periods: int = 0) -> PeriodSpectra:
     period = signals.period_samples
     if period is None or period < 2 or skip_periods < 0:
         raise SettingError(
-            f"periodic response: a period of {period} samples, {skip_periods} periods skipped; "
-            "the record needs '# history: periodic' and '# period_samples: N'"
+            message(
+                "engine",
+                "periodic response: a period of {period} samples, {skip_periods} periods skipped; "
+                "the record needs '# history: periodic' and '# period_samples: N'",
+            ).fill(period=str(period), skip_periods=skip_periods)
         )
     periods = signals.count // period - skip_periods
     if periods < 2:
         raise TooShortError(
-            f"periodic response: {max(periods, 0)} whole periods of {period} samples after "
-            f"{skip_periods} skipped; the noise needs at least 2"
+            message(
+                "engine",
+                "periodic response: {periods} whole periods of {period} samples after "
+                "{skip_periods} skipped; the noise needs at least 2",
+            ).fill(periods=max(periods, 0), period=period, skip_periods=skip_periods)
         )
     used = slice(skip_periods * period, (skip_periods + periods) * period)
     driven, answer = (
@@ -111,8 +118,9 @@ def periodic_response(
     spectra = [period_spectra(each, skip_periods) for each in experiments]
     if len({each.period_samples for each in spectra}) > 1:
         raise SettingError(
-            f"experiments: periods of {sorted({each.period_samples for each in spectra})} "
-            "samples; all must be alike"
+            message("engine", "experiments: periods of {periods} samples; all must be alike").fill(
+                periods=str(sorted({each.period_samples for each in spectra}))
+            )
         )
     driven = np.stack([each.inputs for each in spectra], axis=2)
     lines = excited_lines(driven @ driven.conj().swapaxes(1, 2), excited_above)
@@ -175,8 +183,14 @@ def relative_error(response: PeriodicResponse, *experiments: Signals) -> float:
         spectra = period_spectra(each)
         if spectra.period_samples != response.period_samples:
             raise SettingError(
-                f"relative error: a period of {spectra.period_samples} samples, the response has "
-                f"{response.period_samples}; both must be alike"
+                message(
+                    "engine",
+                    "relative error: a period of {period_samples} samples, the response has "
+                    "{response_period_samples}; both must be alike",
+                ).fill(
+                    period_samples=spectra.period_samples,
+                    response_period_samples=response.period_samples,
+                )
             )
         left = spectra.outputs.copy()
         driven = spectra.inputs[response.lines][:, :, None]
@@ -184,5 +198,5 @@ def relative_error(response: PeriodicResponse, *experiments: Signals) -> float:
         gap += float(np.sum(np.abs(left[1:]) ** 2))
         size += float(np.sum(np.abs(spectra.outputs[1:]) ** 2))
     if size == 0.0:
-        raise ExcitationError("relative error: the outputs do not move")
+        raise ExcitationError(message("engine", "relative error: the outputs do not move"))
     return float(np.sqrt(gap / size))

@@ -13,6 +13,7 @@ from pydantic.dataclasses import dataclass
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.identification.errors import ModelFileError, SettingError
 from rotemina.sim.identification.transfer_function import TransferFunction
+from rotemina.sim.messages import message
 from rotemina.sim.robot.numbers import FORBID_UNKNOWN, Count, Number, Positive
 from rotemina.sim.robot.schema_errors import describe
 
@@ -105,7 +106,11 @@ def published_models(name: str = "rotemina") -> PublishedModels:
         item.name[:-5] for item in resources.files(SHIPPED).iterdir() if item.name.endswith(".toml")
     )
     if name not in known:
-        raise ModelFileError(f"{name}: no such shipped models; choose from {', '.join(known)}")
+        raise ModelFileError(
+            message("engine", "{name}: no such shipped models; choose from {names}").fill(
+                name=name, names=", ".join(known)
+            )
+        )
     text = resources.files(SHIPPED).joinpath(f"{name}.toml").read_text("utf-8")
     return parse_models(text, f"{name}.toml")
 
@@ -121,15 +126,29 @@ def parse_models(text: str, source: str = "model file") -> PublishedModels:
     try:
         models = TypeAdapter(PublishedModels).validate_python(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
-        raise ModelFileError(f"{source}: not valid TOML: {error}") from error
+        raise ModelFileError(
+            message("engine", "{source}: not valid TOML: {error}").fill(
+                source=source, error=str(error)
+            )
+        ) from error
     except ValidationError as error:
-        raise ModelFileError(f"{source}: {describe(error)}") from error
+        raise ModelFileError(
+            message("engine", "{source}: {describe}").fill(source=source, describe=describe(error))
+        ) from error
     for name, model in models.model.items():
         short = not model.numerator or len(model.numerator) > len(model.denominator)
         if short or model.denominator[0] != 1.0:
             raise ModelFileError(
-                f"{source}: model.{name}: {len(model.numerator)} coefficients over "
-                f"{model.denominator}; the denominator begins with 1 and is at least as long"
+                message(
+                    "engine",
+                    "{source}: model.{name}: {count} coefficients over {denominator}; the "
+                    "denominator begins with 1 and is at least as long",
+                ).fill(
+                    source=source,
+                    name=name,
+                    count=len(model.numerator),
+                    denominator=str(model.denominator),
+                )
             )
     return models
 
@@ -142,7 +161,9 @@ def reading(model: PrintedModel, variable: Literal["s", "z"], last_digit: float 
     last_digit : unit of the last printed digit; each coefficient is known to half of it.
     """
     if variable not in ("s", "z"):
-        raise SettingError(f"reading {variable!r}: choose 's' or 'z'")
+        raise SettingError(
+            message("engine", "reading {variable}: choose 's' or 'z'").fill(variable=repr(variable))
+        )
     poles, zeros = _roots(model.denominator), _roots(model.numerator)
     at = 0.0 if variable == "s" else 1.0
     pairs = _cancelling(poles, zeros)

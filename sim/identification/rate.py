@@ -9,6 +9,8 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.identification.errors import SettingError, TooShortError
 from rotemina.sim.identification.signals import Signals
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 PAPER_FACTOR = 0.15
 PASSBAND = 0.8  # of the new Nyquist frequency, up to which signals pass unchanged
@@ -46,8 +48,11 @@ def resample(signals: Signals, factor: float) -> Signals:
     left = len(driven) - 2 * lost
     if left < _SHORTEST:
         raise TooShortError(
-            f"resampling by {factor:g}: {signals.count} samples leave {max(left, 0)} after the "
-            f"filter, fewer than {_SHORTEST}; record longer or lower the rate less"
+            message(
+                "engine",
+                "resampling by {factor}: {count} samples leave {left} after the filter, fewer than "
+                "{shortest}; record longer or lower the rate less",
+            ).fill(factor=factor, count=signals.count, left=max(left, 0), shortest=_SHORTEST)
         )
     kept = slice(lost, lost + left)
     period = signals.period_samples * up // down if periodic and signals.period_samples else None
@@ -74,12 +79,19 @@ def _moved(
 
 def _fraction(factor: float) -> tuple[int, int]:
     if not (np.isfinite(factor) and 0 < factor <= 1):
-        raise SettingError(f"resampling factor {factor!r}: not in (0, 1]; use one such as 0.15")
+        raise SettingError(
+            message(
+                "engine", "resampling factor {factor}: not in (0, 1]; use one such as 0.15"
+            ).fill(factor=repr(factor))
+        )
     fraction = Fraction(factor).limit_denominator(_FINEST)
     if abs(float(fraction) - factor) > 1e-9:
         raise SettingError(
-            f"resampling factor {factor!r}: no fraction with a denominator up to {_FINEST}; "
-            f"use {float(fraction):.9g}"
+            message(
+                "engine",
+                "resampling factor {factor}: no fraction with a denominator up to {finest}; use "
+                "{fraction}",
+            ).fill(factor=repr(factor), finest=_FINEST, fraction=rounded(float(fraction), 9))
         )
     return fraction.numerator, fraction.denominator
 

@@ -6,6 +6,8 @@ import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.identification.errors import ExcitationError, SettingError, TooShortError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 _LEAST_LINES = 4
 _OVERDAMPED = 0.5**0.5  # damping ratio from which a mode shows no peak
@@ -66,11 +68,20 @@ def fit_resonance(
     """
     inside = (frequency_hz >= band_hz[0]) & (frequency_hz <= band_hz[1])
     if not 0.0 <= band_hz[0] < band_hz[1]:
-        raise SettingError(f"resonance: band {band_hz} Hz; the lowest comes first")
+        raise SettingError(
+            message("engine", "resonance: band {band_hz} Hz; the lowest comes first").fill(
+                band_hz=str(band_hz)
+            )
+        )
     if inside.sum() < _LEAST_LINES:
         raise TooShortError(
-            f"resonance: {inside.sum()} lines from {band_hz[0]:g} to {band_hz[1]:g} Hz; at least "
-            f"{_LEAST_LINES} are needed, widen the band or resolve it finer"
+            message(
+                "engine",
+                "resonance: {count} lines from {low_hz} to {high_hz} Hz; at least {least_lines} "
+                "are needed, widen the band or resolve it finer",
+            ).fill(
+                count=inside.sum(), low_hz=band_hz[0], high_hz=band_hz[1], least_lines=_LEAST_LINES
+            )
         )
     line_hz, target = frequency_hz[inside], response[inside]
     if held_at_hz is not None:
@@ -88,7 +99,7 @@ def _fit(
     """Fit in units of the band's middle and of the largest response."""
     middle, size = float(line_hz.mean()), float(np.abs(target).max())
     if size == 0.0:
-        raise ExcitationError("resonance: the response is zero over the band")
+        raise ExcitationError(message("engine", "resonance: the response is zero over the band"))
     s, goal = line_hz / middle, target / size
     parameters = _start(s, goal, with_rest)
     cost = np.inf
@@ -115,9 +126,17 @@ def _fit(
     seen = damping * root >= _NARROWEST * float(np.diff(s).max())
     if not (s[0] < root < s[-1] and seen and damping < _OVERDAMPED):
         raise ExcitationError(
-            f"resonance: the best fit lies at {root * middle:.6g} Hz with damping {damping:.3g}, "
-            f"no peak inside the band {line_hz[0]:g} to {line_hz[-1]:g} Hz; choose a band around "
-            "a peak"
+            message(
+                "engine",
+                "resonance: the best fit lies at {frequency_hz} Hz with damping {damping}, no peak "
+                "inside "
+                "the band {low_hz} to {high_hz} Hz; choose a band around a peak",
+            ).fill(
+                frequency_hz=rounded(root * middle, 6),
+                damping=rounded(damping, 3),
+                low_hz=line_hz[0],
+                high_hz=line_hz[-1],
+            )
         )
     along = parameters[2:4] / max(abs(gain), 1e-300)
     rest = complex(parameters[4], parameters[5]) * size if with_rest else 0j

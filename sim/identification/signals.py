@@ -12,6 +12,8 @@ from rotemina.sim.identification.errors import (
     TimeGridError,
     TooShortError,
 )
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import VOLTAGE_TAPS, Channel, Record, Tap
 
 _JITTER = 1e-2  # of a step, by which a row may be off the uniform grid
@@ -52,19 +54,29 @@ class Signals:
             names = getattr(self, side[:-1] + "_names")
             if values.ndim != 2 or values.shape[1] != len(names) or not len(names):
                 raise IdentificationError(
-                    f"{side}: shape {values.shape} for the columns {list(names)}; "
-                    "give an (n, columns) array"
+                    message(
+                        "engine",
+                        "{side}: shape {shape} for the columns {names}; give an (n, columns) array",
+                    ).fill(side=side, shape=str(values.shape), names=", ".join(names))
                 )
             if not np.isfinite(values).all():
-                raise IdentificationError(f"{side}: a value is not finite")
+                raise IdentificationError(
+                    message("engine", "{side}: a value is not finite").fill(side=side)
+                )
             object.__setattr__(self, side, read_only(values))
         if len(self.inputs) != len(self.outputs):
             raise IdentificationError(
-                f"signals: {len(self.inputs)} samples of input, {len(self.outputs)} of output; "
-                "they must be as many"
+                message(
+                    "engine",
+                    "signals: {inputs} samples of input, {outputs} of output; they must be as many",
+                ).fill(inputs=len(self.inputs), outputs=len(self.outputs))
             )
         if not (np.isfinite(self.rate_hz) and self.rate_hz > 0):
-            raise TimeGridError(f"signals: rate {self.rate_hz!r} Hz; use a positive number")
+            raise TimeGridError(
+                message("engine", "signals: rate {rate_hz} Hz; use a positive number").fill(
+                    rate_hz=repr(self.rate_hz)
+                )
+            )
 
     @property
     def count(self) -> int:
@@ -81,8 +93,12 @@ class Signals:
         """
         if self.inputs.shape[1] != 1 or self.outputs.shape[1] != 1:
             raise IdentificationError(
-                f"signals: {len(self.input_names)} inputs and {len(self.output_names)} outputs; "
-                "this method takes one of each, choose a pair"
+                message(
+                    "engine",
+                    "signals: {inputs} inputs and {outputs} outputs; this method takes one of "
+                    "each, "
+                    "choose a pair",
+                ).fill(inputs=len(self.input_names), outputs=len(self.output_names))
             )
         return self.inputs[:, 0], self.outputs[:, 0]
 
@@ -133,12 +149,16 @@ def signals_of(
 
 def _channels(record: Record, side: str, pairs: Sequence[tuple[str, Tap]]) -> list[Channel]:
     if not pairs:
-        raise IdentificationError(f"{side}: no channel chosen; name one at least")
+        raise IdentificationError(
+            message("engine", "{side}: no channel chosen; name one at least").fill(side=side)
+        )
     channels = [Channel(axis, Tap(tap)) for axis, tap in pairs]
     for channel in channels:
         if channel not in record.columns:
             raise IdentificationError(
-                f"{side}: the record has no {channel}; it has {', '.join(map(str, record.columns))}"
+                message("engine", "{side}: the record has no {channel}; it has {names}").fill(
+                    side=side, channel=str(channel), names=", ".join(map(str, record.columns))
+                )
             )
     return channels
 
@@ -152,15 +172,25 @@ def uniform_rate(time_s: FloatArray) -> float:
         If there are fewer than two rows, or one is off the grid.
     """
     if len(time_s) < 2:
-        raise TooShortError(f"time: {len(time_s)} row; a rate needs at least 2")
+        raise TooShortError(
+            message("engine", "time: {count} row; a rate needs at least 2").fill(count=len(time_s))
+        )
     step_s = float(time_s[-1] - time_s[0]) / (len(time_s) - 1)
     off = np.abs(time_s - time_s[0] - step_s * np.arange(len(time_s)))
     worst = int(np.argmax(off))
     if off[worst] > _JITTER * step_s:
         raise TimeGridError(
-            f"time: row {worst} (t = {time_s[worst]:.9g} s) lies {off[worst]:.3g} s off the grid "
-            f"of {step_s:.6g} s, more than {100 * _JITTER:g} % of a step; resample the record to "
-            "a uniform rate first"
+            message(
+                "engine",
+                "time: row {worst} (t = {time_s} s) lies {off} s off the grid of {step_s} s, more "
+                "than {jitter} % of a step; resample the record to a uniform rate first",
+            ).fill(
+                worst=worst,
+                time_s=rounded(time_s[worst], 9),
+                off=rounded(off[worst], 3),
+                step_s=rounded(step_s, 6),
+                jitter=100 * _JITTER,
+            )
         )
     return 1.0 / step_s
 
@@ -174,8 +204,11 @@ def check_moving(signal: FloatArray, name: str) -> None:
     """
     if np.ptp(signal) <= _CONSTANT * np.max(np.abs(signal)):
         raise ExcitationError(
-            f"{name}: constant at {signal[0]:.9g} over {len(signal)} samples; nothing can be "
-            "identified, record a run in which it moves"
+            message(
+                "engine",
+                "{name}: constant at {signal} over {count} samples; nothing can be identified, "
+                "record a run in which it moves",
+            ).fill(name=name, signal=rounded(signal[0], 9), count=len(signal))
         )
 
 

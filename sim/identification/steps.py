@@ -6,6 +6,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.identification.errors import ExcitationError, IdentificationError, SettingError
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 
 _LEVEL_SHARE = 0.1  # of a hold, over whose end a level is averaged
@@ -68,12 +69,17 @@ def step_metrics(
         If a channel is missing, or the command holds no such step.
     """
     if not 0.0 < least_step <= 1.0:
-        raise SettingError(f"least step {least_step!r}: not in (0, 1]; use one such as 0.01")
+        raise SettingError(
+            message("engine", "least step {least_step}: not in (0, 1]; use one such as 0.01").fill(
+                least_step=repr(least_step)
+            )
+        )
     for needed in (drive, tap):
         if not record.has(axis, needed):
             raise IdentificationError(
-                f"steps: the record has no {axis}.{needed}; it has "
-                f"{', '.join(map(str, record.columns))}"
+                message("engine", "steps: the record has no {axis}.{needed}; it has {names}").fill(
+                    axis=axis, needed=needed, names=", ".join(map(str, record.columns))
+                )
             )
     command, output = record.signal(axis, drive), record.signal(axis, tap)
     bounds = _holds(command, least_step * float(np.ptp(command)))
@@ -86,8 +92,16 @@ def step_metrics(
     ]
     if not metrics:
         raise ExcitationError(
-            f"steps: {axis}.{drive} holds no jump between two holds of {_SHORTEST_HOLD} rows and "
-            f"{shortest_hold_s:g} s; record a staircase"
+            message(
+                "engine",
+                "steps: {axis}.{drive} holds no jump between two holds of {shortest_hold} rows and "
+                "{shortest_hold_s} s; record a staircase",
+            ).fill(
+                axis=axis,
+                drive=drive,
+                shortest_hold=_SHORTEST_HOLD,
+                shortest_hold_s=shortest_hold_s,
+            )
         )
     return tuple(metrics)
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray, read_only
 from rotemina.sim.identification.errors import SettingError
+from rotemina.sim.messages import message
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,14 +36,30 @@ class TransferFunction:
         for name in ("numerator", "denominator"):
             values = np.array(getattr(self, name), dtype=np.float64)
             if values.ndim != 1 or not len(values) or not np.isfinite(values).all():
-                raise SettingError(f"{name} {values}: needs finite coefficients in a row")
+                raise SettingError(
+                    message("engine", "{name} {values}: needs finite coefficients in a row").fill(
+                        name=name, values=str(values)
+                    )
+                )
             object.__setattr__(self, name, read_only(values))
         if self.denominator[0] != 1.0:
-            raise SettingError(f"denominator: begins with {self.denominator[0]:g}; it must be 1")
+            raise SettingError(
+                message("engine", "denominator: begins with {denominator}; it must be 1").fill(
+                    denominator=self.denominator[0]
+                )
+            )
         if self.delay < 0:
-            raise SettingError(f"delay {self.delay} samples: cannot be negative")
+            raise SettingError(
+                message("engine", "delay {delay} samples: cannot be negative").fill(
+                    delay=self.delay
+                )
+            )
         if not (np.isfinite(self.rate_hz) and self.rate_hz > 0):
-            raise SettingError(f"rate {self.rate_hz!r} Hz: use a positive number")
+            raise SettingError(
+                message("engine", "rate {rate_hz} Hz: use a positive number").fill(
+                    rate_hz=repr(self.rate_hz)
+                )
+            )
 
     @property
     def poles(self) -> ComplexArray:

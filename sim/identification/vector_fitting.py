@@ -155,6 +155,7 @@ class _Reduced(NamedTuple):
 
 
 def _reduced(spectra: Spectra, poles: ComplexArray) -> _Reduced:
+    """Return the least-squares problem of some poles as a triangle, factorised once for all."""
     design, output = _design(spectra, poles)
     q, r = np.linalg.qr(design / np.linalg.norm(design, axis=0))
     told = q.T @ output

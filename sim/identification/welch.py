@@ -12,6 +12,8 @@ from rotemina.sim.identification.frequency_response import (
     excited_lines,
 )
 from rotemina.sim.identification.signals import Signals
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 _SHORTEST = 8
 
@@ -49,8 +51,11 @@ def welch_response(
     inputs, outputs = experiments[0].inputs.shape[1], experiments[0].outputs.shape[1]
     if averages < inputs + 1:
         raise TooShortError(
-            f"Welch: {averages:.2g} independent segments of {segment} samples for {inputs} "
-            f"inputs; at least {inputs + 1} are needed, use shorter segments or longer records"
+            message(
+                "engine",
+                "Welch: {averages} independent segments of {segment} samples for {inputs} inputs; "
+                "at least {least} are needed, use shorter segments or longer records",
+            ).fill(averages=rounded(averages, 2), segment=segment, inputs=inputs, least=inputs + 1)
         )
     spectrum = np.concatenate([_spectra(each, window, hop) for each in experiments])
     power = np.einsum("ska,skb->kab", spectrum, spectrum.conj()) / len(spectrum)
@@ -79,9 +84,17 @@ def welch_response(
 
 def _hop(segment: int, overlap: float) -> int:
     if segment < _SHORTEST:
-        raise SettingError(f"Welch: segments of {segment} samples; use {_SHORTEST} or more")
+        raise SettingError(
+            message("engine", "Welch: segments of {segment} samples; use {shortest} or more").fill(
+                segment=segment, shortest=_SHORTEST
+            )
+        )
     if not 0.0 <= overlap < 1.0:
-        raise SettingError(f"Welch: overlap {overlap!r} is not in [0, 1); use 0.5")
+        raise SettingError(
+            message("engine", "Welch: overlap {overlap} is not in [0, 1); use 0.5").fill(
+                overlap=repr(overlap)
+            )
+        )
     return max(round(segment * (1.0 - overlap)), 1)
 
 

@@ -12,10 +12,11 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import AxisName, message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.robot.file import CONVENTIONAL_UNITS
 from rotemina.sim.robot.model import VOLTAGE_SLACK, PiezoAxis, Robot
 from rotemina.sim.trajectory.limits import RANGE_SLACK, OutOfLimitsError, voltage_bounds
-from rotemina.sim.trajectory.wording import readable
 
 JOINTS = ("x", "y", "z", "thx", "thy", "zn")
 TABLES = slice(0, 3)
@@ -66,14 +67,30 @@ class Chain:
         assert pin_length is not None
         if pin_length <= bounds[5, 1]:
             raise ChainError(
-                f"robot {robot.name!r}: pin_length {readable(pin_length, 'm')} must be greater "
-                f"than the end of zn's range, {readable(bounds[5, 1], 'm')}"
+                message(
+                    "engine",
+                    "robot {name}: pin_length {pin_length} must be greater than the end "
+                    "of zn's range, {end}",
+                ).fill(
+                    name=repr(robot.name),
+                    pin_length=exact(pin_length, "m"),
+                    end=exact(bounds[5, 1], "m"),
+                )
             )
         for name, (low, high) in zip(JOINTS[3:5], bounds[3:5], strict=True):
             if max(-low, high) >= pi / 2:
                 raise ChainError(
-                    f"robot {robot.name!r}: axis {name} may tilt from {low:.6g} rad to "
-                    f"{high:.6g} rad; the chain holds for tilts below {pi / 2:.6g} rad"
+                    message(
+                        "engine",
+                        "robot {name}: axis {axis} may tilt from {low} rad to {high} rad; "
+                        "the chain holds for tilts below {most} rad",
+                    ).fill(
+                        name=repr(robot.name),
+                        axis=AxisName(name),
+                        low=rounded(low, 6),
+                        high=rounded(high, 6),
+                        most=rounded(pi / 2, 6),
+                    )
                 )
         columns = tuple(list(robot.axes).index(name) for name in JOINTS)
         return cls(robot, pin_length, read_only(bounds[:, 0]), read_only(bounds[:, 1]), columns)
@@ -122,34 +139,60 @@ class Chain:
         joint = int(worst[-1])
         name, unit = JOINTS[joint], CONVENTIONAL_UNITS[JOINTS[joint]]
         low, high = float(self.lower[joint]), float(self.upper[joint])
-        row = f" at row {', '.join(str(int(i)) for i in worst[:-1])}" if worst[:-1] else ""
         scale = max(abs(low), abs(high))
         value, first, last = (
-            readable(number, unit, scale=scale) for number in (float(joints[worst]), low, high)
+            exact(number, unit, size=scale) for number in (float(joints[worst]), low, high)
         )
-        return (
-            f"axis {name}: position {value}{row} is outside {first} to {last}, where it may go; "
-            "choose a tip position or a tilt inside the workspace"
+        said = message(
+            "engine",
+            "axis {axis}: position {value} is outside {low} to {high}, where it may go; choose a "
+            "tip position or a tilt inside the workspace",
         )
+        if worst[:-1]:
+            said = message(
+                "engine",
+                "axis {axis}: position {value} at row {row} is outside {low} to {high}, where it "
+                "may go; choose a tip position or a tilt inside the workspace",
+            )
+        row = ", ".join(str(int(i)) for i in worst[:-1])
+        return said.fill(axis=AxisName(name), value=value, row=row, low=first, high=last)
 
 
 def _check_roles(robot: Robot) -> None:
     missing = [name for name in JOINTS if name not in robot.axes]
     if missing:
         raise ChainError(
-            f"robot {robot.name!r}: axis {', '.join(missing)} missing; the hybrid chain needs axes "
-            f"named {' '.join(JOINTS)}, and this robot has {' '.join(robot.axes)}"
+            message(
+                "engine",
+                "robot {name}: axis {missing} missing; the hybrid chain needs axes "
+                "named {joints}, and this robot has {axes}",
+            ).fill(
+                name=repr(robot.name),
+                missing=", ".join(missing),
+                joints=" ".join(JOINTS),
+                axes=" ".join(robot.axes),
+            )
         )
     for name in JOINTS:
         if robot.unit(name) not in (None, CONVENTIONAL_UNITS[name]):
             raise ChainError(
-                f"robot {robot.name!r}: axis {name} moves in {robot.unit(name)}; the hybrid chain "
-                f"needs {CONVENTIONAL_UNITS[name]}"
+                message(
+                    "engine",
+                    "robot {name}: axis {axis} moves in {unit}; the hybrid chain needs {needed}",
+                ).fill(
+                    name=repr(robot.name),
+                    axis=AxisName(name),
+                    unit=robot.unit(name) or "?",
+                    needed=CONVENTIONAL_UNITS[name],
+                )
             )
     if robot.pin_length is None:
         raise ChainError(
-            f"robot {robot.name!r}: pin_length missing; the hybrid chain needs the length from "
-            "the pivot to the tip, [robot] pin_length in m"
+            message(
+                "engine",
+                "robot {name}: pin_length missing; the hybrid chain needs the length "
+                "from the pivot to the tip, [robot] pin_length in m",
+            ).fill(name=repr(robot.name))
         )
 
 

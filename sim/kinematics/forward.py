@@ -69,11 +69,6 @@ def sideways(chain: Chain, tilt_rad: FloatArray | float, zn: float = 0.0) -> Flo
     return np.asarray((chain.pin_length - zn) * np.sin(tilt_rad))
 
 
-def tilt_for(chain: Chain, sideways_m: FloatArray | float, zn: float = 0.0) -> FloatArray:
-    """Return the tilt, rad, that moves the tip sideways by this much: the inverse of `sideways`."""
-    return np.asarray(np.arcsin(np.asarray(sideways_m) / (chain.pin_length - zn)))
-
-
 def _axis(thx: FloatArray, thy: FloatArray) -> FloatArray:
     sin_x, cos_x = np.sin(thx), np.cos(thx)
     parts = np.broadcast_arrays(np.sin(thy) * cos_x, -sin_x, np.cos(thy) * cos_x)

@@ -8,6 +8,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.aiming import aim, free_pose
 from rotemina.sim.kinematics.chain import NANO, TABLES, Chain
 from rotemina.sim.kinematics.forward import tip_from_pivot
+from rotemina.sim.messages import message
 from rotemina.sim.trajectory.limits import OutOfLimitsError
 
 _ROUNDING = 8.0 * float(np.finfo(np.float64).eps)
@@ -87,40 +88,13 @@ def solve_nano(chain: Chain, target: FloatArray, start: FloatArray) -> FloatArra
     return chain.check(np.concatenate([start[..., TABLES], nano], axis=-1))
 
 
-def follow_tip(
-    chain: Chain, targets: FloatArray, start: FloatArray, split: Split = Split.HYBRID
-) -> FloatArray:
-    """Return joints (n, 6) along tip ``targets`` (n, 3), m, each solved from the one before.
-
-    Where a nano joint is re-centred between two rows, the tables make up for it in that step.
-
-    Raises
-    ------
-    OutOfLimitsError
-        At the first row that cannot be reached, with the row's number.
-    """
-    joints = np.empty((len(targets), 6))
-    present = np.asarray(start, dtype=np.float64)
-    for row, target in enumerate(targets):
-        try:
-            present = solve_tip(chain, target, present, split)
-        except OutOfLimitsError as error:
-            raise OutOfLimitsError(f"tip path, row {row}: {error}") from error
-        joints[row] = present
-    return joints
-
-
-def nano_reserve(chain: Chain, joints: FloatArray) -> FloatArray:
-    """Return how far thx, thy, zn can still go down and up: (..., 3, 2), rad and m."""
-    nano = joints[..., NANO]
-    return np.stack([nano - chain.lower[NANO], chain.upper[NANO] - nano], axis=-1)
-
-
 def _paired(target: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return both as float64 of the same leading shape."""
     target, start = np.asarray(target, dtype=np.float64), np.asarray(start, dtype=np.float64)
     if not np.isfinite(target).all():
-        raise OutOfLimitsError("tip: the target is not a finite position; give x, y and z in m")
+        raise OutOfLimitsError(
+            message("engine", "tip: the target is not a finite position; give x, y and z in m")
+        )
     shape = np.broadcast_shapes(target.shape[:-1], start.shape[:-1])
     return np.broadcast_to(target, (*shape, 3)), np.broadcast_to(start, (*shape, 6))
 

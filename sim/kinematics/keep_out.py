@@ -10,13 +10,14 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.kinematics.chain import Chain, ChainError
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.workspace import Box, Workspace
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.wording import readable
 
 SLOW_HEIGHT = 0.5e-3  # m above the floor: below it the tip goes down no faster than that
 SLOW_SPEED = 0.5e-3  # m/s
@@ -75,7 +76,11 @@ class KeepOutZone:
             chain = Chain.of(robot)
         except ChainError as error:
             if bounded:
-                raise ChainError(f"{error}; its [keep_out] can bound no tip") from error
+                raise ChainError(
+                    message("engine", "{error}; its [keep_out] can bound no tip").fill(
+                        error=str(error)
+                    )
+                ) from error
             return None
         objective = (-np.inf, np.inf)
         if given.objective is not None:
@@ -115,8 +120,11 @@ class KeepOutZone:
         low, high = float(reach.low[2]), min(float(reach.high[2]), self.high)
         if not low - _SLACK <= floor <= high + _SLACK:
             raise OutOfLimitsError(
-                f"tip: a floor at {1e3 * floor:.6g} mm: must be between {readable(low, 'm')} and "
-                f"{readable(high, 'm')}, where the tip can be; teach it where the tip touches"
+                message(
+                    "engine",
+                    "tip: a floor at {floor} mm: must be between {low} and {high}, where "
+                    "the tip can be; teach it where the tip touches",
+                ).fill(floor=rounded(1e3 * floor, 6), low=exact(low, "m"), high=exact(high, "m"))
             )
         return replace(self, floor=float(floor))
 
@@ -147,7 +155,12 @@ class KeepOutZone:
             With what is left, by how much, and what to do.
         """
         box = self.swept(low, high)
-        self._refuse(float(box.low[2]), float(box.high[2]), self._farthest(box), "on the way")
+        self._refuse(
+            float(box.low[2]),
+            float(box.high[2]),
+            self._farthest(box),
+            message("engine", "on the way"),
+        )
         return box
 
     def beyond(self, present: Box) -> Self:
@@ -171,24 +184,34 @@ class KeepOutZone:
         if not self.bounded:
             return
         tip = self.tip(positions)
-        away = np.hypot(*(tip - self._middle)[:, :2].T)
-        wrong = (
-            (tip[:, 2] < self.low - _SLACK)
-            | (tip[:, 2] > self.high + _SLACK)
-            | (away > self.radius + _SLACK)
-        )
+        wrong = self.outside(tip)
         if wrong.any():
             row = int(np.argmax(wrong))
-            height = float(tip[row, 2])
-            self._refuse(height, height, float(away[row]), f"at {time_s[row] - time_s[0]:.6g} s")
+            height, away = float(tip[row, 2]), float(self._away(tip[row]))
+            when = message("engine", "at {time} s").fill(time=float(time_s[row] - time_s[0]))
+            self._refuse(height, height, away, when)
         self._check_speed(tip[:, 2], time_s)
 
+    def outside(self, tips: FloatArray) -> BoolArray:
+        """Tell which of tips (n, 3), m, are out of the bounds."""
+        return (
+            (tips[:, 2] < self.low - _SLACK)
+            | (tips[:, 2] > self.high + _SLACK)
+            | (self._away(tips) > self.radius + _SLACK)
+        )
+
     @property
-    def _middle(self) -> FloatArray:
+    def middle(self) -> FloatArray:
+        """The tip (3,), m, in the middle of the workspace, on the axis of the cylinder."""
         return tip_position(self.chain, self.chain.centre)
 
+    def _away(self, tips: FloatArray) -> FloatArray:
+        """Return how far tips (..., 3) are from that axis, m."""
+        away = tips - self.middle
+        return np.hypot(away[..., 0], away[..., 1])
+
     def _farthest(self, box: Box) -> float:
-        ends = np.maximum(np.abs(box.low - self._middle), np.abs(box.high - self._middle))
+        ends = np.maximum(np.abs(box.low - self.middle), np.abs(box.high - self.middle))
         return float(np.hypot(*ends[:2]))
 
     def _check_speed(self, height: FloatArray, time_s: FloatArray) -> None:
@@ -202,31 +225,50 @@ class KeepOutZone:
         if too_fast.any():
             row = int(np.argmax(too_fast))
             raise OutOfLimitsError(
-                f"tip: goes down at {readable(float(down[row]), 'm')}/s at "
-                f"{time_s[row + 1] - time_s[0]:.6g} s, {readable(float(height[row + 1]), 'm')} "
-                f"high: within {readable(SLOW_HEIGHT, 'm')} of its floor "
-                f"{readable(self.low, 'm')} at most {readable(SLOW_SPEED, 'm')}/s; make the "
-                "approach slower"
+                message(
+                    "engine",
+                    "tip: goes down at {speed} at {time} s, {height} high: within "
+                    "{near} of its floor {floor} at most {most}; make the "
+                    "approach slower",
+                ).fill(
+                    speed=exact(float(down[row]), "m/s"),
+                    time=rounded(time_s[row + 1] - time_s[0], 6),
+                    height=exact(float(height[row + 1]), "m"),
+                    near=exact(SLOW_HEIGHT, "m"),
+                    floor=exact(self.low, "m"),
+                    most=exact(SLOW_SPEED, "m/s"),
+                )
             )
 
     def _refuse(self, lowest: float, highest: float, away: float, where: str) -> None:
         if lowest < self.floor - _SLACK:
             raise OutOfLimitsError(
-                f"tip: {readable(lowest, 'm')} high {where}: its floor is "
-                f"{readable(self.floor, 'm')}; move elsewhere first, or teach the floor"
+                message(
+                    "engine",
+                    "tip: {lowest} high {where}: its floor is {floor}; move elsewhere "
+                    "first, or teach the floor",
+                ).fill(lowest=exact(lowest, "m"), where=where, floor=exact(self.floor, "m"))
             )
         if lowest < self.low - _SLACK:
             raise OutOfLimitsError(
-                f"tip: {readable(lowest, 'm')} high {where}: its floor is "
-                f"{readable(self.low, 'm')}, where the objective is; stay above it"
+                message(
+                    "engine",
+                    "tip: {lowest} high {where}: its floor is {low}, where the objective "
+                    "is; stay above it",
+                ).fill(lowest=exact(lowest, "m"), where=where, low=exact(self.low, "m"))
             )
         if highest > self.high + _SLACK:
             raise OutOfLimitsError(
-                f"tip: {readable(highest, 'm')} high {where}: the objective is at "
-                f"{readable(self.high, 'm')}; stay below it"
+                message(
+                    "engine",
+                    "tip: {highest} high {where}: the objective is at {high}; stay below it",
+                ).fill(highest=exact(highest, "m"), where=where, high=exact(self.high, "m"))
             )
         if away > self.radius + _SLACK:
             raise OutOfLimitsError(
-                f"tip: {readable(away, 'm')} from the middle {where}: at most "
-                f"{readable(self.radius, 'm')}; move one axis after the other, or less far"
+                message(
+                    "engine",
+                    "tip: {away} from the middle {where}: at most {radius}; move one "
+                    "axis after the other, or less far",
+                ).fill(away=exact(away, "m"), where=where, radius=exact(self.radius, "m"))
             )

@@ -48,18 +48,3 @@ def recentre(chain: Chain, joints: FloatArray, nano: FloatArray | None = None) -
         As :func:`hold_tip`.
     """
     return hold_tip(chain, joints, chain.centre[NANO] if nano is None else nano)
-
-
-def hold_tip_path(chain: Chain, joints: FloatArray, nano: FloatArray, rows: int) -> FloatArray:
-    """Return joints (rows, 6) from ``joints`` (6,) to ``nano`` (3,) with the tip held at each row.
-
-    The nano joints move evenly. For re-centring, ``nano`` is ``chain.centre[3:]``.
-
-    Raises
-    ------
-    OutOfLimitsError
-        As :func:`hold_tip`, with the row.
-    """
-    share = np.linspace(0.0, 1.0, rows)[:, None]
-    start = joints[NANO]
-    return hold_tip(chain, joints, start + share * (np.asarray(nano) - start))

@@ -15,7 +15,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.aiming import aim
 from rotemina.sim.kinematics.chain import NANO, TABLES, Chain
-from rotemina.sim.kinematics.forward import tip_from_pivot, tip_position
+from rotemina.sim.kinematics.forward import tip_from_pivot
 
 
 class Box(NamedTuple):
@@ -101,43 +101,6 @@ class Workspace:
         """
         sides = self.core.high - self.core.low
         return float(0.5 * (sides - [diameter, diameter, height]).min())
-
-    def nano_box(self, joints: FloatArray) -> Box:
-        """Return the smallest box about what the nano stage alone reaches from (..., 6)."""
-        tables = joints[..., TABLES]
-        return Box(tables + self.pin.low, tables + self.pin.high)
-
-
-def nano_grid(chain: Chain, joints: FloatArray, count: int) -> FloatArray:
-    """Return tips (count, count, count, 3), m, that thx, thy, zn reach while the tables stay.
-
-    ``joints`` (6,); the joints run evenly from end to end.
-    """
-    ways = [np.linspace(chain.lower[k], chain.upper[k], count) for k in (3, 4, 5)]
-    nano = np.stack(np.meshgrid(*ways, indexing="ij"), axis=-1)
-    return np.asarray(joints[TABLES] + tip_from_pivot(chain, nano))
-
-
-def nano_outline(chain: Chain, joints: FloatArray, count: int = 16) -> FloatArray:
-    """Return the closed edge (4 count + 1, 3), m, of the tips that tilt alone reaches.
-
-    ``joints`` (6,): tables and zn stay.
-    """
-    (thx_low, thy_low), (thx_high, thy_high) = chain.lower[3:5], chain.upper[3:5]
-    corners = np.array(
-        [
-            [thx_low, thy_low],
-            [thx_low, thy_high],
-            [thx_high, thy_high],
-            [thx_high, thy_low],
-            [thx_low, thy_low],
-        ]
-    )
-    place = np.linspace(0.0, 4.0, 4 * count + 1)
-    edge = np.tile(joints, (len(place), 1))
-    for column in range(2):
-        edge[:, 3 + column] = np.interp(place, np.arange(5), corners[:, column])
-    return tip_position(chain, edge)
 
 
 _Interval = tuple[float, float]

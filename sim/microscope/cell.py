@@ -11,6 +11,7 @@ from typing import Self
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.microscope.errors import SceneError
 
 Vector = tuple[float, float, float]
@@ -51,9 +52,17 @@ class Cell:
         sizes = (*self.radii_m, self.nucleus_radius_m, self.breaking_m, self.dimple_m)
         if not all(0.0 < size < float("inf") for size in (*sizes, self.membrane_m)):
             raise SceneError(
-                f"cell: radii {self.radii_m}, nucleus {self.nucleus_radius_m:g}, breaking "
-                f"{self.breaking_m:g}, dimple {self.dimple_m:g}, membrane {self.membrane_m:g} m: "
-                "each must be more than 0"
+                message(
+                    "engine",
+                    "cell: radii {radii_m}, nucleus {nucleus_radius_m}, breaking {breaking_m}, "
+                    "dimple {dimple_m}, membrane {membrane_m} m: each must be more than 0",
+                ).fill(
+                    radii_m=str(self.radii_m),
+                    nucleus_radius_m=self.nucleus_radius_m,
+                    breaking_m=self.breaking_m,
+                    dimple_m=self.dimple_m,
+                    membrane_m=self.membrane_m,
+                )
             )
 
     @classmethod

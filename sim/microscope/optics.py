@@ -17,6 +17,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position
+from rotemina.sim.messages import message
 from rotemina.sim.microscope.errors import SceneError
 from rotemina.sim.robot.model import Robot
 
@@ -72,14 +73,25 @@ class Optics:
         for name in ("pixel_m", "aperture", "depth_of_field_m", "width", "height"):
             value = getattr(self, name)
             if not (isfinite(value) and value > 0):
-                raise SceneError(f"microscope: {name} = {value:g}: must be more than 0")
+                raise SceneError(
+                    message("engine", "microscope: {name} = {value}: must be more than 0").fill(
+                        name=name, value=value
+                    )
+                )
         if not 0.0 < float(np.linalg.norm(self.axis)) < float("inf"):
             raise SceneError(
-                f"microscope: optical_axis = {list(self.axis)}: must be a direction, for example "
-                "[0.0, 0.0, 1.0] for a view from below"
+                message(
+                    "engine",
+                    "microscope: optical_axis = {axis}: must be a direction, for example [0.0, "
+                    "0.0, 1.0] for a view from below",
+                ).fill(axis=str(list(self.axis)))
             )
         if not abs(self.skew_rad) < pi / 4:
-            raise SceneError(f"microscope: skew {self.skew_rad:g} rad: must be within ±{pi / 4:g}")
+            raise SceneError(
+                message("engine", "microscope: skew {skew_rad} rad: must be within ±{pi}").fill(
+                    skew_rad=self.skew_rad, pi=pi / 4
+                )
+            )
 
     @classmethod
     def of(cls, robot: Robot, **mounting: object) -> Self:

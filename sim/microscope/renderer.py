@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, zoom
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.microscope import kernels
 from rotemina.sim.microscope.cell import UNTOUCHED, CellState
 from rotemina.sim.microscope.cell_image import CellImage, draw_cell
@@ -116,7 +117,11 @@ def render(
 ) -> NDArray[np.uint16]:
     """Return one picture of a scene; for more than one, keep a :class:`Renderer`."""
     if not np.isfinite([*tip_m, *tool_axis, focus_m]).all():
-        raise SceneError(f"tip {tip_m}, axis {tool_axis}, focus {focus_m}: must be finite")
+        raise SceneError(
+            message(
+                "engine", "tip {tip_m}, axis {tool_axis}, focus {focus_m}: must be finite"
+            ).fill(tip_m=str(tip_m), tool_axis=str(tool_axis), focus_m=focus_m)
+        )
     return Renderer(scene).frame(tip_m, tool_axis, focus_m, rng, state)
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from math import pi
 from typing import Self
 
+from rotemina.sim.messages import message
 from rotemina.sim.microscope.cell import Cell
 from rotemina.sim.microscope.errors import SceneError
 from rotemina.sim.microscope.optics import Optics
@@ -41,8 +42,11 @@ class Pin:
     def __post_init__(self) -> None:
         if not 0.0 < self.approach_rad <= pi / 2:
             raise SceneError(
-                f"tool: approach_angle = {self.approach_rad:g} rad: must be more than 0 (flat on "
-                f"the dish) and at most {pi / 2:g} (upright)"
+                message(
+                    "engine",
+                    "tool: approach_angle = {approach_rad} rad: must be more than 0 (flat on the "
+                    "dish) and at most {pi} (upright)",
+                ).fill(approach_rad=self.approach_rad, pi=pi / 2)
             )
 
 

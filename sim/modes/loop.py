@@ -20,6 +20,7 @@ import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.plant.group import Group, groups_of
 from rotemina.sim.plant.sampling import step_matrices
 from rotemina.sim.robot.model import CascadeController, Robot
@@ -77,12 +78,19 @@ def loop_poles(robot: Robot, rate_hz: float) -> tuple[LoopPoles, ...]:
         If no axis has a controller, or the rate is not positive and finite.
     """
     if not 0.0 < rate_hz < float("inf"):
-        raise LoopError(f"sample rate {rate_hz} Hz: must be positive and finite")
+        raise LoopError(
+            message("engine", "sample rate {rate_hz} Hz: must be positive and finite").fill(
+                rate_hz=rate_hz
+            )
+        )
     closed = [(group, _controllers(robot, group)) for group in groups_of(robot)]
     found = tuple(_close(group, loops, 1.0 / rate_hz) for group, loops in closed if loops)
     if not found:
         raise LoopError(
-            f"robot {robot.name!r}: no axis has a controller; add [axis.….controller] to its file"
+            message(
+                "engine",
+                "robot {name}: no axis has a controller; add [axis.….controller] to its file",
+            ).fill(name=repr(robot.name))
         )
     return found
 

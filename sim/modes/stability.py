@@ -51,12 +51,6 @@ def stability(robot: Robot) -> tuple[Stability, ...]:
     return tuple(_judge(axes, poles) for axes, poles in poles_of(robot).items())
 
 
-def overall(robot: Robot) -> Verdict:
-    """Return the worst verdict of all groups; stable where there are no dynamics."""
-    order = list(Verdict)
-    return max((part.verdict for part in stability(robot)), key=order.index, default=order[0])
-
-
 def _judge(axes: tuple[str, ...], poles: ComplexArray) -> Stability:
     edge = _ON_AXIS_SHARE * float(np.abs(poles).max())
     fastest = float(poles.real.max())

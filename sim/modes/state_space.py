@@ -22,6 +22,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.plant.group import input_gain
 from rotemina.sim.robot.matrices import inertia_matrices
 from rotemina.sim.robot.model import Robot, StepperAxis
@@ -126,13 +127,19 @@ def perturbed_state_space(
     for name, matrix in (("rate", rate), ("level", level)):
         if np.shape(matrix) != (n, n) or not np.isfinite(matrix).all():
             raise StateSpaceError(
-                f"{name} has shape {np.shape(matrix)}; give it ({n}, {n}) finite numbers, "
-                f"a row and a column for each of {' '.join(driven.inputs)}"
+                message(
+                    "engine",
+                    "{name} has shape {shape}; give it ({n}, {n}) finite numbers, a row and a "
+                    "column for each of {names}",
+                ).fill(name=name, shape=str(np.shape(matrix)), n=n, names=" ".join(driven.inputs))
             )
     if output is Output.ACCELERATION and np.any(rate):
         raise StateSpaceError(
-            "accelerations under a perturbation by its rate have no finite response; "
-            "ask for velocities"
+            message(
+                "engine",
+                "accelerations under a perturbation by its rate have no finite response; ask for "
+                "velocities",
+            )
         )
     names, mass, _, _ = inertia_matrices(robot)
     place = [driven.inputs.index(name) for name in names]

@@ -17,6 +17,7 @@ from rotemina.sim.effects.formulation import (
     Skew,
     Trait,
 )
+from rotemina.sim.messages import message
 from rotemina.sim.plant.group import Group, PlacedPart, coupled_axes, groups_of, static_groups_of
 from rotemina.sim.plant.lead import is_led
 from rotemina.sim.plant.machine import (
@@ -26,6 +27,7 @@ from rotemina.sim.plant.machine import (
     phase_of,
     states_of,
 )
+from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
 
 
@@ -80,6 +82,12 @@ class Assembly:
     def memory(self) -> int:
         """Length of the memory of all step functions."""
         return sum(states_of(one) for one in self.functions)
+
+    @property
+    def remembers(self) -> bool:
+        """Whether what happened before the first sample matters after it."""
+        states = any(group.states for group in self.all_groups)
+        return states or self.memory > 0 or bool(self.delays_s.any()) or bool(self.skews)
 
     @property
     def leads_in(self) -> bool:
@@ -212,8 +220,11 @@ def _check_stability(groups: Sequence[Group], effects: Sequence[Attached]) -> No
                 if isinstance(one.formulation.acts, Part | Change)
             )
             raise EffectError(
-                f"axis {', '.join(group.axes)}: unstable together, a motion grows by e every "
-                f"{1.0 / fastest:.3g} s ({named}); change or remove one of them"
+                message(
+                    "engine",
+                    "axis {names}: unstable together, a motion grows by e every {fastest} s "
+                    "({named}); change or remove one of them",
+                ).fill(names=", ".join(group.axes), fastest=rounded(1.0 / fastest, 3), named=named)
             )
 
 

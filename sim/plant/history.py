@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.run import Run
@@ -36,7 +37,11 @@ def steady_start(plant: Plant, run: Run, period_samples: int | None) -> PlantSta
     rows = len(run.time_s)
     period = period_samples or rows
     if period > rows:
-        raise PlantError(f"period_samples = {period}: the record has only {rows} rows")
+        raise PlantError(
+            message("engine", "period_samples = {period}: the record has only {rows} rows").fill(
+                period=period, rows=rows
+            )
+        )
     lead = _lead(run, period)
     if any(plant.loops) or plant.effects:
         return _settle(plant, lead, run)
@@ -113,8 +118,11 @@ def _settle(plant: Plant, lead: Run, run: Run) -> PlantState:
             return after
         state = replace(after, time_s=after.time_s + (lead.time_s[0] - run.time_s[0]))
     raise PlantError(
-        f"the model does not come to a steady state within {_MOST_PERIODS} periods; "
-        "use '# history: unknown'"
+        message(
+            "engine",
+            "the model does not come to a steady state within {most_periods} periods; use '# "
+            "history: unknown'",
+        ).fill(most_periods=_MOST_PERIODS)
     )
 
 
@@ -147,8 +155,11 @@ def _solve(plant: Plant, lead: Run, run: Run) -> PlantState:
         lasting = np.eye(len(own)) - map_
         if np.linalg.cond(lasting / np.abs(lasting).max(axis=1, keepdims=True)) > _UNHELD:
             raise PlantError(
-                f"axis {group.axes[0]}: it has no steady state, nothing holds it; "
-                "use '# history: unknown'"
+                message(
+                    "engine",
+                    "axis {axes}: it has no steady state, nothing holds it; use '# history: "
+                    "unknown'",
+                ).fill(axes=group.axes[0])
             )
         solved[own] += np.linalg.solve(lasting, (end - start)[own])
     return plant.at(run.time_s[0], run.inputs[0], solved[:axes], solved[axes:])

@@ -22,6 +22,7 @@ WHOLE, BEHIND_AMPLIFIER, BEHIND_ACTUATOR = 0, 1, 2
 
 _LONG_S = 1e9  # after which every memory of time has come to rest
 _RISES = 256  # steps of the rise from the low end of the range
+_FEW_LENGTHS = 16  # of steps, whose matrices are looked through for their zeros
 _STILL = 1e-13  # of the largest value in a hold, by which a state may change at rest
 _STILL_STEPS = 64  # for so long: more than a period, in which something may turn
 
@@ -197,11 +198,12 @@ def _effort(
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
 def _forces(
-    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
-    group: TableArray, member: IntArray, g: int, into: FloatArray, at: int, t: float, h: float,
-    x: FloatArray, fresh: FloatArray,
+    machine: Machine, moving: State, g: int, into: FloatArray, at: int, t: float, h: float,
+    fresh: FloatArray,
 ) -> None:  # fmt: skip
     """Let the forces of effects act on the states of group g, stepped without them."""
+    axis, function, numbers, _, _, _, group, member = machine
+    x, memory, _ = moving
     first, n, m = group[g].first, group[g].states, group[g].axes
     wide = 2 * m + 1
     for c in range(m):
@@ -222,7 +224,7 @@ def _forces(
 @numba.njit(cache=True, error_model="numpy", inline="always")
 def _linear(
     group: TableArray, member: IntArray, g: int, within: FloatArray, own: int, into: FloatArray,
-    at: int, u: FloatArray, force: FloatArray, x: FloatArray, fresh: FloatArray,
+    at: int, band: IntArray, u: FloatArray, force: FloatArray, x: FloatArray, fresh: FloatArray,
 ) -> None:  # fmt: skip
     """Step the states of group g exactly, by its matrices at ``own`` and ``at``."""
     first, n, m, begin = group[g].first, group[g].states, group[g].axes, group[g].member
@@ -251,21 +253,45 @@ def _linear(
             for c in range(m):
                 total += item(into, place + m + 1 + c) * item(force, item(member, begin + c))
         place = own + row * n
-        for c in range(n):
+        for c in range(band[first + row, 0], band[first + row, 1]):
             total += item(within, place + c) * item(x, first + c)
         fresh[first + row] = total
 
 
+@numba.njit(cache=True, error_model="numpy")
+def _bands(
+    group: TableArray, within: FloatArray, state_at: IntArray, lengths: int, states: int
+) -> IntArray:
+    """Return from which to before which column (states, 2) the step of each state has entries.
+
+    Modes beside each other have two each. Of many lengths all columns are taken.
+    """
+    band = np.zeros((states, 2), dtype=np.int64)
+    for g in range(group.shape[0]):
+        first, n = group[g].first, group[g].states
+        for row in range(n):
+            low, high = n, 0
+            for j in range(lengths if lengths <= _FEW_LENGTHS else 0):
+                for c in range(n):
+                    if within[state_at[g] + (j * n + row) * n + c] != 0.0:
+                        low, high = min(low, c), max(high, c + 1)
+            if lengths > _FEW_LENGTHS:
+                low, high = 0, n
+            band[first + row, 0], band[first + row, 1] = low, high
+    return band
+
+
 @numba.njit(cache=True, error_model="numpy", inline="always")
 def _sample(
-    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
-    seen: FloatArray, x: FloatArray, shown: FloatArray, k: int, first: int, time_s: FloatArray,
-    command: FloatArray, add: FloatArray, variates: FloatArray, inputs: FloatArray,
-    position: FloatArray, velocity: FloatArray, reading: FloatArray,
-) -> None:  # fmt: skip
+    machine: Machine, given: Given, taken: Taken, moving: State, shown: FloatArray, k: int
+) -> None:
     """Take sample k of every axis and close the loops."""
-    t, row = time_s[k], k - first
-    places, speeds, readings = position[k], velocity[k], reading[k]
+    axis, function, numbers = machine.axis, machine.function, machine.numbers
+    x, memory, seen = moving
+    time_s, command, add, variates = given.time_s, given.command, given.add, given.variates
+    inputs, reading = taken.inputs, taken.reading
+    t, row = time_s[k], k - given.first
+    places, speeds, readings = taken.position[k], taken.velocity[k], reading[k]
     for i in range(axis.shape[0]):
         own = axis[i]
         q = y = shown[i]
@@ -294,22 +320,22 @@ def _sample(
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
 def _amplified(
-    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
-    shown: FloatArray, s: int, applied: IntArray, inputs: FloatArray, t: float, k: int,
-    effort: FloatArray,
+    machine: Machine, memory: FloatArray, taken: Taken, shown: FloatArray, applied: IntArray,
+    t: float, k: int,
 ) -> None:  # fmt: skip
     """Fill in, where it is asked for, what the amplifiers put out at this instant.
 
     Of an axis under a controller it is what the controller writes down, before it comes late.
     """
-    if effort.shape[0] == 0:
+    if taken.effort.shape[0] == 0:
         return
-    for i in range(axis.shape[0]):
-        own = axis[i]
-        asked = inputs[k if own.loop != NO_LOOP else applied[s, own.late], i]
-        effort[k, i] = _through(
-            function, numbers, memory, own.electronics, own.actuator, asked, shown[i], t, 0.0
-        )
+    for i in range(machine.axis.shape[0]):
+        own = machine.axis[i]
+        asked = taken.inputs[k if own.loop != NO_LOOP else applied[own.late], i]
+        taken.effort[k, i] = _through(
+            machine.function, machine.numbers, memory, own.electronics, own.actuator, asked,
+            shown[i], t, 0.0,
+        )  # fmt: skip
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -326,11 +352,12 @@ def _static_inputs(
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
 def _held_inputs(
-    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
-    shown: FloatArray, s: int, applied: IntArray, hold_s: FloatArray, inputs: FloatArray, t: float,
-    h: float, before: IntArray, u: FloatArray,
+    machine: Machine, steps: Steps, memory: FloatArray, shown: FloatArray, s: int,
+    inputs: FloatArray, t: float, h: float, before: IntArray, u: FloatArray,
 ) -> None:  # fmt: skip
     """Fill in the inputs that act for the next ``h`` seconds."""
+    axis, function, numbers = machine.axis, machine.function, machine.numbers
+    applied, hold_s = steps.applied, steps.hold_s
     at_once = applied[s, 0]
     for i in range(axis.shape[0]):
         own = axis[i]
@@ -347,11 +374,12 @@ def _held_inputs(
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
 def _follow(
-    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
-    seen: FloatArray, output: TableArray, state: IntArray, weight: FloatArray, x: FloatArray,
-    u: FloatArray, shown: FloatArray, t: float, variates: FloatArray,
+    machine: Machine, moving: State, u: FloatArray, shown: FloatArray, t: float,
+    variates: FloatArray,
 ) -> None:  # fmt: skip
     """Show positions and readings between samples to the effects that remember them."""
+    axis, function, numbers, output, state, weight, _, _ = machine
+    x, memory, seen = moving
     _outputs(output, state, weight, x, u, shown)
     for i in range(axis.shape[0]):
         if axis[i].inner_position != 0:
@@ -363,19 +391,18 @@ def _follow(
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
 def _stepped(
-    axis: TableArray, function: TableArray, numbers: FloatArray, memory: FloatArray,
-    group: TableArray, member: IntArray, within: FloatArray, state_at: IntArray, into: FloatArray,
-    input_at: IntArray, j: int, u: FloatArray, force: FloatArray, forces: bool, t: float, h: float,
-    x: FloatArray, fresh: FloatArray,
+    machine: Machine, steps: Steps, moving: State, j: int, band: IntArray, u: FloatArray,
+    force: FloatArray, forces: bool, t: float, fresh: FloatArray,
 ) -> None:  # fmt: skip
     """Step all groups by the matrices of length j."""
+    group, member, within, into = machine.group, machine.member, steps.state, steps.input
     for g in range(group.shape[0]):
         states = group[g].states
-        at = input_at[g] + j * states * (2 * group[g].axes + 1)
-        own = state_at[g] + j * states * states
-        _linear(group, member, g, within, own, into, at, u, force, x, fresh)
+        at = steps.input_at[g] + j * states * (2 * group[g].axes + 1)
+        own = steps.state_at[g] + j * states * states
+        _linear(group, member, g, within, own, into, at, band, u, force, moving.x, fresh)
         if forces:
-            _forces(axis, function, numbers, memory, group, member, g, into, at, t, h, x, fresh)
+            _forces(machine, moving, g, into, at, t, steps.length_s[j], fresh)
 
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
@@ -396,16 +423,19 @@ def run(
     machine: Machine, steps: Steps, given: Given, taken: Taken, moving: State, start_s: float
 ) -> None:
     """Step all axes through all segments, from ``start_s`` on; fill ``taken``, move ``moving``."""
-    # Taken apart once: compiled code counts references each time it reaches into a tuple, and
-    # passes many arrays to a function of its own more slowly than it does this work.
-    axis, function, numbers, output, state, weight, group, member = machine
-    step, sample, applied, hold_s, length_s, parts, within, state_at, into, input_at = steps
-    first, time_s, command, add, forced, kick, variates = given
-    inputs, effort, position, velocity, reading = taken
-    x, memory, seen = moving
+    # Taken apart once: compiled code counts references each time it reaches into a tuple. The
+    # functions called here are put in its place, so that tuples cost them nothing.
+    axis, function, numbers, output, state, weight, _, _ = machine
+    step, sample, applied, length_s, parts = (
+        steps.step, steps.sample, steps.applied, steps.length_s, steps.parts,
+    )  # fmt: skip
+    first, time_s, _, _, forced, kick, variates = given
+    x, memory, _ = moving
+    inputs = taken.inputs
     u, now = np.zeros(axis.shape[0]), np.zeros(axis.shape[0])
     shown, fresh, no_force = np.zeros(output.shape[0]), np.empty(x.shape[0]), np.zeros(0)
     most = np.zeros(x.shape[0])
+    band = _bands(machine.group, steps.state, steps.state_at, length_s.shape[0], x.shape[0])
     before = np.full(axis.shape[0], -1, dtype=np.int64)
     static, forces, followed, inside = _kinds(axis)
     held = not axis["inner_input"].any()
@@ -421,11 +451,8 @@ def run(
             if static:
                 _static_inputs(axis, function, numbers, memory, shown, applied[s], inputs, t, now)
             _outputs(output, state, weight, x, now, shown)
-            _sample(
-                axis, function, numbers, memory, seen, x, shown, k, first, time_s, command, add,
-                variates, inputs, position, velocity, reading,
-            )  # fmt: skip
-            _amplified(axis, function, numbers, memory, shown, s, applied, inputs, t, k, effort)
+            _sample(machine, given, taken, moving, shown, k)
+            _amplified(machine, memory, taken, shown, applied[s], t, k)
             _kicked(kick, k - first, x)
         j = step[s]
         h = length_s[j]
@@ -435,17 +462,9 @@ def run(
         still = 0
         for part in range(parts[j]):
             if inside if part > 0 else followed and s > 0 and not taking:
-                _follow(
-                    axis, function, numbers, memory, seen, output, state, weight, x, u, shown, t,
-                    variates,
-                )  # fmt: skip
-            _held_inputs(
-                axis, function, numbers, memory, shown, s, applied, hold_s, inputs, t, h, before, u
-            )
-            _stepped(
-                axis, function, numbers, memory, group, member, within, state_at, into, input_at,
-                j, u, force, forces, t, h, x, fresh,
-            )  # fmt: skip
+                _follow(machine, moving, u, shown, t, variates)
+            _held_inputs(machine, steps, memory, shown, s, inputs, t, h, before, u)
+            _stepped(machine, steps, moving, j, band, u, force, forces, t, fresh)
             if held and parts[j] > _STILL_STEPS:
                 still = still + 1 if _rests(fresh, x, most, part) else 0
             _put(fresh, x)

@@ -11,6 +11,7 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import BrokenEffectError, EffectError
 from rotemina.sim.effects.formulation import Drive, Force, Motion, Reading, Stage
 from rotemina.sim.effects.step import address_of
+from rotemina.sim.messages import message
 from rotemina.sim.plant.group import Group, Output, asked_position
 from rotemina.sim.robot.model import Robot
 
@@ -255,8 +256,16 @@ def _address(attached: Attached) -> int:
 def _broken(attached: Attached, what: str, error: Exception) -> BrokenEffectError:
     reason = next((line for line in str(error).splitlines() if line.strip()), "")
     return BrokenEffectError(
-        f"axis.{attached.asked.axis}.effect {attached.asked.id}: formulation "
-        f"{attached.formulation.name!r}: {what}: {type(error).__name__}: {reason}"
+        message(
+            "engine", "axis.{axis}.effect {id}: formulation {name}: {what}: {type_name}: {reason}"
+        ).fill(
+            axis=attached.asked.axis,
+            id=attached.asked.id,
+            name=repr(attached.formulation.name),
+            what=what,
+            type_name=type(error).__name__,
+            reason=reason,
+        )
     )
 
 

@@ -7,6 +7,7 @@ from typing import Self
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, read_only
+from rotemina.sim.messages import message
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.group import Group
 
@@ -40,20 +41,35 @@ class Perturbation:
         shape = np.shape(self.acceleration)
         if len(shape) != 2:
             raise PlantError(
-                f"perturbation: acceleration has shape {shape}; give it a row for each sample and "
-                "a column for each axis"
+                message(
+                    "engine",
+                    "perturbation: acceleration has shape {shape}; give it a row for each sample "
+                    "and a column for each axis",
+                ).fill(shape=str(shape))
             )
         for name in ("a", "b"):
             if np.shape(getattr(self, name)) != (shape[1], shape[1]):
                 raise PlantError(
-                    f"perturbation: {name} has shape {np.shape(getattr(self, name))}; "
-                    f"acceleration has {shape[1]} axes, so it must be {(shape[1], shape[1])}"
+                    message(
+                        "engine",
+                        "perturbation: {name} has shape {shape}; acceleration has {axes} axes, "
+                        "so it must be {wanted}",
+                    ).fill(
+                        name=name,
+                        shape=np.shape(getattr(self, name)),
+                        axes=shape[1],
+                        wanted=str((shape[1], shape[1])),
+                    )
                 )
         for name in ("acceleration", "a", "b"):
             array = np.array(getattr(self, name), dtype=np.float64)
             if not np.isfinite(array).all():
                 place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-                raise PlantError(f"perturbation: {name}{list(place)} is not finite")
+                raise PlantError(
+                    message("engine", "perturbation: {name}{place} is not finite").fill(
+                        name=name, place=str(list(place))
+                    )
+                )
             object.__setattr__(self, name, read_only(array))
 
     def check(self, rows: int, axes: Sequence[str]) -> None:
@@ -63,12 +79,15 @@ class Perturbation:
         """
         if self.acceleration.shape[1] != len(axes):
             raise PlantError(
-                f"perturbation: it has {self.acceleration.shape[1]} axes; "
-                f"the plant has {len(axes)}: {' '.join(axes)}"
+                message(
+                    "engine", "perturbation: it has {shape} axes; the plant has {count}: {names}"
+                ).fill(shape=self.acceleration.shape[1], count=len(axes), names=" ".join(axes))
             )
         if len(self.acceleration) != rows:
             raise PlantError(
-                f"perturbation: it has {len(self.acceleration)} rows; the commands have {rows}"
+                message(
+                    "engine", "perturbation: it has {count} rows; the commands have {rows}"
+                ).fill(count=len(self.acceleration), rows=rows)
             )
 
     def part(self, rows: slice) -> Self:

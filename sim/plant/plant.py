@@ -9,6 +9,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.messages import message
 from rotemina.sim.plant import kernel
 from rotemina.sim.plant.assembly import Assembly, assemble
 from rotemina.sim.plant.chance import Chance
@@ -19,9 +20,10 @@ from rotemina.sim.plant.group import Group
 from rotemina.sim.plant.lead import lead_of
 from rotemina.sim.plant.machine import Machine, phase_of, states_of
 from rotemina.sim.plant.perturbation import Perturbation
-from rotemina.sim.plant.sampling import cut
+from rotemina.sim.plant.sampling import Segments, cut
 from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
 from rotemina.sim.plant.steps import steps_through
+from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
 
 _TRIES = 50  # of the input with which a controller holds an axis
@@ -293,8 +295,11 @@ class Plant:
         force, kick = np.zeros((0, axes)), np.zeros((0, 0))
         if perturbation is None and shaken.any():
             raise PlantError(
-                "perturbation: none is given, and Q of the row before still acts; give one for "
-                "every piece of a run, with zeros where nothing shakes"
+                message(
+                    "engine",
+                    "perturbation: none is given, and Q of the row before still acts; give one for "
+                    "every piece of a run, with zeros where nothing shakes",
+                )
             )
         if perturbation is not None:
             perturbation.check(rows, self.axes)
@@ -344,7 +349,7 @@ class Plant:
     def steps(self, time_s: FloatArray, first: int, behind: Behind) -> kernel.Steps:
         """Return the steps through samples (n,), of which those before ``first`` are history."""
         return steps_through(
-            cut(time_s, first, tuple(sorted(set(self._stepped_delays(behind))))),
+            _cut_before(time_s.tobytes(), first, tuple(sorted(set(self._stepped_delays(behind))))),
             self.assembly.all_groups,
             inner_step_s=self.assembly.inner_step_s,
             may_grow=self.assembly.steps_may_grow,
@@ -420,27 +425,37 @@ class Plant:
         axis = self.axes[int(np.argmax(~finite[row]))]
         named = "".join(f" {one.asked.id} on {one.asked.axis}," for one in self.effects)
         raise PlantError(
-            f"axis {axis}: the response grows beyond what a number can hold at "
-            f"t = {stack.time_s[stack.first + row]:.6g} s; check the commands,{named} "
-            "and the controller's gains"
+            message(
+                "engine",
+                "axis {axis}: the response grows beyond what a number can hold at t = {time_s} s; "
+                "check the commands,{named} and the controller's gains",
+            ).fill(axis=axis, time_s=rounded(stack.time_s[stack.first + row], 6), named=named)
         )
 
 
 def _prepared(
     plant: Plant, time_s: FloatArray, first: int, behind: Behind
 ) -> tuple[Machine, kernel.Steps]:
-    """Return what a run needs beside its inputs; a live one asks for the same again and again."""
-    if len(time_s) <= _SHORT:
-        return _prepared_before(plant, time_s.tobytes(), first, behind)
-    return plant.machine(behind), plant.steps(time_s, first, behind)
+    """Return what a run needs beside its inputs; many ask for the same again and again."""
+    prepared = _prepared_before if len(time_s) <= _SHORT else _prepared_lately
+    return prepared(plant, time_s.tobytes(), first, behind)
 
 
-@lru_cache(maxsize=32)
-def _prepared_before(
+def _prepare(
     plant: Plant, times: bytes, first: int, behind: Behind
 ) -> tuple[Machine, kernel.Steps]:
     time_s = np.frombuffer(times, dtype=np.float64)
     return plant.machine(behind), plant.steps(time_s, first, behind)
+
+
+@lru_cache(maxsize=16)
+def _cut_before(times: bytes, first: int, delays_s: tuple[float, ...]) -> Segments:
+    """Return the segments of a record, which a fit goes over with one plant after the other."""
+    return cut(np.frombuffer(times, dtype=np.float64), first, delays_s)
+
+
+_prepared_before = lru_cache(maxsize=32)(_prepare)
+_prepared_lately = lru_cache(maxsize=4)(_prepare)  # a record is run from several starts
 
 
 def _input_per_command(axis: Axis) -> float:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.finely import respond
 from rotemina.sim.plant.history import measured_start, steady_start
@@ -74,10 +75,17 @@ def check_axes(robot: Robot, record: Record) -> None:
     for axis in record.axes:
         if axis not in robot.axes:
             known = ", ".join(robot.axes)
-            raise PlantError(f"axis {axis!r} of the record: robot {robot.name!r} has {known}")
+            raise PlantError(
+                message("engine", "axis {axis} of the record: robot {name} has {known}").fill(
+                    axis=repr(axis), name=repr(robot.name), known=known
+                )
+            )
         if not record.has(axis, Tap.CMD):
             raise PlantError(
-                f"axis {axis!r} of the record: it has no {axis}.cmd column to drive the model"
+                message(
+                    "engine",
+                    "axis {quoted} of the record: it has no {axis}.cmd column to drive the model",
+                ).fill(quoted=repr(axis), axis=axis)
             )
 
 
@@ -112,8 +120,11 @@ def _inputs(
         return record.signal(name, Tap.U)
     reason = "is moved by a force" if isinstance(axis, ForceAxis) else "is to be driven by its u"
     raise PlantError(
-        f"axis {name!r} {reason}: an open-loop run needs a {name}.u column in the record "
-        "('# mode: closed_loop' and a controller in the robot file do without)"
+        message(
+            "engine",
+            "axis {quoted} {reason}: an open-loop run needs a {axis}.u column in the record ('# "
+            "mode: closed_loop' and a controller in the robot file do without)",
+        ).fill(quoted=repr(name), reason=reason, axis=name)
     )
 
 

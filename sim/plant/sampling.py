@@ -12,8 +12,10 @@ import numpy as np
 from scipy.linalg import matrix_balance
 
 from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.messages import message
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.group import Group
+from rotemina.sim.quantities import rounded
 
 TICK_S = 2.0**-50  # finest difference of sample times that is told from rounding
 _FEW_LENGTHS = 32
@@ -57,8 +59,15 @@ def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
     if len(ticks) > start + 1 and np.diff(ticks[start:]).min() <= 0:
         row = start + int(np.argmin(np.diff(ticks[start:])))
         raise PlantError(
-            f"the samples after t = {time_s[row]!r} s are {time_s[row + 1] - time_s[row]:.3g} s "
-            f"apart, rounding there is {tick:.3g} s; count time from the start of the record"
+            message(
+                "engine",
+                "the samples after t = {time_s} s are {apart_s} s apart, rounding there is {tick} "
+                "s; count time from the start of the record",
+            ).fill(
+                time_s=repr(time_s[row]),
+                apart_s=rounded(time_s[row + 1] - time_s[row], 3),
+                tick=rounded(tick, 3),
+            )
         )
     if not any(delay_s):
         return _cut_at_samples(ticks, np.arange(start, len(ticks))[:, None], start, first, tick)

@@ -11,11 +11,15 @@ from numba import types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
+from rotemina.sim.messages import message
+
 
 def _item(typing_context: Any, array: Any, index: Any) -> Any:
     """Read the flat, contiguous ``array`` at ``index``, which must lie in it."""
     if array.layout != "C" or array.ndim != 1:
-        raise TypingError(f"{array}: it is no flat, contiguous array")
+        raise TypingError(
+            message("engine", "{array}: it is no flat, contiguous array").fill(array=array)
+        )
     signature = array.dtype(array, types.intp)
 
     def generate(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:

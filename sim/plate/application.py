@@ -6,10 +6,12 @@ from typing import Literal
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.plate.errors import PlateError
 from rotemina.sim.plate.pin import pin_length
 from rotemina.sim.plate.statics import AXES, UnitSolutions, hub_inertia
 from rotemina.sim.plate.stress import least_safety, motion_ranges, place_text
+from rotemina.sim.quantities import fixed
 from rotemina.sim.robot.consistency import find_problem
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import Coupling, Robot
@@ -42,7 +44,7 @@ def agreement(solutions: UnitSolutions) -> tuple[Entry, ...]:
     shipped = load_robot(SHIPPED_ROBOT)
     return tuple(
         Entry(
-            f"{name} stiffness",
+            message("engine", "{name} stiffness").fill(name=name),
             "N/m" if name == "zn" else "N m/rad",
             shipped.axes[name].stiffness or 0.0,
             float(solutions.stiffness[index, index]),
@@ -72,10 +74,19 @@ def applied(robot: Robot, solutions: UnitSolutions) -> tuple[Robot, tuple[Entry,
     if least.factor < 1.0:
         zn, thx, thy = least.pose
         raise PlateError(
-            f"the plate yields within the range of motion: {1e-6 * least.point.stress:.0f} MPa "
-            f"{place_text(least.point, robot.plate)} at zn {1e6 * zn:.1f} µm, thx "
-            f"{1e6 * thx:.0f} µrad, thy {1e6 * thy:.0f} µrad; it bears "
-            f"{1e-6 * robot.plate.yield_stress:.0f} MPa: make it thinner or wider"
+            message(
+                "engine",
+                "the plate yields within the range of motion: {stress} MPa {place_text} at zn {zn} "
+                "µm, thx {thx} µrad, thy {thy} µrad; it bears {yield_stress} MPa: make it thinner "
+                "or wider",
+            ).fill(
+                stress=fixed(1e-06 * least.point.stress, 0),
+                place_text=place_text(least.point, robot.plate),
+                zn=fixed(1000000.0 * zn, 1),
+                thx=fixed(1000000.0 * thx, 0),
+                thy=fixed(1000000.0 * thy, 0),
+                yield_stress=fixed(1e-06 * robot.plate.yield_stress, 0),
+            )
         )
     mass = hub_mass(robot, solutions)
     entries = []
@@ -84,8 +95,11 @@ def applied(robot: Robot, solutions: UnitSolutions) -> tuple[Robot, tuple[Entry,
         axis = axes[name]
         if axis.mass is None or axis.stiffness is None:
             raise PlateError(
-                f"robot {robot.name}: axis.{name} has no mass and stiffness of its own; give "
-                "mass, damping and stiffness to put the plate's there"
+                message(
+                    "engine",
+                    "robot {robot}: axis.{axis} has no mass and stiffness of its own; give mass, "
+                    "damping and stiffness to put the plate's there",
+                ).fill(robot=robot.name, axis=name)
             )
         stiff, heavy = float(solutions.stiffness[index, index]), float(mass[index, index])
         units = ("N/m", "kg") if name == "zn" else ("N m/rad", "kg m²")
@@ -96,7 +110,11 @@ def applied(robot: Robot, solutions: UnitSolutions) -> tuple[Robot, tuple[Entry,
     made = replace(robot, axes=axes, couplings=couplings)
     problem = find_problem(made)
     if problem is not None:
-        raise PlateError(f"the plate makes no possible robot: {problem}")
+        raise PlateError(
+            message("engine", "the plate makes no possible robot: {problem}").fill(
+                problem=str(problem)
+            )
+        )
     return made, (*entries, *changed)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.plate.errors import PlateError
 from rotemina.sim.plate.modes import Modes
 from rotemina.sim.plate.statics import UnitSolutions
@@ -33,7 +34,7 @@ def write_vtu(
 
     name = fspath(path)
     if not name.endswith(".vtu"):
-        raise PlateError(f"{name}: the name must end with .vtu")
+        raise PlateError(message("engine", "{name}: the name must end with .vtu").fill(name=name))
     mesh = solutions.held.mesh
     stress = surface_stress(solutions, pose)
     larger, smaller = principal(stress)

@@ -5,6 +5,8 @@ from itertools import pairwise
 from math import asin, pi
 from typing import NamedTuple
 
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.plate import Cutout, Plate
 
 # Plate theory leaves out shear: its share of the deflection grows with (thickness / width)².
@@ -58,34 +60,54 @@ def rings(plate: Plate) -> list[Ring]:
 def impossible(plate: Plate) -> Iterator[Impossible]:
     """Yield what makes a plate impossible."""
     if plate.rim_radius > LARGEST:
-        yield Impossible("rim_radius", plate.rim_radius, f"must be at most {LARGEST:g} m")
+        yield Impossible(
+            "rim_radius",
+            plate.rim_radius,
+            message("engine", "must be at most {largest} m").fill(largest=LARGEST),
+        )
     width = plate.rim_radius - plate.hub_radius
     if width < 0.02 * plate.rim_radius:
         yield Impossible(
             "hub_radius",
             plate.hub_radius,
-            f"must be at most 0.98 of rim_radius, which is {plate.rim_radius:g} m",
+            message("engine", "must be at most 0.98 of rim_radius, which is {rim_radius} m").fill(
+                rim_radius=plate.rim_radius
+            ),
         )
         return
     if plate.hub_radius < 0.02 * plate.rim_radius:
         yield Impossible(
             "hub_radius",
             plate.hub_radius,
-            f"must be at least 0.02 of rim_radius, which is {plate.rim_radius:g} m",
+            message("engine", "must be at least 0.02 of rim_radius, which is {rim_radius} m").fill(
+                rim_radius=plate.rim_radius
+            ),
         )
     if not THINNEST * width <= plate.thickness <= THICKEST * width:
         yield Impossible(
             "thickness",
             plate.thickness,
-            f"must be {THINNEST * width:.3g} to {THICKEST * width:.3g} m: a thin plate has "
-            f"{THINNEST:g} to {THICKEST:g} of its width from hub to rim",
+            message(
+                "engine",
+                "must be {thinnest} to {thickest} m: a thin plate has {least_share} to "
+                "{most_share} of its width from hub to rim",
+            ).fill(
+                thinnest=rounded(THINNEST * width, 3),
+                thickest=rounded(THICKEST * width, 3),
+                least_share=THINNEST,
+                most_share=THICKEST,
+            ),
         )
     if abs(plate.hub.product) > plate.hub.inertia:
         yield Impossible(
-            "hub.product", plate.hub.product, f"must be within ± inertia {plate.hub.inertia:g}"
+            "hub.product",
+            plate.hub.product,
+            message("engine", "must be within ± inertia {inertia}").fill(inertia=plate.hub.inertia),
         )
     if plate.pin.diameter > 2.0 * plate.hub_radius:
-        yield Impossible("pin.diameter", plate.pin.diameter, "must be at most the hub's")
+        yield Impossible(
+            "pin.diameter", plate.pin.diameter, marked("engine", "must be at most the hub's")
+        )
     for index, cutout in enumerate(plate.cutout):
         for problem in _cutout(cutout, plate):
             yield problem._replace(key=f"cutout[{index}].{problem.key}")
@@ -98,33 +120,59 @@ def _cutout(cutout: Cutout, plate: Plate) -> Iterator[Impossible]:
         for key in keys:
             value = getattr(cutout, key)
             if kind == cutout.kind and value is None:
-                yield Impossible(key, None, f"a {kind} needs it")
+                yield Impossible(key, None, message("engine", "a {kind} needs it").fill(kind=kind))
                 return
             if kind != cutout.kind and value is not None:
-                yield Impossible(key, value, f"a {cutout.kind} has none; remove it")
+                yield Impossible(
+                    key,
+                    value,
+                    message("engine", "a {kind} has none; remove it").fill(kind=cutout.kind),
+                )
                 return
     if abs(cutout.twist) > 2.0 * pi or (cutout.kind == "hole" and cutout.twist != 0.0):
-        bound = "must be within ± 6.28 rad" if cutout.kind == "slot" else "a hole has none"
+        bound = (
+            marked("engine", "must be within ± 6.28 rad")
+            if cutout.kind == "slot"
+            else marked("engine", "a hole has none")
+        )
         yield Impossible("twist", cutout.twist, bound)
     inner, outer, half_angle = ring(cutout)[1:]
     slot = cutout.kind == "slot"
     if inner >= outer:
-        yield Impossible("outer_radius", outer, f"must be above inner_radius {inner:g}")
+        yield Impossible(
+            "outer_radius",
+            outer,
+            message("engine", "must be above inner_radius {inner}").fill(inner=inner),
+        )
     elif inner <= plate.hub_radius or outer >= plate.rim_radius:
         key = "inner_radius" if slot else "circle_radius"
         yield Impossible(
             key,
             getattr(cutout, key),
-            f"the cut-out {'' if slot else 'with its surroundings '}reaches from {inner:g} to "
-            f"{outer:g} m; it must stay between hub {plate.hub_radius:g} and rim "
-            f"{plate.rim_radius:g} m",
+            (
+                message(
+                    "engine",
+                    "the cut-out reaches from {inner} to {outer} m; it must stay between hub "
+                    "{hub_radius} and rim {rim_radius} m",
+                )
+                if slot
+                else message(
+                    "engine",
+                    "the cut-out with its surroundings reaches from {inner} to {outer} m; it must "
+                    "stay between hub {hub_radius} and rim {rim_radius} m",
+                )
+            ).fill(
+                inner=inner, outer=outer, hub_radius=plate.hub_radius, rim_radius=plate.rim_radius
+            ),
         )
     elif half_angle * cutout.count >= 0.98 * pi:
         key = "width" if slot else "radius"
         yield Impossible(
             key,
             getattr(cutout, key),
-            f"{cutout.count} of them leave nothing between them; make them smaller or fewer",
+            message(
+                "engine", "{count} of them leave nothing between them; make them smaller or fewer"
+            ).fill(count=cutout.count),
         )
 
 
@@ -135,7 +183,10 @@ def _overlap(plate: Plate) -> Iterator[Impossible]:
             yield Impossible(
                 f"cutout[{plate.cutout.index(other.cutout)}]",
                 other.cutout.kind,
-                f"its ring from {other.inner:g} to {other.outer:g} m meets another's, which ends "
-                f"at {one.outer:g} m; put them into separate rings",
+                message(
+                    "engine",
+                    "its ring from {inner} to {outer} m meets another's, which ends at "
+                    "{one_outer} m; put them into separate rings",
+                ).fill(inner=other.inner, outer=other.outer, one_outer=one.outer),
             )
             return

@@ -12,8 +12,10 @@ from math import ceil, log, pi, tau
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.plate.errors import PlateError
 from rotemina.sim.plate.geometry import Ring, impossible, rings
+from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.plate import Cutout, Plate
 
 DIVISIONS = 120  # of a turn, at the default mesh
@@ -56,10 +58,17 @@ def make_mesh(plate: Plate, divisions: int = DIVISIONS) -> PlateMesh:
     problem = next(impossible(plate), None)
     if problem is not None:
         value = "missing" if problem.value is None else problem.value
-        raise PlateError(f"plate.{problem.key} = {value}: {problem.bound}")
+        raise PlateError(
+            message("engine", "plate.{key} = {value}: {bound}").fill(
+                key=problem.key, value=str(value), bound=problem.bound
+            )
+        )
     if not FEWEST <= divisions <= MOST:
         raise PlateError(
-            f"divisions of the turn = {divisions}: must be {FEWEST} to {MOST}; {DIVISIONS} is usual"
+            message(
+                "engine",
+                "divisions of the turn = {divisions}: must be {fewest} to {most}; {usual} is usual",
+            ).fill(divisions=divisions, fewest=FEWEST, most=MOST, usual=DIVISIONS)
         )
     grid = _Grid(plate, divisions)
     points, triangles = grid.points, grid.triangles
@@ -243,7 +252,15 @@ def _require_quality(points: FloatArray, triangles: np.ndarray) -> None:
     if quality[worst] < _WORST_QUALITY:
         x, y = 1e3 * points[:, triangles[:, worst]].mean(axis=1)
         raise PlateError(
-            f"no mesh can be made: the element at x {x:.3g} mm, y {y:.3g} mm has quality "
-            f"{quality[worst]:.2g} (at least {_WORST_QUALITY:g}); edges of cut-outs are too close "
-            "to one another or nearly in line there; put them in line, or further apart"
+            message(
+                "engine",
+                "no mesh can be made: the element at x {x} mm, y {y} mm has quality {quality} (at "
+                "least {worst_quality}); edges of cut-outs are too close to one another or nearly "
+                "in line there; put them in line, or further apart",
+            ).fill(
+                x=rounded(x, 3),
+                y=rounded(y, 3),
+                quality=rounded(quality[worst], 2),
+                worst_quality=_WORST_QUALITY,
+            )
         )

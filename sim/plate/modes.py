@@ -7,6 +7,7 @@ from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.plate.bending import factorized
 from rotemina.sim.plate.errors import PlateError
 from rotemina.sim.plate.statics import HeldPlate, hub_inertia, reduced
@@ -41,7 +42,9 @@ def eigenmodes(held: HeldPlate, pin_length_m: float, count: int = 10) -> Modes:
         If more modes are asked for than are computed well.
     """
     if not 1 <= count <= MOST:
-        raise PlateError(f"modes = {count}: must be 1 to {MOST}")
+        raise PlateError(
+            message("engine", "modes = {count}: must be 1 to {most}").fill(count=count, most=MOST)
+        )
     length = held.bending.length
     scale = np.array([1.0, length, length])
     inertia = hub_inertia(held.plate, pin_length_m) / np.outer(scale, scale)

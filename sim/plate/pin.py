@@ -12,6 +12,7 @@ vibrations of prismatic bars", Phil. Mag. 41 (1921); shear coefficient of the ci
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.plate.errors import PlateError
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.robot.plate import Pin
@@ -31,13 +32,26 @@ def pin_length(robot: Robot) -> float:
     length = pin.length if pin.length is not None else robot.pin_length
     if length is None:
         raise PlateError(
-            f"robot {robot.name}: plate.pin.length: missing, and robot.pin_length too; give one"
+            message(
+                "engine",
+                "robot {name}: plate.pin.length: missing, and robot.pin_length too; give one",
+            ).fill(name=robot.name)
         )
     low, high = _SHORTEST * pin.diameter, _LONGEST * pin.diameter
     if not low <= length <= high:
         raise PlateError(
-            f"robot {robot.name}: plate.pin.length = {length:g} m: must be {low:g} to {high:g} m, "
-            f"{_SHORTEST:g} to {_LONGEST:g} times its diameter; as a beam it is computed"
+            message(
+                "engine",
+                "robot {name}: plate.pin.length = {length} m: must be {low} to {high} m, "
+                "{shortest} to {longest} times its diameter; as a beam it is computed",
+            ).fill(
+                name=robot.name,
+                length=length,
+                low=low,
+                high=high,
+                shortest=_SHORTEST,
+                longest=_LONGEST,
+            )
         )
     return length
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.plate.errors import PlateError
 from rotemina.sim.plate.joint import seat_force, utilization
 from rotemina.sim.plate.pin import compliance, pin_stress
@@ -68,9 +69,15 @@ def move_bottom(
         If the path is no such table of finite numbers, or the time is not positive.
     """
     if path.ndim != 2 or path.shape[1] != 3 or len(path) < 2 or not np.isfinite(path).all():
-        raise PlateError("the path of the pin's bottom must be rows of three finite numbers")
+        raise PlateError(
+            message("engine", "the path of the pin's bottom must be rows of three finite numbers")
+        )
     if not (np.isfinite(duration_s) and duration_s > 0.0):
-        raise PlateError(f"duration of the ramp = {duration_s:g} s: must be positive")
+        raise PlateError(
+            message("engine", "duration of the ramp = {duration_s} s: must be positive").fill(
+                duration_s=duration_s
+            )
+        )
     plate = solutions.held.plate
     hub_compliance = np.linalg.inv(solutions.stiffness)
     stiffness = np.asarray(

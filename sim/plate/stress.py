@@ -7,8 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import marked, message
 from rotemina.sim.plate.errors import PlateError
 from rotemina.sim.plate.statics import AXES, UnitSolutions
+from rotemina.sim.quantities import fixed
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.robot.plate import Plate
 
@@ -102,8 +104,11 @@ def motion_ranges(robot: Robot) -> FloatArray:
     missing = [name for name in AXES if name not in robot.axes]
     if missing:
         raise PlateError(
-            f"robot {robot.name}: it has no axis {', '.join(missing)}; the plate carries "
-            f"{', '.join(AXES)}: name a robot that has them"
+            message(
+                "engine",
+                "robot {name}: it has no axis {missing}; the plate carries {axes}: name a robot "
+                "that has them",
+            ).fill(name=robot.name, missing=", ".join(missing), axes=", ".join(AXES))
         )
     return np.array([robot.axes[name].range for name in AXES], dtype=np.float64)
 
@@ -111,6 +116,14 @@ def motion_ranges(robot: Robot) -> FloatArray:
 def place_text(point: StressPoint, plate: Plate) -> str:
     """Say where on the plate a place is."""
     share = (point.radius - plate.hub_radius) / (plate.rim_radius - plate.hub_radius)
-    where = "at the hub" if share < 0.02 else "at the rim" if share > 0.98 else "between"
+    where = (
+        marked("engine", "at the hub")
+        if share < 0.02
+        else marked("engine", "at the rim")
+        if share > 0.98
+        else "between"
+    )
     degrees = np.degrees(point.direction) % 360.0
-    return f"{where}, r {1e3 * point.radius:.2f} mm, {degrees:.0f}°"
+    return message("engine", "{where}, r {radius} mm, {degrees}°").fill(
+        where=where, radius=fixed(1000.0 * point.radius, 2), degrees=fixed(degrees, 0)
+    )

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from rotemina.sim.messages import message
 from rotemina.sim.records.metadata import BLANKS
 from rotemina.sim.records.record import VOLTAGE_TAPS, Channel, RecordError, Tap
 from rotemina.sim.robot.model import Robot
@@ -141,17 +142,26 @@ def _parse_column(heading: str, where: str, *, first: bool) -> Column:
     match = _COLUMN.fullmatch(heading)
     if match is None:
         raise RecordError(
-            f"{where}: heading {heading[:40]!r} is no 'axis.channel [unit]'; "
-            f"write such as {EXAMPLE}"
+            message(
+                "engine",
+                "{where}: heading {heading} is no 'axis.channel [unit]'; write such as {example}",
+            ).fill(where=where, heading=repr(heading[:40]), example=EXAMPLE)
         )
     name, unit_text = match[1].strip(BLANKS), match[2].strip(BLANKS)
     try:
         unit = canonical(unit_text)
     except UnitError as error:
-        raise RecordError(f"{where}: {name[:40]!r}: {error}") from error
+        raise RecordError(
+            message("engine", "{where}: {name}: {error}").fill(
+                where=where, name=repr(name[:40]), error=str(error)
+            )
+        ) from error
     if first != (name == "t"):
         raise RecordError(
-            f"{where}: heading {heading[:40]!r}; the first column, and only it, must be time: t [s]"
+            message(
+                "engine",
+                "{where}: heading {heading}; the first column, and only it, must be time: t [s]",
+            ).fill(where=where, heading=repr(heading[:40]))
         )
     channel = None if first else _parse_channel(name, where)
     _check_unit(channel, unit, where)
@@ -163,7 +173,9 @@ def _parse_channel(name: str, where: str) -> Channel:
     axis, tap = (axis, tap) if dot else (name, Tap.CMD.value)
     if tap not in _TAPS:
         raise RecordError(
-            f"{where}: unknown channel {tap[:40]!r} in {name[:40]!r}; use one of {' '.join(_TAPS)}"
+            message("engine", "{where}: unknown channel {tap} in {name}; use one of {names}").fill(
+                where=where, tap=repr(tap[:40]), name=repr(name[:40]), names=" ".join(_TAPS)
+            )
         )
     check_axis_name(axis, where)
     return Channel(axis, Tap(tap))
@@ -174,8 +186,11 @@ def check_axis_name(axis: str, where: str) -> None:
     proper = _AXIS_NAME.fullmatch(axis) is not None and axis.isprintable()
     if not proper or len(axis) > _LONGEST_NAME:
         raise RecordError(
-            f"{where}: {axis[:40]!r} cannot name an axis; begin with a letter, and use "
-            f"no separators, brackets, quotes or '#' and at most {_LONGEST_NAME} characters"
+            message(
+                "engine",
+                "{where}: {axis} cannot name an axis; begin with a letter, and use no separators, "
+                "brackets, quotes or '#' and at most {longest_name} characters",
+            ).fill(where=where, axis=repr(axis[:40]), longest_name=_LONGEST_NAME)
         )
 
 
@@ -183,7 +198,9 @@ def _check_unit(channel: Channel | None, unit: str, where: str) -> None:
     allowed = ("s",) if channel is None else ("V",) if channel.tap in VOLTAGE_TAPS else ("m", "rad")
     if quantity(unit) not in allowed:
         raise RecordError(
-            f"{where}: {channel or 't'} cannot be in [{unit}]; use a unit of {' or '.join(allowed)}"
+            message("engine", "{where}: {value} cannot be in [{unit}]; use a unit of {names}").fill(
+                where=where, value=str(channel or "t"), unit=unit, names=" or ".join(allowed)
+            )
         )
 
 
@@ -193,10 +210,17 @@ def _check_unique(columns: Sequence[Column], where: str) -> None:
         before = seen.setdefault(str(column), number)
         if before != number:
             raise RecordError(
-                f"{where}:{number}: column {column} is already column {before}; remove one"
+                message(
+                    "engine",
+                    "{where}:{number}: column {column} is already column {before}; remove one",
+                ).fill(where=where, number=number, column=str(column), before=before)
             )
     if len(columns) < 2:
-        raise RecordError(f"{where}: no column beside time; write such as {EXAMPLE}")
+        raise RecordError(
+            message("engine", "{where}: no column beside time; write such as {example}").fill(
+                where=where, example=EXAMPLE
+            )
+        )
 
 
 def _check_axes(columns: Iterable[Column], where: str) -> None:
@@ -210,8 +234,18 @@ def _check_axes(columns: Iterable[Column], where: str) -> None:
             kind = kinds.setdefault(axis, quantity(column.unit))
             if kind != quantity(column.unit):
                 raise RecordError(
-                    f"{where}:{number}: {column} is in [{column.unit}] but {axis!r} is in "
-                    f"units of {kind} before; one of them is wrong"
+                    message(
+                        "engine",
+                        "{where}:{number}: {column} is in [{unit}] but {axis} is in units of "
+                        "{kind} before; one of them is wrong",
+                    ).fill(
+                        where=where,
+                        number=number,
+                        column=str(column),
+                        unit=column.unit,
+                        axis=repr(axis),
+                        kind=kind,
+                    )
                 )
     check_commands([column.channel for column in positions if column.channel], where)
 
@@ -222,7 +256,11 @@ def check_commands(channels: Iterable[Channel], where: str) -> None:
     commanded = {axis for axis, tap in channels if tap is Tap.CMD}
     for axis, tap in channels:
         if axis not in commanded:
-            raise RecordError(f"{where}: axis {axis!r} has {axis}.{tap} but no {axis}.cmd; add it")
+            raise RecordError(
+                message(
+                    "engine", "{where}: axis {quoted} has {axis}.{tap} but no {axis}.cmd; add it"
+                ).fill(where=where, quoted=repr(axis), axis=axis, tap=tap)
+            )
 
 
 def _check_robot(columns: Iterable[Column], where: str, robot: Robot) -> None:
@@ -232,12 +270,31 @@ def _check_robot(columns: Iterable[Column], where: str, robot: Robot) -> None:
         axis, tap = column.channel
         if axis not in robot.axes:
             raise RecordError(
-                f"{where}:{number}: robot {robot.name!r} has no axis {axis!r}; "
-                f"its axes are {' '.join(robot.axes)}"
+                message(
+                    "engine",
+                    "{where}:{number}: robot {name} has no axis {axis}; its axes are {names}",
+                ).fill(
+                    where=where,
+                    number=number,
+                    name=repr(robot.name),
+                    axis=repr(axis),
+                    names=" ".join(robot.axes),
+                )
             )
         kind = robot.unit(axis)
         if tap not in VOLTAGE_TAPS and kind is not None and quantity(column.unit) != kind:
             raise RecordError(
-                f"{where}:{number}: {column} is in [{column.unit}] but robot {robot.name!r} "
-                f"moves {axis!r} in units of {kind}; correct the unit"
+                message(
+                    "engine",
+                    "{where}:{number}: {column} is in [{unit}] but robot {name} moves {axis} in "
+                    "units of {kind}; correct the unit",
+                ).fill(
+                    where=where,
+                    number=number,
+                    column=str(column),
+                    unit=column.unit,
+                    name=repr(robot.name),
+                    axis=repr(axis),
+                    kind=kind,
+                )
             )

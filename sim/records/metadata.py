@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 
+from rotemina.sim.messages import marked, message
 from rotemina.sim.records.record import RecordError
 
 VERSION_KEY = "rotemina-record"
@@ -15,13 +16,27 @@ def _is_count(text: str) -> bool:
 
 # What the program itself reads, with what it may be; any other key is the user's.
 _RULES: Mapping[str, tuple[Callable[[str], bool], str]] = {
-    VERSION_KEY: (lambda text: text == VERSION, f"the version must be {VERSION}"),
-    "mode": (lambda text: text in ("open_loop", "closed_loop"), "use open_loop or closed_loop"),
+    VERSION_KEY: (
+        lambda text: text == VERSION,
+        message("engine", "the version must be {version}").fill(version=VERSION),
+    ),
+    "mode": (
+        lambda text: text in ("open_loop", "closed_loop"),
+        marked("engine", marked("engine", "use open_loop or closed_loop")),
+    ),
     "history": (
         lambda text: text in ("unknown", "periodic"),
-        "use unknown or periodic, or leave the line out for a machine at rest",
+        marked(
+            "engine",
+            marked(
+                "engine", "use unknown or periodic, or leave the line out for a machine at rest"
+            ),
+        ),
     ),
-    "period_samples": (_is_count, "use a positive whole number of rows"),
+    "period_samples": (
+        _is_count,
+        marked("engine", marked("engine", "use a positive whole number of rows")),
+    ),
 }
 
 
@@ -62,7 +77,11 @@ class Comments:
         check_entry(key, value, where)
         values = self._values.setdefault(key, [])
         if values and key in _RULES and value != values[-1]:
-            raise RecordError(f"{where}:{key}: {value!r} contradicts {values[-1]!r}; keep one")
+            raise RecordError(
+                message("engine", "{where}:{key}: {value} contradicts {values}; keep one").fill(
+                    where=where, key=key, value=repr(value), values=repr(values[-1])
+                )
+            )
         if not values or value != values[-1]:
             values.append(value)
 
@@ -71,7 +90,11 @@ def check_entry(key: str, value: str, where: str) -> None:
     """Refuse a value that a key of the program may not have."""
     allowed, advice = _RULES.get(key, (None, ""))
     if allowed is not None and not allowed(value):
-        raise RecordError(f"{where}:{key}: value {value[:40]!r}; {advice}")
+        raise RecordError(
+            message("engine", "{where}:{key}: value {value}; {advice}").fill(
+                where=where, key=key, value=repr(value[:40]), advice=advice
+            )
+        )
 
 
 def comment_lines(metadata: Mapping[str, str], longest: int) -> Iterator[str]:
@@ -87,11 +110,18 @@ def comment_lines(metadata: Mapping[str, str], longest: int) -> Iterator[str]:
         line = f"# {key}: {value}".rstrip(BLANKS)
         if parse_comment(line) != (key, value) or not _is_one_line(line):
             raise RecordError(
-                f"metadata:{key[:40]!r}: {value[:40]!r} does not fit in a '# key: value' line; "
-                "leave out line ends, control characters, blanks around, and ':' in the key"
+                message(
+                    "engine",
+                    "metadata:{key}: {value} does not fit in a '# key: value' line; leave out line "
+                    "ends, control characters, blanks around, and ':' in the key",
+                ).fill(key=repr(key[:40]), value=repr(value[:40]))
             )
         if len(line.encode()) >= longest:
-            raise RecordError(f"metadata:{key[:40]!r}: longer than {longest} bytes; shorten it")
+            raise RecordError(
+                message("engine", "metadata:{key}: longer than {longest} bytes; shorten it").fill(
+                    key=repr(key[:40]), longest=longest
+                )
+            )
         yield line
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 from os import PathLike, fspath
 
+from rotemina.sim.messages import message
 from rotemina.sim.records.layout import (
     SEPARATORS,
     header_separator,
@@ -64,7 +65,11 @@ def preview(path: str | PathLike[str], *, rows: int = 20, limits: Limits = LIMIT
     """
     lines = _first_lines(fspath(path), rows + 1, limits)
     if not lines:
-        raise RecordError(f"{fspath(path)}: no header and no rows; the record is empty")
+        raise RecordError(
+            message("engine", "{fspath}: no header and no rows; the record is empty").fill(
+                fspath=fspath(path)
+            )
+        )
     headings: tuple[str, ...] = ()
     if looks_like_header(lines[0]):
         separator = header_separator(lines[0])

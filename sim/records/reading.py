@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.records.layout import (
     EXAMPLE,
     Column,
@@ -61,8 +62,9 @@ def read_record(
         count += parsed.rows.size
         if count > limits.values:
             raise RecordError(
-                f"{fspath(path)}:{parsed.first_line}: more than {limits.values} values; "
-                "split the file"
+                message(
+                    "engine", "{fspath}:{first_line}: more than {values} values; split the file"
+                ).fill(fspath=fspath(path), first_line=parsed.first_line, values=limits.values)
             )
     return assembled(parsed.layout, parts, comments.metadata)
 
@@ -99,7 +101,11 @@ def parsed_blocks(
             empty = empty and len(rows) == 0
             yield Parsed(layout, block.first_line, rows)
     if empty:
-        raise RecordError(f"{name}:{first.first_line}: no rows of numbers; the record is empty")
+        raise RecordError(
+            message("engine", "{name}:{first_line}: no rows of numbers; the record is empty").fill(
+                name=name, first_line=first.first_line
+            )
+        )
 
 
 def collected(
@@ -121,7 +127,11 @@ def _collect(name: str, block: Block, comments: Comments, most_bytes: int) -> in
         counted = match.start()
         collected += len(match[0]) + 1
         if collected > most_bytes:
-            raise RecordError(f"{name}:{line}: too many bytes of comments in all; shorten them")
+            raise RecordError(
+                message(
+                    "engine", "{name}:{line}: too many bytes of comments in all; shorten them"
+                ).fill(name=name, line=line)
+            )
         comments.add(decode_line(match[0], name, line), f"{name}:{line}")
     return collected
 
@@ -143,7 +153,11 @@ def _find_layout(
             return layout, Block(line + 1, block.data[match.end() + 1 :])
         layout = _layout_of_row(text, f"{name}:{line}", named)
         return layout, Block(line, block.data[match.start() :])
-    raise RecordError(f"{name}:{line}: no header and no rows of numbers; the record is empty")
+    raise RecordError(
+        message(
+            "engine", "{name}:{line}: no header and no rows of numbers; the record is empty"
+        ).fill(name=name, line=line)
+    )
 
 
 def _layout_of_header(
@@ -161,8 +175,11 @@ def _layout_of_header(
             for each in (columns, named)
         )
         raise RecordError(
-            f"{where}:{index + 1}: the header names {found} where you named {asked}; "
-            "name the same or leave it to the header"
+            message(
+                "engine",
+                "{where}:{index}: the header names {found} where you named {asked}; name the same "
+                "or leave it to the header",
+            ).fill(where=where, index=index + 1, found=found, asked=asked)
         )
     return Layout(header_separator(text), columns)
 
@@ -170,7 +187,10 @@ def _layout_of_header(
 def _layout_of_row(text: str, where: str, named: tuple[Column, ...] | None) -> Layout:
     if named is None:
         raise RecordError(
-            f"{where}:1: the file has no header row; name its columns, such as '{EXAMPLE}'"
+            message(
+                "engine",
+                "{where}:1: the file has no header row; name its columns, such as '{example}'",
+            ).fill(where=where, example=EXAMPLE)
         )
     # Where no separator fits, the row parser finds what is wrong with this row.
     return Layout(row_separator(text, len(named)) or header_separator(text), named)

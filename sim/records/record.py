@@ -11,6 +11,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 
 class RecordError(InputError):
@@ -104,8 +106,13 @@ class Record:
         for index, (channel, signal) in enumerate(signals.items()):
             if np.shape(signal) != (len(time_s),):
                 raise RecordError(
-                    f"record: {'.'.join(channel)} has shape {np.shape(signal)}, "
-                    f"expected {(len(time_s),)} from time"
+                    message(
+                        "engine", "record: {names} has shape {shape}, expected {value} from time"
+                    ).fill(
+                        names=".".join(channel),
+                        shape=str(np.shape(signal)),
+                        value=str((len(time_s),)),
+                    )
                 )
             values[:, index] = signal
         return cls(time_s, columns, values, units, metadata or {})
@@ -143,7 +150,9 @@ class Record:
             noise = math.nan
         if not 0.0 < noise < math.inf:
             raise RecordError(
-                f"record: {key} = {text!r}: must be a number above 0, in m or rad (rms)"
+                message(
+                    "engine", "record: {key} = {text}: must be a number above 0, in m or rad (rms)"
+                ).fill(key=key, text=repr(text))
             )
         return noise
 
@@ -154,7 +163,11 @@ class Record:
         if text is None:
             return None
         if not text.isdecimal() or int(text) < 1:
-            raise RecordError(f"record: period_samples = {text!r}: must be a whole number above 0")
+            raise RecordError(
+                message(
+                    "engine", "record: period_samples = {text}: must be a whole number above 0"
+                ).fill(text=repr(text))
+            )
         return int(text)
 
     @property
@@ -183,19 +196,29 @@ def _check(
 ) -> None:
     if values.shape != (len(time_s), len(columns)):
         raise RecordError(
-            f"record: values have shape {values.shape}, "
-            f"expected {(len(time_s), len(columns))} from time and columns"
+            message(
+                "engine",
+                "record: values have shape {shape}, expected {value} from time and columns",
+            ).fill(shape=str(values.shape), value=str((len(time_s), len(columns))))
         )
     if len(time_s) == 0 or not columns:
-        raise RecordError("record: it holds no rows or no columns")
+        raise RecordError(message("engine", "record: it holds no rows or no columns"))
     if len(set(columns)) != len(columns):
-        raise RecordError("record: a column is named twice")
+        raise RecordError(message("engine", "record: a column is named twice"))
     missing = {channel.axis for channel in columns} - set(units)
     if missing:
-        raise RecordError(f"record: no unit given for axis {sorted(missing)[0]!r}")
+        raise RecordError(
+            message("engine", "record: no unit given for axis {axis}").fill(
+                axis=repr(sorted(missing)[0])
+            )
+        )
     if not np.isfinite(time_s).all() or not np.isfinite(values).all():
-        raise RecordError("record: a time or value is not finite")
+        raise RecordError(message("engine", "record: a time or value is not finite"))
     stuck = time_s[1:] <= time_s[:-1]  # no differences: those of huge times overflow
     if stuck.any():
         row = int(np.argmax(stuck)) + 1
-        raise RecordError(f"record: time does not increase at row {row} (t = {time_s[row]:.9g} s)")
+        raise RecordError(
+            message("engine", "record: time does not increase at row {row} (t = {time_s} s)").fill(
+                row=row, time_s=rounded(time_s[row], 9)
+            )
+        )

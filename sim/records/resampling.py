@@ -7,6 +7,8 @@ from typing import Literal, get_args
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record, RecordError, Tap
 from rotemina.sim.records.source import LIMITS
 
@@ -40,7 +42,9 @@ def resample(record: Record, rate_hz: float, method: Method = "hold") -> Record:
     """
     if method not in get_args(Method):
         raise RecordError(
-            f"resampling: unknown method {method!r}; use one of {' '.join(get_args(Method))}"
+            message("engine", "resampling: unknown method {method}; use one of {names}").fill(
+                method=repr(method), names=" ".join(get_args(Method))
+            )
         )
     time_s = _grid(record, rate_hz)
     interpolate = _METHODS[method]
@@ -65,12 +69,18 @@ def induced_velocity(record: Record) -> dict[str, float]:
 
 def _grid(record: Record, rate_hz: float) -> FloatArray:
     if not (isfinite(rate_hz) and rate_hz > 0):
-        raise RecordError(f"resampling: rate {rate_hz!r} Hz; use a positive number")
+        raise RecordError(
+            message("engine", "resampling: rate {rate_hz} Hz; use a positive number").fill(
+                rate_hz=repr(rate_hz)
+            )
+        )
     steps = record.duration_s * rate_hz + _ON_A_ROW
     if steps * (1 + len(record.columns)) > LIMITS.values:
         raise RecordError(
-            f"resampling: {steps:.3g} rows at {rate_hz:.6g} Hz exceed {LIMITS.values} values; "
-            "lower the rate"
+            message(
+                "engine",
+                "resampling: {steps} rows at {rate_hz} Hz exceed {values} values; lower the rate",
+            ).fill(steps=rounded(steps, 3), rate_hz=rounded(rate_hz, 6), values=LIMITS.values)
         )
     time_s: FloatArray = record.time_s[0] + np.arange(floor(steps) + 1) / rate_hz
     time_s[-1] = min(time_s[-1], record.time_s[-1])

@@ -10,6 +10,7 @@ from math import inf, isfinite
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import joined, marked, message
 from rotemina.sim.records.layout import NUMBER, Layout, split_fields
 from rotemina.sim.records.metadata import BLANKS
 from rotemina.sim.records.record import RecordError
@@ -89,8 +90,11 @@ class RowParser:
                 raise self._error(
                     line,
                     0,
-                    f"time {row[0]!r} s does not increase after {last_time_s!r} s; "
-                    "each row must be later than the one before",
+                    message(
+                        "engine",
+                        "time {time} s does not increase after {last} s; each row must be later "
+                        "than the one before",
+                    ).fill(time=repr(row[0]), last=repr(last_time_s)),
                 )
             last_time_s = row[0]
             rows.append(row)
@@ -114,7 +118,13 @@ class RowParser:
             raise self._error(line, index, _what_is_wrong(field))
         value = float(text)
         if not isfinite(value):
-            raise self._error(line, index, f"value {_shown(field)} exceeds what float64 holds")
+            raise self._error(
+                line,
+                index,
+                message("engine", "value {value} exceeds what float64 holds").fill(
+                    value=_shown(field)
+                ),
+            )
         return value
 
     def _check_decimal_sign(self, field: str, line: int, index: int) -> None:
@@ -127,30 +137,47 @@ class RowParser:
                     raise self._error(
                         line,
                         index,
-                        f"value {_shown(field)} has {sign!r} where the numbers before have "
-                        f"{self._decimal_sign!r}; use one decimal sign and no thousands separators",
+                        message(
+                            "engine",
+                            "value {value} has {sign} where the numbers before have {before}; use "
+                            "one decimal sign and no thousands separators",
+                        ).fill(
+                            value=_shown(field), sign=repr(sign), before=repr(self._decimal_sign)
+                        ),
                     )
 
     def _length_error(self, line: int, fields: list[str]) -> RecordError:
         wanted = len(self._per_si)
-        separator = {"\t": "tabs", " ": "blanks"}.get(
+        separator = {"\t": marked("engine", "tabs"), " ": marked("engine", "blanks")}.get(
             self._layout.separator, repr(self._layout.separator)
         )
-        advice = f"separate {wanted} columns by {separator}"
+        advice = [
+            message("engine", "separate {count} columns by {separator}").fill(
+                count=wanted, separator=separator
+            )
+        ]
         if len(fields) < wanted:
-            advice += "; was the file cut off?"
+            advice.append(message("engine", "was the file cut off?"))
         elif self._layout.separator == "," and len(fields) <= 2 * wanted:
-            advice += "; if the commas are decimal signs, separate columns by ';'"
+            advice.append(
+                message("engine", "if the commas are decimal signs, separate columns by ';'")
+            )
         return self._error(
             line,
             min(len(fields), wanted),
-            f"the row has {len(fields)} fields where the header names {wanted}; {advice}",
+            message(
+                "engine", "the row has {count} fields where the header names {wanted}; {advice}"
+            ).fill(count=len(fields), wanted=wanted, advice=joined(advice, "; ")),
         )
 
     def _error(self, line: int, index: int, what: str) -> RecordError:
         names = self._layout.names
         column = names[index] if index < len(names) else str(index + 1)
-        return RecordError(f"{self._name}:{line}:{column}: {what}")
+        return RecordError(
+            message("engine", "{name}:{line}:{column}: {what}").fill(
+                name=self._name, line=line, column=column, what=what
+            )
+        )
 
 
 def decode_line(data: bytes, name: str, line: int) -> str:
@@ -165,25 +192,40 @@ def decode_line(data: bytes, name: str, line: int) -> str:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
         raise RecordError(
-            f"{name}:{line}:byte {error.start + 1}: {data[error.start : error.start + 1]!r} "
-            "is not UTF-8; save the file as UTF-8"
+            message(
+                "engine", "{name}:{line}:byte {start}: {data} is not UTF-8; save the file as UTF-8"
+            ).fill(
+                name=name,
+                line=line,
+                start=error.start + 1,
+                data=repr(data[error.start : error.start + 1]),
+            )
         ) from error
     text = text.removesuffix("\r")
     if "\r" in text:
         raise RecordError(
-            f"{name}:{line}: a carriage return stands inside of the line; end lines with LF or CRLF"
+            message(
+                "engine",
+                "{name}:{line}: a carriage return stands inside of the line; end lines with LF or "
+                "CRLF",
+            ).fill(name=name, line=line)
         )
     return text
 
 
 def _what_is_wrong(field: str) -> str:
     if not field:
-        return (
-            "the value is missing; a sensor dropout is a finite wrong value, never an empty field"
+        return marked(
+            "engine",
+            "the value is missing; a sensor dropout is a finite wrong value, never an empty field",
         )
     if field.lower().lstrip("+-") in ("nan", "inf", "infinity"):
-        return f"value {_shown(field)} is not finite; write a finite number"
-    return f"value {_shown(field)} is no plain decimal number; write such as -12.5 or 3e-6"
+        return message("engine", "value {value} is not finite; write a finite number").fill(
+            value=_shown(field)
+        )
+    return message(
+        "engine", "value {value} is no plain decimal number; write such as -12.5 or 3e-6"
+    ).fill(value=_shown(field))
 
 
 def _shown(field: str) -> str:

@@ -16,6 +16,7 @@ from typing import BinaryIO, cast
 import numpy as np
 
 from rotemina.sim.input_files import open_file
+from rotemina.sim.messages import marked, message
 from rotemina.sim.records.record import RecordError
 
 _LINE_END = ord("\n")
@@ -83,7 +84,7 @@ def open_blocks(path: str | PathLike[str], limits: Limits = LIMITS) -> Iterator[
         If the file cannot be opened or read, is no text or exceeds ``limits``.
     """
     name = fspath(path)
-    with open_file(path, RecordError, advice="name a record file") as file:
+    with open_file(path, RecordError, advice=marked("engine", "name a record file")) as file:
         yield _blocks(name, file, limits)
 
 
@@ -95,8 +96,11 @@ def _blocks(name: str, file: BinaryIO, limits: Limits) -> Iterator[Block]:
         total += len(data)
         if compressed and total > limits.expanded_bytes:
             raise RecordError(
-                f"{name}:{line}: the compressed file expands to more than "
-                f"{limits.expanded_bytes} bytes; unpack or split it"
+                message(
+                    "engine",
+                    "{name}:{line}: the compressed file expands to more than {expanded_bytes} "
+                    "bytes; unpack or split it",
+                ).fill(name=name, line=line, expanded_bytes=limits.expanded_bytes)
             )
         if line == 1 and data.startswith(_BYTE_ORDER_MARK):
             data = data[len(_BYTE_ORDER_MARK) :]
@@ -105,7 +109,7 @@ def _blocks(name: str, file: BinaryIO, limits: Limits) -> Iterator[Block]:
         yield block
         line += block.lines
     if total == 0:
-        raise RecordError(f"{name}: the file is empty")
+        raise RecordError(message("engine", "{name}: the file is empty").fill(name=name))
 
 
 def _whole_lines(name: str, line: int, stream: BinaryIO, limits: Limits) -> bytes:
@@ -121,24 +125,36 @@ def _read(name: str, line: int, read: Callable[[int], bytes], size: int) -> byte
         return read(size)
     except EOFError as error:
         raise RecordError(
-            f"{name}:{line}: the compressed file ends early, after this line; it was cut off: "
-            "copy or record it again"
+            message(
+                "engine",
+                "{name}:{line}: the compressed file ends early, after this line; it was cut off: "
+                "copy or record it again",
+            ).fill(name=name, line=line)
         ) from error
     except (gzip.BadGzipFile, zlib.error) as error:
         raise RecordError(
-            f"{name}:{line}: the compressed data are damaged after this line ({error}); "
-            "copy the file again"
+            message(
+                "engine",
+                "{name}:{line}: the compressed data are damaged after this line ({error}); copy "
+                "the file again",
+            ).fill(name=name, line=line, error=str(error))
         ) from error
     except OSError as error:
-        raise RecordError(f"{name}:{line}: reading failed after this line ({error})") from error
+        raise RecordError(
+            message("engine", "{name}:{line}: reading failed after this line ({error})").fill(
+                name=name, line=line, error=str(error)
+            )
+        ) from error
 
 
 def _check_text(name: str, block: Block, limits: Limits) -> None:
     binary = block.data.find(b"\0")
     if binary >= 0:
         raise RecordError(
-            f"{name}:{block.line_of(binary)}: the file is binary or UTF-16, not UTF-8 text; "
-            "save it as UTF-8"
+            message(
+                "engine",
+                "{name}:{line_of}: the file is binary or UTF-16, not UTF-8 text; save it as UTF-8",
+            ).fill(name=name, line_of=block.line_of(binary))
         )
     start = 0
     while len(block.data) - start > limits.line_bytes:
@@ -146,7 +162,10 @@ def _check_text(name: str, block: Block, limits: Limits) -> None:
         end = block.data.rfind(b"\n", start, start + limits.line_bytes + 1) + 1
         if end == 0:
             raise RecordError(
-                f"{name}:{block.line_of(start)}: the line is longer than {limits.line_bytes} bytes"
-                "; is this a record, with LF or CRLF at the end of each line?"
+                message(
+                    "engine",
+                    "{name}:{line_of}: the line is longer than {line_bytes} bytes; is this a "
+                    "record, with LF or CRLF at the end of each line?",
+                ).fill(name=name, line_of=block.line_of(start), line_bytes=limits.line_bytes)
             )
         start = end

@@ -10,6 +10,8 @@ from typing import BinaryIO, cast
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.layout import Column, Layout, check_axis_name, check_commands
 from rotemina.sim.records.metadata import comment_lines
 from rotemina.sim.records.record import VOLTAGE_TAPS, Record, RecordError
@@ -68,7 +70,7 @@ def write_pieces(
     coming = iter(pieces)
     first = next(coming, None)
     if first is None:
-        raise RecordError("record: it holds no rows")
+        raise RecordError(message("engine", "record: it holds no rows"))
     layout = _layout(first, units or {})
     head = _head(first, layout) if header else b""
     last_s = -np.inf
@@ -84,12 +86,17 @@ def write_pieces(
 def _check_goes_on(first: Record, piece: Record, last_s: float) -> None:
     if (piece.columns, piece.units) != (first.columns, first.units):
         raise RecordError(
-            f"record: the piece from t = {piece.time_s[0]:.9g} s has other columns than the first"
+            message(
+                "engine", "record: the piece from t = {time_s} s has other columns than the first"
+            ).fill(time_s=rounded(piece.time_s[0], 9))
         )
     if piece.time_s[0] <= last_s:
         raise RecordError(
-            f"record: the piece from t = {piece.time_s[0]:.9g} s does not come after the one "
-            f"before, which ends at t = {last_s:.9g} s"
+            message(
+                "engine",
+                "record: the piece from t = {time_s} s does not come after the one before, which "
+                "ends at t = {last_s} s",
+            ).fill(time_s=rounded(piece.time_s[0], 9), last_s=rounded(last_s, 9))
         )
 
 
@@ -110,15 +117,21 @@ def _layout(record: Record, units: Mapping[str, str]) -> Layout:
 def _check_unit(record: Record, axis: str, unit: str) -> None:
     if axis not in record.axes:
         raise RecordError(
-            f"units: the record has no axis {axis!r}; its axes are {' '.join(record.axes)}"
+            message("engine", "units: the record has no axis {axis}; its axes are {names}").fill(
+                axis=repr(axis), names=" ".join(record.axes)
+            )
         )
     try:
         kind = quantity(unit)
     except UnitError as error:
-        raise RecordError(f"units:{axis}: {error}") from error
+        raise RecordError(
+            message("engine", "units:{axis}: {error}").fill(axis=axis, error=str(error))
+        ) from error
     if kind != record.units[axis]:
         raise RecordError(
-            f"units:{axis}: {unit!r} cannot show units of {record.units[axis]}; use one of those"
+            message(
+                "engine", "units:{axis}: {unit} cannot show units of {units}; use one of those"
+            ).fill(axis=axis, unit=repr(unit), units=record.units[axis])
         )
 
 
@@ -149,7 +162,11 @@ def _converted(signal: FloatArray, column: Column, factor: float) -> FloatArray:
     with np.errstate(over="ignore"):
         values = signal * factor
     if not np.isfinite(values).all():
-        raise RecordError(f"record:{column}: too large for [{column.unit}]; choose a larger unit")
+        raise RecordError(
+            message("engine", "record:{column}: too large for [{unit}]; choose a larger unit").fill(
+                column=str(column), unit=column.unit
+            )
+        )
     return values
 
 

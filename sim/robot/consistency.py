@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.sim.messages import marked, message
 from rotemina.sim.plate.geometry import impossible
 from rotemina.sim.records.layout import check_axis_name
 from rotemina.sim.records.record import RecordError
@@ -32,8 +33,10 @@ class Problem(NamedTuple):
 
     def __str__(self) -> str:
         if self.value is None:
-            return f"{self.key}: missing; {self.bound}"
-        return f"{self.key} = {self.value}: {self.bound}"
+            return message("engine", "{key}: missing; {need}").fill(key=self.key, need=self.bound)
+        return message("engine", "{key} = {value}: {bound}").fill(
+            key=self.key, value=str(self.value), bound=self.bound
+        )
 
 
 def find_problem(robot: Robot) -> Problem | None:
@@ -51,17 +54,27 @@ def find_problem(robot: Robot) -> Problem | None:
 
 def _ranges(axis: Axis) -> Iterator[Problem]:
     if axis.range[0] >= axis.range[1]:
-        yield Problem("range", list(axis.range), "the first value must be below the second")
+        yield Problem(
+            "range", list(axis.range), marked("engine", "the first value must be below the second")
+        )
     voltage = None if isinstance(axis, StepperAxis) else axis.voltage_range
     if voltage is not None and voltage[0] >= voltage[1]:
-        yield Problem("voltage_range", list(voltage), "the first value must be below the second")
+        yield Problem(
+            "voltage_range",
+            list(voltage),
+            marked("engine", "the first value must be below the second"),
+        )
     if axis.sensor is not None and axis.sensor.resolution >= axis.span:
         yield Problem(
-            "sensor.resolution", axis.sensor.resolution, f"must be below the range's {axis.span:g}"
+            "sensor.resolution",
+            axis.sensor.resolution,
+            message("engine", "must be below the range's {span}").fill(span=axis.span),
         )
     if axis.following > axis.span:
         yield Problem(
-            "following_bound", axis.following, f"must be at most the range's {axis.span:g}"
+            "following_bound",
+            axis.following,
+            message("engine", "must be at most the range's {span}").fill(span=axis.span),
         )
 
 
@@ -75,24 +88,44 @@ def _dynamics(axis: Axis) -> Iterator[Problem]:
     given_plain = [key for key, value in plain.items() if value is not None]
     if axis.static:
         if isinstance(axis, ForceAxis):
-            yield Problem("static", True, "an axis of kind 'force' is a mass and cannot be static")
+            yield Problem(
+                "static",
+                True,
+                marked("engine", "an axis of kind 'force' is a mass and cannot be static"),
+            )
         elif given_modal or given_plain:
             key = (given_modal + given_plain)[0]
-            yield Problem(key, {**modal, **plain}[key], "a static axis has no dynamics; remove it")
+            yield Problem(
+                key,
+                {**modal, **plain}[key],
+                marked("engine", "a static axis has no dynamics; remove it"),
+            )
     elif given_modal:
         if given_plain:
             key = given_plain[0]
             yield Problem(
-                key, plain[key], "give mass, damping, stiffness or the natural frequency, not both"
+                key,
+                plain[key],
+                marked(
+                    "engine", "give mass, damping, stiffness or the natural frequency, not both"
+                ),
             )
         for key, value in modal.items():
             if value is None:
-                yield Problem(key, None, f"{given_modal[0]} needs it")
+                yield Problem(
+                    key,
+                    None,
+                    message("engine", "{given_modal} needs it").fill(given_modal=given_modal[0]),
+                )
     else:
         needed = ["mass", "damping"] + ([] if isinstance(axis, ForceAxis) else ["stiffness"])
         for key in needed:
             if plain[key] is None:
-                yield Problem(key, None, f"an axis of kind {axis.kind!r} needs it")
+                yield Problem(
+                    key,
+                    None,
+                    message("engine", "an axis of kind {kind} needs it").fill(kind=repr(axis.kind)),
+                )
 
 
 def _drive(axis: Axis) -> Iterator[Problem]:
@@ -102,21 +135,31 @@ def _drive(axis: Axis) -> Iterator[Problem]:
         }
         missing = [key for key, value in gear.items() if value is None]
         if missing and len(missing) < len(gear):
-            yield Problem(missing[0], None, f"{', '.join(gear)} go together")
+            yield Problem(
+                missing[0],
+                None,
+                message("engine", "{names} go together").fill(names=", ".join(gear)),
+            )
         return
     if axis.gain == 0.0:
-        yield Problem("gain", axis.gain, "must not be zero")
+        yield Problem("gain", axis.gain, marked("engine", "must not be zero"))
     elif isinstance(axis, PiezoAxis) and axis.voltage_range is not None:
         yield from _reach(axis)
     if axis.controller is not None and axis.static:
-        yield Problem("controller", axis.controller.kind, "a static axis has nothing to control")
+        yield Problem(
+            "controller",
+            axis.controller.kind,
+            marked("engine", "a static axis has nothing to control"),
+        )
     if axis.controller is not None and axis.voltage_range is not None:
         largest = max(abs(bound) for bound in axis.voltage_range)
         if axis.controller.limit > largest * (1 + VOLTAGE_SLACK):
             yield Problem(
                 "controller.limit",
                 axis.controller.limit,
-                f"must be at most {largest:g} V, the end of voltage_range",
+                message("engine", "must be at most {largest} V, the end of voltage_range").fill(
+                    largest=largest
+                ),
             )
 
 
@@ -128,8 +171,9 @@ def _reach(axis: PiezoAxis) -> Iterator[Problem]:
         yield Problem(
             "range",
             list(axis.range),
-            f"gain {axis.gain:g} over voltage_range {list(axis.voltage_range)} reaches only "
-            f"{low:g} to {high:g}",
+            message(
+                "engine", "gain {gain} over voltage_range {ends} reaches only {low} to {high}"
+            ).fill(gain=axis.gain, ends=str(list(axis.voltage_range)), low=low, high=high),
         )
 
 
@@ -138,9 +182,17 @@ def _stages(robot: Robot) -> Iterator[Problem]:
     for stage, names in robot.stages.items():
         for name in names:
             if name not in robot.axes:
-                yield Problem(f"robot.stages.{stage}", name, f"must be one of {list(robot.axes)}")
+                yield Problem(
+                    f"robot.stages.{stage}",
+                    name,
+                    message("engine", "must be one of {names}").fill(names=str(list(robot.axes))),
+                )
             if name in seen:
-                yield Problem(f"robot.stages.{stage}", name, f"is in stage {seen[name]} already")
+                yield Problem(
+                    f"robot.stages.{stage}",
+                    name,
+                    message("engine", "is in stage {seen} already").fill(seen=seen[name]),
+                )
             seen[name] = stage
 
 
@@ -151,14 +203,26 @@ def _couplings(robot: Robot) -> Iterator[Problem]:
         pair = list(coupling.axes)
         for name in pair:
             if name not in robot.axes:
-                yield Problem(key, name, f"must be one of {list(robot.axes)}")
+                yield Problem(
+                    key,
+                    name,
+                    message("engine", "must be one of {names}").fill(names=str(list(robot.axes))),
+                )
                 return
             if robot.axes[name].static:
-                yield Problem(key, name, "a static axis has no dynamics to couple")
+                yield Problem(
+                    key, name, marked("engine", "a static axis has no dynamics to couple")
+                )
         if pair[0] == pair[1]:
-            yield Problem(key, pair, "must name two different axes")
+            yield Problem(key, pair, marked("engine", "must name two different axes"))
         if (coupling.matrix, frozenset(pair)) in seen:
-            yield Problem(key, pair, f"couples these axes in {coupling.matrix} a second time")
+            yield Problem(
+                key,
+                pair,
+                message("engine", "couples these axes in {matrix} a second time").fill(
+                    matrix=coupling.matrix
+                ),
+            )
         seen.add((coupling.matrix, frozenset(pair)))
 
 
@@ -182,7 +246,11 @@ def _definiteness(robot: Robot) -> Iterator[Problem]:
             values = [c.value for c in robot.couplings if c.matrix == letter]
             word = "definite" if strict else "semi-definite"
             yield Problem(
-                "coupling", values, f"{letter} must be positive {word}; make the coupling smaller"
+                "coupling",
+                values,
+                message(
+                    "engine", "{letter} must be positive {word}; make the coupling smaller"
+                ).fill(letter=letter, word=word),
             )
 
 

@@ -16,6 +16,7 @@ from pydantic.dataclasses import dataclass
 from rotemina.sim.effects.attachment import Attached, parse_effect
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.input_files import parse_toml, read_text
+from rotemina.sim.messages import marked, message
 from rotemina.sim.robot.consistency import Problem, find_problem
 from rotemina.sim.robot.errors import RobotFileError
 from rotemina.sim.robot.model import (
@@ -116,14 +117,18 @@ def _build(table: dict[str, Any], source: str) -> Robot:
     try:
         parsed = _SCHEMA.validate_python(plain)
     except ValidationError as error:
-        raise RobotFileError(f"{source}: {describe(error)}") from error
+        raise RobotFileError(
+            message("engine", "{source}: {describe}").fill(source=source, describe=describe(error))
+        ) from error
     names = parsed.robot.axes
     problem = _axis_list_problem(names, parsed.axis)
     if problem is None:
         robot = _robot(parsed)
         problem = find_problem(robot)
     if problem is not None:
-        raise RobotFileError(f"{source}: {problem}")
+        raise RobotFileError(
+            message("engine", "{source}: {problem}").fill(source=source, problem=str(problem))
+        )
     return _with_effects(robot, effect_tables, source)
 
 
@@ -144,7 +149,11 @@ def _apart(
         tables = axis["effect"]
         if not isinstance(tables, list) or not all(isinstance(t, dict) for t in tables):
             raise RobotFileError(
-                f"{source}: axis.{name}.effect: must be tables, each headed [[axis.{name}.effect]]"
+                message(
+                    "engine",
+                    "{source}: axis.{name}.effect: must be tables, each headed "
+                    "[[axis.{name}.effect]]",
+                ).fill(source=source, name=name)
             )
         effects += [(name, one) for one in tables]
     return {**table, "axis": plain}, effects
@@ -159,21 +168,31 @@ def _with_effects(robot: Robot, tables: list[tuple[str, dict[str, Any]]], source
         for effect in effects:
             Attached.of(robot, effect)
     except EffectError as error:
-        raise RobotFileError(f"{source}: {error}") from error
+        raise RobotFileError(
+            message("engine", "{source}: {error}").fill(source=source, error=str(error))
+        ) from error
     return robot
 
 
 def _axis_list_problem(names: tuple[str, ...], tables: Mapping[str, Axis]) -> Problem | None:
     if not names:
-        return Problem("robot.axes", names, "names at least one axis")
+        return Problem("robot.axes", names, marked("engine", "names at least one axis"))
     if len(set(names)) != len(names):
-        return Problem("robot.axes", list(names), "names each axis once")
+        return Problem("robot.axes", list(names), marked("engine", "names each axis once"))
     for name in names:
         if name not in tables:
-            return Problem("robot.axes", name, f"needs a table [axis.{name}]")
+            return Problem(
+                "robot.axes", name, message("engine", "needs a table [axis.{name}]").fill(name=name)
+            )
     for name in tables:
         if name not in names:
-            return Problem(f"axis.{name}", name, f"must be listed in robot.axes {list(names)}")
+            return Problem(
+                f"axis.{name}",
+                name,
+                message("engine", "must be listed in robot.axes {names}").fill(
+                    names=str(list(names))
+                ),
+            )
     return None
 
 
@@ -218,5 +237,8 @@ def _read(path: Path) -> str:
             raise
         known = ", ".join(shipped_robots())
         raise RobotFileError(
-            f"{path}: no such robot file, and no shipped robot of that name (shipped: {known})"
+            message(
+                "engine",
+                "{path}: no such robot file, and no shipped robot of that name (shipped: {known})",
+            ).fill(path=path, known=known)
         ) from error

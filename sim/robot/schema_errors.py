@@ -1,29 +1,36 @@
 """Turn a schema error of a robot file into one sentence: key, value, bound."""
 
 import difflib
+from collections.abc import Callable, Collection
 from dataclasses import fields
 from typing import Any
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from rotemina.sim.messages import Message, joined, message
 from rotemina.sim.robot import model, plate
 
 _BOUNDS = {
-    "greater_than": "must be greater than {gt}",
-    "greater_than_equal": "must be at least {ge}",
-    "less_than_equal": "must be at most {le}",
-    "finite_number": "must be a finite number",
-    "float_type": "must be a number",
-    "float_parsing": "must be a number",
-    "int_type": "must be a whole number",
-    "bool_type": "must be true or false",
-    "string_type": "must be text",
-    "literal_error": "must be {expected}",
-    "too_long": "must have {max_length} entries, has {actual_length}",
-    "tuple_type": "must be a list",
-    "dataclass_type": "must be a table",
-    "dict_type": "must be a table",
+    "greater_than": message("engine", "must be greater than {gt}"),
+    "greater_than_equal": message("engine", "must be at least {ge}"),
+    "less_than": message("engine", "must be less than {lt}"),
+    "less_than_equal": message("engine", "must be at most {le}"),
+    "finite_number": message("engine", "must be a finite number"),
+    "float_type": message("engine", "must be a number"),
+    "float_parsing": message("engine", "must be a number"),
+    "int_type": message("engine", "must be a whole number"),
+    "bool_type": message("engine", "must be true or false"),
+    "string_type": message("engine", "must be text"),
+    "string_too_short": message("engine", "must not be empty"),
+    "string_too_long": message("engine", "must have at most {max_length} letters"),
+    "literal_error": message("engine", "must be {expected}"),
+    "enum": message("engine", "must be {expected}"),
+    "too_short": message("engine", "must have at least {min_length} entry"),
+    "too_long": message("engine", "must have {max_length} entries, has {actual_length}"),
+    "tuple_type": message("engine", "must be a list"),
+    "dataclass_type": message("engine", "must be a table"),
+    "dict_type": message("engine", "must be a table"),
 }
 _KINDS = {"stepper": model.StepperAxis, "piezo": model.PiezoAxis, "force": model.ForceAxis}
 _TABLES: dict[str, Any] = {
@@ -43,31 +50,65 @@ _TABLES: dict[str, Any] = {
 }
 
 
-def describe(error: ValidationError) -> str:
+def describe(error: ValidationError) -> Message:
     """Return one line for the first problem, with the number of further ones."""
+    return first_of(error, _sentence)
+
+
+def first_of(error: ValidationError, told: Callable[[ErrorDetails], Message]) -> Message:
+    """Return what is told of the first problem, with the number of further ones."""
     details = error.errors(include_url=False)
     # An unknown key is the likeliest cause of a missing one: say it first.
     details.sort(key=lambda detail: detail["type"] != "unexpected_keyword_argument")
-    more = f" (and {len(details) - 1} more)" if len(details) > 1 else ""
-    return _sentence(details[0]) + more
+    first = told(details[0])
+    if len(details) == 1:
+        return first
+    return message("engine", "{problem} (and {count} more)").fill(
+        problem=first, count=len(details) - 1
+    )
 
 
-def _sentence(detail: ErrorDetails) -> str:
+def bound_of(detail: ErrorDetails) -> str:
+    """Return what a value must be."""
+    told = detail.get("ctx", {})
+    if detail["type"] == "value_error":
+        return str(told["error"])
+    found = _BOUNDS.get(detail["type"])
+    return detail["msg"] if found is None else found.fill(**told)
+
+
+def suggestion(name: str, known: Collection[str]) -> list[Message]:
+    """Return which key may have been meant, or which there are."""
+    close = difflib.get_close_matches(name, known, n=1)
+    if close:
+        return [message("engine", "did you mean {key}?").fill(key=repr(close[0]))]
+    if not known:
+        return []
+    return [message("engine", "known here: {keys}").fill(keys=", ".join(known))]
+
+
+def _sentence(detail: ErrorDetails) -> Message:
     path, kind = _path(detail["loc"])
     key = ".".join(path)
     name = detail["type"]
     if name == "union_tag_not_found":
-        return f"{key}.kind: missing; one of 'stepper', 'piezo', 'force'"
+        return message("engine", "{key}.kind: missing; one of {kinds}").fill(
+            key=key, kinds="'stepper', 'piezo', 'force'"
+        )
     if name == "union_tag_invalid":
-        tags = detail["ctx"]["expected_tags"]
-        return f"{key}.kind = {detail['ctx']['tag']!r}: must be one of {tags}"
+        return message("engine", "{key}.kind = {value}: must be one of {kinds}").fill(
+            key=key, value=repr(detail["ctx"]["tag"]), kinds=detail["ctx"]["expected_tags"]
+        )
     if name.startswith("missing"):
-        return f"{key}: missing{_required_by(kind)}"
+        return message("engine", "{key}: missing; {need}").fill(key=key, need=_required_by(kind))
     if name == "unexpected_keyword_argument":
-        return f"{key} = {_short(detail['input'])}: unknown key{_suggestion(path, kind)}"
-    template = _BOUNDS.get(name)
-    bound = template.format(**detail.get("ctx", {})) if template else detail["msg"]
-    return f"{key} = {_short(detail['input'])}: {bound}"
+        said = message("engine", "{key} = {value}: unknown key").fill(
+            key=key, value=_short(detail["input"])
+        )
+        return joined([said, *suggestion(path[-1], sorted(_known_keys(path, kind)))], "; ")
+    return message("engine", "{key} = {value}: {bound}").fill(
+        key=key, value=_short(detail["input"]), bound=bound_of(detail)
+    )
 
 
 def _path(location: tuple[int | str, ...]) -> tuple[list[str], str | None]:
@@ -84,16 +125,10 @@ def _path(location: tuple[int | str, ...]) -> tuple[list[str], str | None]:
     return path, kind
 
 
-def _required_by(kind: str | None) -> str:
-    return f"; an axis of kind {kind!r} needs it" if kind else "; the file needs it"
-
-
-def _suggestion(path: list[str], kind: str | None) -> str:
-    known = _known_keys(path, kind)
-    close = difflib.get_close_matches(path[-1], known, n=1)
-    if close:
-        return f"; did you mean {close[0]!r}?"
-    return f"; known here: {', '.join(sorted(known))}" if known else ""
+def _required_by(kind: str | None) -> Message:
+    if kind is None:
+        return message("engine", "the file needs it")
+    return message("engine", "an axis of kind {kind} needs it").fill(kind=repr(kind))
 
 
 def _known_keys(path: list[str], kind: str | None) -> list[str]:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.messages import message
 from rotemina.sim.robot.errors import RobotFileError
 from rotemina.sim.robot.file import parse_robot
 from rotemina.sim.robot.model import AxisEffect, Robot
@@ -68,8 +69,11 @@ def with_effects(text: str, effects: Sequence[AxisEffect], source: str = "robot 
         read_back = parse_robot(longer, source)
     except RobotFileError as error:
         raise RobotFileError(
-            f"{source}: no [[axis.NAME.effect]] can be added ({error}); write axes and effects as "
-            "sections of their own"
+            message(
+                "engine",
+                "{source}: no [[axis.NAME.effect]] can be added ({error}); write axes and effects "
+                "as sections of their own",
+            ).fill(source=source, error=str(error))
         ) from error
     _require_same(wanted, replace(read_back, effects=by_axis(robot, read_back.effects)), source)
     return longer
@@ -119,7 +123,9 @@ def write_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool = Fa
     name = fspath(path)
     text = robot_text(robot)
     if not overwrite and Path(name).exists():
-        raise FileWriteError(f"{name}: it exists already; name another file")
+        raise FileWriteError(
+            message("engine", "{name}: it exists already; name another file").fill(name=name)
+        )
     with replaced(name) as file:
         file.write(text.encode("utf-8"))
 
@@ -133,7 +139,11 @@ def _checked(robot: Robot, effects: tuple[AxisEffect, ...]) -> tuple[AxisEffect,
 def _require_same(wanted: Robot, read_back: Robot, source: str) -> None:
     if read_back != wanted:
         names = [f.name for f in fields(Robot) if _differs(wanted, read_back, f.name)]
-        raise RobotFileError(f"{source}: would not read back to the same {', '.join(names)}")
+        raise RobotFileError(
+            message("engine", "{source}: would not read back to the same {names}").fill(
+                source=source, names=", ".join(names)
+            )
+        )
 
 
 def _differs(one: Robot, other: Robot, name: str) -> bool:

@@ -6,6 +6,8 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.shaping.errors import ShapingError
 from rotemina.sim.shaping.shape import Shape, joined_breaks, summed
 
@@ -43,8 +45,13 @@ def as_cubics(shape: Shape, most_pieces: int, most_error: float) -> CubicFit:
     error = _distance(shape, fit)
     if error > most_error:
         raise ShapingError(
-            f"profile: {most_pieces} cubics leave an error of {error:.3g}, {most_error:.3g} at "
-            "most (SI units); choose a smoother one, or input shaping of a lower order"
+            message(
+                "engine",
+                "profile: {most_pieces} cubics leave an error of {error}, {most_error} at most (SI "
+                "units); choose a smoother one, or input shaping of a lower order",
+            ).fill(
+                most_pieces=most_pieces, error=rounded(error, 3), most_error=rounded(most_error, 3)
+            )
         )
     return CubicFit(fit, error)
 

@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.shaping.errors import ShapingError
 from rotemina.sim.shaping.shape import Shape, summed
 
@@ -40,8 +42,11 @@ def led(shape: Shape, lead: Lead) -> Shape:
     jump, greatest = shape.jump(2), shape.greatest(2)
     if jump > _JUMP * greatest:
         raise ShapingError(
-            f"feed-forward: the acceleration of the profile jumps by {jump:.3g} (SI units), of "
-            f"{greatest:.3g} at most; use an S-curve or minimum jerk, or input shaping"
+            message(
+                "engine",
+                "feed-forward: the acceleration of the profile jumps by {jump} (SI units), of "
+                "{greatest} at most; use an S-curve or minimum jerk, or input shaping",
+            ).fill(jump=rounded(jump, 3), greatest=rounded(greatest, 3))
         )
     polynomial = shape.polynomial
     parts = (

@@ -9,6 +9,7 @@ from math import exp, isfinite, pi, sqrt
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, read_only
+from rotemina.sim.messages import message
 from rotemina.sim.shaping.errors import ShapingError
 from rotemina.sim.shaping.shape import Shape, joined_breaks, summed
 
@@ -77,11 +78,18 @@ def zero_vibration(frequency_hz: float, damping_ratio: float, order: int = 1) ->
     """
     if not isfinite(frequency_hz) or frequency_hz <= 0.0 or not 0.0 <= damping_ratio < 1.0:
         raise ShapingError(
-            f"input shaping for {frequency_hz:g} Hz and a damping ratio of {damping_ratio:g}: the "
-            "frequency must be positive, the ratio at least 0 and less than 1"
+            message(
+                "engine",
+                "input shaping for {frequency_hz} Hz and a damping ratio of {damping_ratio}: the "
+                "frequency must be positive, the ratio at least 0 and less than 1",
+            ).fill(frequency_hz=frequency_hz, damping_ratio=damping_ratio)
         )
     if not 1 <= order <= MOST_ORDER:
-        raise ShapingError(f"input shaping of order {order}: 1 (ZV) to {MOST_ORDER}")
+        raise ShapingError(
+            message("engine", "input shaping of order {order}: 1 (ZV) to {most_order}").fill(
+                order=order, most_order=MOST_ORDER
+            )
+        )
     root = sqrt(1.0 - damping_ratio**2)
     decay = exp(-pi * damping_ratio / root)
     half_s = 0.5 / (frequency_hz * root)

@@ -8,6 +8,8 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.shaping.errors import ShapingError
 from rotemina.sim.shaping.shape import Shape
 
@@ -27,7 +29,11 @@ class MotionLimits:
     def __post_init__(self) -> None:
         for name in ("speed", "acceleration", "jerk"):
             if not getattr(self, name) > 0.0:
-                raise ShapingError(f"{name} limit of a move: {getattr(self, name):g}: more than 0")
+                raise ShapingError(
+                    message("engine", "{name} limit of a move: {value}: more than 0").fill(
+                        name=name, value=getattr(self, name)
+                    )
+                )
 
 
 def check_limits(shape: Shape, limits: MotionLimits) -> None:
@@ -42,8 +48,11 @@ def check_limits(shape: Shape, limits: MotionLimits) -> None:
         found, most = shape.greatest(order), getattr(limits, name)
         if found > most * (1.0 + 1e-9):
             raise ShapingError(
-                f"profile: its greatest {name} is {found:.4g}, {most:.4g} at most (SI units); "
-                "let it take longer, or go less far"
+                message(
+                    "engine",
+                    "profile: its greatest {name} is {found}, {most} at most (SI units); let it "
+                    "take longer, or go less far",
+                ).fill(name=name, found=rounded(found, 4), most=rounded(most, 4))
             )
 
 
@@ -62,7 +71,7 @@ def s_curve(distance: float, limits: MotionLimits) -> Shape:
     """
     _check_distance(distance)
     if not isfinite(limits.jerk):
-        raise ShapingError("an S-curve needs a limit of the jerk")
+        raise ShapingError(message("engine", "an S-curve needs a limit of the jerk"))
     way, jerk = abs(distance), limits.jerk
     rounding_s = min(
         (way / (2.0 * jerk)) ** (1.0 / 3.0), sqrt(limits.speed / jerk), limits.acceleration / jerk
@@ -97,7 +106,10 @@ def s_curve_in(
     _check_duration(duration_s)
     if not 0.0 < ramp <= 0.5 or not 0.0 < rounding <= 1.0:
         raise ShapingError(
-            f"S-curve: ramp {ramp:g}, rounding {rounding:g}: more than 0, at most 0.5 and 1"
+            message(
+                "engine",
+                "S-curve: ramp {ramp}, rounding {rounding}: more than 0, at most 0.5 and 1",
+            ).fill(ramp=ramp, rounding=rounding)
         )
     rounding_s = 0.5 * rounding * ramp * duration_s
     steady_s = ramp * duration_s - 2.0 * rounding_s
@@ -126,7 +138,9 @@ def shortest_minimum_jerk(distance: float, limits: MotionLimits) -> Shape:
         (_QUINTIC_JERK * way / limits.jerk) ** (1.0 / 3.0),
     )
     if duration_s == 0.0:
-        raise ShapingError("a minimum-jerk move needs a limit of speed, acceleration or jerk")
+        raise ShapingError(
+            message("engine", "a minimum-jerk move needs a limit of speed, acceleration or jerk")
+        )
     return minimum_jerk(distance, duration_s)
 
 
@@ -156,23 +170,35 @@ def tabled(time_s: Sequence[float], position: Sequence[float]) -> Shape:
 def _check_table(times: FloatArray, values: FloatArray) -> None:
     if times.ndim != 1 or times.shape != values.shape or not 2 <= len(times) <= MOST_ROWS:
         raise ShapingError(
-            f"profile table: {times.size} times and {values.size} positions: as many of each, "
-            f"2 to {MOST_ROWS}"
+            message(
+                "engine",
+                "profile table: {size} times and {values_size} positions: as many of each, 2 to "
+                "{most_rows}",
+            ).fill(size=times.size, values_size=values.size, most_rows=MOST_ROWS)
         )
     if times[0] != 0.0 or values[0] != 0.0:
         raise ShapingError(
-            f"profile table, row 1: {times[0]:g} s, {values[0]:g}: it must begin at 0, 0"
+            message(
+                "engine", "profile table, row 1: {times} s, {values}: it must begin at 0, 0"
+            ).fill(times=times[0], values=values[0])
         )
     wrong = ~(np.isfinite(times) & np.isfinite(values))
     wrong[1:] |= ~(np.diff(times) > 0.0)
     if wrong.any():
         row = int(np.argmax(wrong))
         raise ShapingError(
-            f"profile table, row {row + 1}: {times[row]:g} s, {values[row]:g}: numbers must be "
-            "finite, and times rise from row to row"
+            message(
+                "engine",
+                "profile table, row {row}: {times} s, {values}: numbers must be finite, and times "
+                "rise from row to row",
+            ).fill(row=row + 1, times=times[row], values=values[row])
         )
     if values[-1] == 0.0:
-        raise ShapingError(f"profile table, row {len(values)}: it ends where it began")
+        raise ShapingError(
+            message("engine", "profile table, row {count}: it ends where it began").fill(
+                count=len(values)
+            )
+        )
 
 
 def _seven_pieces(distance: float, rounding_s: float, steady_s: float, cruise_s: float) -> Shape:
@@ -195,9 +221,17 @@ def _seven_pieces(distance: float, rounding_s: float, steady_s: float, cruise_s:
 
 def _check_distance(distance: float) -> None:
     if not isfinite(distance) or distance == 0.0:
-        raise ShapingError(f"profile: a way of {distance:g}: must be finite, and not zero")
+        raise ShapingError(
+            message("engine", "profile: a way of {distance}: must be finite, and not zero").fill(
+                distance=distance
+            )
+        )
 
 
 def _check_duration(duration_s: float) -> None:
     if not isfinite(duration_s) or duration_s <= 0.0:
-        raise ShapingError(f"profile: a duration of {duration_s:g} s: must be finite and positive")
+        raise ShapingError(
+            message(
+                "engine", "profile: a duration of {duration_s} s: must be finite and positive"
+            ).fill(duration_s=duration_s)
+        )

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from rotemina.sim.arrays import FloatArray, read_only
+from rotemina.sim.messages import message
 from rotemina.sim.shaping.errors import ShapingError
 
 _SAME = 1e-9  # of the duration: instants that are this near are one
@@ -39,11 +40,15 @@ class Shape:
             object.__setattr__(self, name, read_only(array))
         times, values = self.breaks_s, self.coefficients
         if values.ndim != 2 or times.shape != (values.shape[1] + 1,) or len(times) < 2:
-            raise ShapingError(f"shape: {times.shape} times for coefficients {values.shape}")
+            raise ShapingError(
+                message("engine", "shape: {shape} times for coefficients {values_shape}").fill(
+                    shape=str(times.shape), values_shape=str(values.shape)
+                )
+            )
         if not (np.isfinite(times).all() and np.isfinite(values).all()):
-            raise ShapingError("shape: times and coefficients must be finite")
+            raise ShapingError(message("engine", "shape: times and coefficients must be finite"))
         if times[0] != 0.0 or (np.diff(times) <= 0.0).any():
-            raise ShapingError("shape: times must rise from 0 s")
+            raise ShapingError(message("engine", "shape: times must rise from 0 s"))
 
     @classmethod
     def of(cls, polynomial: PPoly) -> Self:

@@ -5,6 +5,7 @@ from hashlib import blake2b
 
 import numpy as np
 
+from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import (
@@ -87,8 +88,11 @@ def accepted(
         return check(robot, trajectory, setpoint_period_s)
     if trajectory.robot is not robot and trajectory.robot != robot:
         raise TrajectoryError(
-            f"trajectory: it was checked for robot {trajectory.robot.name!r} with other axes or "
-            f"limits than those of {robot.name!r}; check it for this one"
+            message(
+                "engine",
+                "trajectory: it was checked for robot {name} with other axes or limits than those "
+                "of {robot_name}; check it for this one",
+            ).fill(name=repr(trajectory.robot.name), robot_name=repr(robot.name))
         )
     if trajectory.holds_for(setpoint_period_s):
         return trajectory

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import Message, lines, message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Axis, Robot
 from rotemina.sim.trajectory.checked import CheckedTrajectory
@@ -72,11 +73,13 @@ class DryRun:
     checked: CheckedTrajectory | None = None
 
     @property
-    def objections(self) -> tuple[str, ...]:
+    def objections(self) -> tuple[Message, ...]:
         """Why the machine must not play the trajectory; none where it may."""
-        fault = self.prediction_fault
-        unknown = () if fault is None else (f"the model cannot predict its motion: {fault}",)
-        return (*(violation.message for violation in self.violations), *unknown)
+        found = tuple(violation.message for violation in self.violations)
+        if self.prediction_fault is None:
+            return found
+        unknown = message("engine", "the model cannot predict its motion: {fault}")
+        return (*found, unknown.fill(fault=self.prediction_fault))
 
     @property
     def allowed(self) -> bool:
@@ -92,7 +95,7 @@ class DryRun:
             With all objections, if the machine must not play it.
         """
         if self.checked is None:
-            raise OutOfLimitsError("\n".join(self.objections))
+            raise OutOfLimitsError(lines(self.objections))
         return self.checked
 
 

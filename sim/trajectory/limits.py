@@ -16,6 +16,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import AxisName, Message, lines, message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import (
     VOLTAGE_SLACK,
@@ -33,7 +35,6 @@ from rotemina.sim.trajectory.kinematics import (
     jump_speeds,
     jump_times,
 )
-from rotemina.sim.trajectory.wording import readable
 
 RANGE_SLACK = 1e-9  # of the range's length: units are converted with rounding
 RATE_SLACK = 1e-6  # relative, of speed and acceleration
@@ -71,17 +72,25 @@ class Violation:
     value: float
     bound: float
     unit: str
-    advice: str
+    advice: Message
 
     @property
-    def message(self) -> str:
+    def message(self) -> Message:
         """What is wrong, where, value, bound and what to do."""
-        value = readable(self.value, self.unit, scale=self.bound)
-        bound = readable(self.bound, self.unit)
+        value = exact(self.value, self.unit, size=self.bound)
+        bound = exact(self.bound, self.unit)
         what = "position" if self.quantity is Quantity.RANGE else self.quantity
-        return (
-            f"axis {self.axis}: {what} {value} at t = {self.time_s:.6g} s is beyond the limit "
-            f"{bound}; {self.advice}"
+        said = message(
+            "engine",
+            "axis {axis}: {what} {value} at t = {time} s is beyond the limit {bound}; {advice}",
+        )
+        return said.fill(
+            axis=AxisName(self.axis),
+            what=str(what),
+            value=value,
+            time=self.time_s,
+            bound=bound,
+            advice=self.advice,
         )
 
     def __str__(self) -> str:
@@ -109,8 +118,11 @@ def check_speeds(targets: Mapping[str, float], speeds: Mapping[str, float]) -> N
     for axis, speed in speeds.items():
         if axis not in targets or not is_finite(speed) or speed <= 0.0:
             raise OutOfLimitsError(
-                f"axis {axis}: a speed of {speed!r}: must be a finite number above 0, of an axis "
-                "with a target"
+                message(
+                    "engine",
+                    "axis {axis}: a speed of {speed}: must be a finite number above 0, "
+                    "of an axis with a target",
+                ).fill(axis=AxisName(axis), speed=repr(speed))
             )
 
 
@@ -125,16 +137,30 @@ def check_target(robot: Robot, axis: str, position: float) -> None:
     """
     if axis not in robot.axes:
         raise OutOfLimitsError(
-            f"axis {axis!r}: robot {robot.name!r} has no such axis; use one of {list(robot.axes)}"
+            message("engine", "axis {axis}: robot {name} has no such axis; use one of {axes}").fill(
+                axis=repr(axis), name=repr(robot.name), axes=", ".join(robot.axes)
+            )
         )
     if not is_finite(position):
-        raise OutOfLimitsError(f"axis {axis}: the target {position!r} is not a finite number")
+        raise OutOfLimitsError(
+            message("engine", "axis {axis}: the target {position} is not a finite number").fill(
+                axis=AxisName(axis), position=repr(position)
+            )
+        )
     model, unit = robot.axes[axis], robot.unit(axis) or ""
     low, high = model.range
     if _outside(position, low, high) > RANGE_SLACK * model.span:
         raise OutOfLimitsError(
-            f"axis {axis}: target {readable(position, unit, scale=high)} is outside its range "
-            f"{readable(low, unit, scale=high)} to {readable(high, unit)}; choose a target inside"
+            message(
+                "engine",
+                "axis {axis}: target {position} is outside its range {low} to "
+                "{high}; choose a target inside",
+            ).fill(
+                axis=AxisName(axis),
+                position=exact(position, unit, size=high),
+                low=exact(low, unit, size=high),
+                high=exact(high, unit),
+            )
         )
     bounds = voltage_bounds(model)
     if bounds is None or not isinstance(model, PiezoAxis):
@@ -142,8 +168,18 @@ def check_target(robot: Robot, axis: str, position: float) -> None:
     voltage = position / model.gain
     if _outside(voltage, *bounds) > _voltage_slack(bounds):
         raise OutOfLimitsError(
-            f"axis {axis}: target {readable(position, unit)} needs {voltage:.6g} V, outside the "
-            f"amplifier's {bounds[0]:.6g} V to {bounds[1]:.6g} V; choose a target nearer to rest"
+            message(
+                "engine",
+                "axis {axis}: target {position} needs {voltage} V, outside the "
+                "amplifier's {low} V to {high} V; choose a target nearer to "
+                "rest",
+            ).fill(
+                axis=AxisName(axis),
+                position=exact(position, unit),
+                voltage=rounded(voltage, 6),
+                low=rounded(bounds[0], 6),
+                high=rounded(bounds[1], 6),
+            )
         )
 
 
@@ -161,7 +197,7 @@ def check_trajectory(
     """
     violations = find_violations(robot, trajectory, setpoint_period_s=setpoint_period_s)
     if violations:
-        raise OutOfLimitsError("\n".join(violation.message for violation in violations))
+        raise OutOfLimitsError(lines(violation.message for violation in violations))
 
 
 def find_violations(
@@ -222,7 +258,11 @@ def commands_of(robot: Robot, trajectory: Record) -> dict[str, FloatArray]:
     names = [channel.axis for channel in trajectory.columns if channel.tap is Tap.CMD]
     if not names:
         raise TrajectoryError(
-            "trajectory: it has no set-point column (axis.cmd); a trajectory needs one at least"
+            message(
+                "engine",
+                "trajectory: it has no set-point column (axis.cmd); a trajectory "
+                "needs one at least",
+            )
         )
     for name in names:
         _check_axis(robot, name, trajectory.units[name])
@@ -232,19 +272,29 @@ def commands_of(robot: Robot, trajectory: Record) -> dict[str, FloatArray]:
 def _check_axis(robot: Robot, name: str, unit: str) -> None:
     if name not in robot.axes:
         raise TrajectoryError(
-            f"trajectory: robot {robot.name!r} has no axis {name!r}, only {list(robot.axes)}; "
-            "rename the column or choose the robot it was made for"
+            message(
+                "engine",
+                "trajectory: robot {name} has no axis {axis}, only {axes}; rename "
+                "the column or choose the robot it was made for",
+            ).fill(name=repr(robot.name), axis=repr(name), axes=", ".join(robot.axes))
         )
     expected = robot.unit(name)
     if expected is not None and unit != expected:
         raise TrajectoryError(
-            f"trajectory: axis {name} is given in {unit}, but the robot's moves in {expected}"
+            message(
+                "engine",
+                "trajectory: axis {name} is given in {unit}, but the robot's moves in {expected}",
+            ).fill(name=AxisName(name), unit=unit, expected=expected)
         )
     axis = robot.axes[name]
     if isinstance(axis, ForceAxis) and axis.controller is None:
         raise TrajectoryError(
-            f"trajectory: axis {name} is moved by a force and has no controller in the robot "
-            f"file, so nothing would make it follow; add [axis.{name}.controller]"
+            message(
+                "engine",
+                "trajectory: axis {name} is moved by a force and has no controller "
+                "in the robot file, so nothing would make it follow; add "
+                "[axis.{key}.controller]",
+            ).fill(name=AxisName(name), key=name)
         )
 
 
@@ -288,7 +338,9 @@ def _range_violation(path: _Path) -> Violation | None:
         return None
     row, bound = worst
     value = float(path.command[row])
-    advice = "move or shrink the trajectory so that it stays inside the axis range"
+    advice = message(
+        "engine", "move or shrink the trajectory so that it stays inside the axis range"
+    )
     time_s = float(path.time_s[row])
     return Violation(path.name, Quantity.RANGE, time_s, value, bound, path.unit, advice)
 
@@ -302,7 +354,7 @@ def _voltage_violation(path: _Path) -> Violation | None:
     if worst is None:
         return None
     row, bound = worst
-    advice = "move or shrink the trajectory so that the amplifier can follow"
+    advice = message("engine", "move or shrink the trajectory so that the amplifier can follow")
     time_s = float(path.time_s[row])
     return Violation(path.name, Quantity.VOLTAGE, time_s, float(voltage[row]), bound, "V", advice)
 
@@ -326,7 +378,8 @@ def _speed_violation(path: _Path) -> Violation | None:
     if held_rows(path.time_s[row : row + 2], path.period_s)[0]:
         advice = _resample(interval, path.period_s)
         if straight > 1.0 + RATE_SLACK:
-            advice += f", and {_stretch(straight)}"
+            both = message("engine", "{one}, and {other}")
+            advice = both.fill(one=advice, other=_stretch(straight))
     time_s = float(path.time_s[row + 1])
     return Violation(path.name, Quantity.SPEED, time_s, value, bound, f"{path.unit}/s", advice)
 
@@ -358,16 +411,19 @@ def _acceleration_violation(path: _Path) -> Violation | None:
     return Violation(path.name, Quantity.ACCELERATION, time_s, value, bound, unit, advice)
 
 
-def _stretch(factor: float) -> str:
-    return f"stretch its time by a factor of {factor:.3g} or more, or smooth it there"
+def _stretch(factor: float) -> Message:
+    said = message("engine", "stretch its time by a factor of {factor} or more, or smooth it there")
+    return said.fill(factor=rounded(factor, 3))
 
 
-def _resample(interval_s: float, period_s: float) -> str:
+def _resample(interval_s: float, period_s: float) -> Message:
     """Say what to do about rows that are farther apart than the device's set-points."""
-    return (
-        f"rows are {interval_s:.3g} s apart there and the device holds each, then jumps: resample "
-        f"the trajectory at {1.0 / period_s:.6g} Hz (linear or cubic)"
+    said = message(
+        "engine",
+        "rows are {interval} s apart there and the device holds each, then jumps: resample the "
+        "trajectory at {rate} Hz (linear or cubic)",
     )
+    return said.fill(interval=rounded(interval_s, 3), rate=1.0 / period_s)
 
 
 def _float_rounding(command: FloatArray) -> float:

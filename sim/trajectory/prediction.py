@@ -11,13 +11,14 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.plant import Plant
+from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import Quantity, Violation
 from rotemina.sim.trajectory.schedule import Schedule
-from rotemina.sim.trajectory.wording import readable
 
 #: How far beyond its range, in shares of it, an axis may be predicted to swing.
 OVERSHOOT_SHARE = 0.01
@@ -134,7 +135,7 @@ class _Watch:
             return None
         time_s, position = self._at
         low, high = self._axis.range
-        margin = readable(OVERSHOOT_SHARE * self._axis.span, self._unit)
+        margin = exact(OVERSHOOT_SHARE * self._axis.span, self._unit)
         return Violation(
             self._name,
             Quantity.MOTION,
@@ -142,8 +143,11 @@ class _Watch:
             position,
             low if position < low else high,
             self._unit,
-            f"the model expects it to swing out by more than {margin} (1 % of the range): smooth "
-            "or stretch the trajectory, or keep it away from the end of the range",
+            message(
+                "engine",
+                "the model expects it to swing out by more than {margin} (1 % of the range): "
+                "smooth or stretch the trajectory, or keep it away from the end of the range",
+            ).fill(margin=margin),
         )
 
 

@@ -24,6 +24,8 @@ from rotemina.sim.feedback.stability import (
     check_stability,
     sensitivity_peak,
 )
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.tuning.errors import TuningError
 from rotemina.sim.tuning.figures import UNUSABLE, Figures, figures_of, worst
@@ -38,6 +40,7 @@ VARIABLES = (
     "notch_damping",
     "double_integral",
 )
+USUAL = (0.3, 0.0, 0.0, 0.5, 0.5, 0.0)  # an integral alone: Ms of about 1.2 on a piezo
 _SEED = 20_101  # of the noise that every individual meets
 # Bounds, in the axis' own pace: I over ω, P, D ω, low-pass over the resonance, ζ of the notch, J
 # over I ω.
@@ -111,24 +114,7 @@ class TuningProblem:
 
     def gains_of(self, shares: Sequence[float] | FloatArray) -> Gains:
         """Return the gains for shares (6,) between 0 and 1, in the order of ``VARIABLES``."""
-        rate = 2.0 * pi * self._facts.pace_hz
-        integral = rate * _between(_INTEGRAL, shares[0])
-        lowest = min(_LOW_PASS * self._facts.pace_hz, 0.5 * _HIGHEST_SHARE * self.rate_hz)
-        notch = None
-        if self._resonates:
-            damping = _between(_NOTCH, shares[4])
-            depth = min(max(self._facts.damping_ratio / damping, _DEEPEST), _SHALLOWEST)
-            notch = Notch(self._facts.frequency_hz, damping, depth)
-        return Gains(
-            proportional=_PROPORTIONAL * float(shares[1]),
-            integral=integral,
-            double_integral=_DOUBLE * rate * integral * float(shares[5]) ** 2,
-            derivative=_DERIVATIVE / rate * float(shares[2]),
-            derivative_filter_s=_DERIVATIVE_FILTER / rate,
-            low_pass_hz=_between((lowest, _HIGHEST_SHARE * self.rate_hz), shares[3]),
-            notch=notch,
-            tracking_s=_TRACKING / integral,
-        )
+        return gains_at(self._facts, self.rate_hz, shares)
 
     def evaluate(self, gains: Gains) -> Figures:
         """Return the worst figures over the axes; all infinite where one is unstable.
@@ -179,10 +165,69 @@ class TuningProblem:
     def _check_pace(self) -> None:
         if self._resonates and self._facts.frequency_hz >= 0.4 * self.rate_hz:
             raise TuningError(
-                f"axis {self.axis}: a loop at {self.rate_hz:g} Hz is too slow for a resonance at "
-                f"{self._facts.frequency_hz:.4g} Hz; take a rate above "
-                f"{2.5 * self._facts.frequency_hz:.4g} Hz"
+                message(
+                    "engine",
+                    "axis {axis}: a loop at {rate_hz} Hz is too slow for a resonance at "
+                    "{frequency_hz} Hz; take a rate above {least_hz} Hz",
+                ).fill(
+                    axis=self.axis,
+                    rate_hz=self.rate_hz,
+                    frequency_hz=rounded(self._facts.frequency_hz, 4),
+                    least_hz=rounded(2.5 * self._facts.frequency_hz, 4),
+                )
             )
+
+
+def gains_at(facts: Facts, rate_hz: float, shares: Sequence[float] | FloatArray) -> Gains:
+    """Return the gains of an axis for shares (6,) between 0 and 1, in the order of ``VARIABLES``.
+
+    :data:`USUAL` ones are far from the edge of stability, with the filters that suit the axis.
+    """
+    rate = 2.0 * pi * facts.pace_hz
+    integral = rate * _between(_INTEGRAL, shares[0])
+    lowest = min(_LOW_PASS * facts.pace_hz, 0.5 * _HIGHEST_SHARE * rate_hz)
+    notch = None
+    if facts.frequency_hz > 0.0:
+        damping = _between(_NOTCH, shares[4])
+        depth = min(max(facts.damping_ratio / damping, _DEEPEST), _SHALLOWEST)
+        notch = Notch(facts.frequency_hz, damping, depth)
+    return with_amounts(
+        Gains(
+            derivative_filter_s=_DERIVATIVE_FILTER / rate,
+            low_pass_hz=_between((lowest, _HIGHEST_SHARE * rate_hz), shares[3]),
+            notch=notch,
+        ),
+        proportional=_PROPORTIONAL * float(shares[1]),
+        integral=integral,
+        double_integral=_DOUBLE * rate * integral * float(shares[5]) ** 2,
+        derivative=_DERIVATIVE / rate * float(shares[2]),
+    )
+
+
+def with_amounts(
+    gains: Gains, *, proportional: float, integral: float, double_integral: float, derivative: float
+) -> Gains:
+    """Return gains with other amounts, and an integral that is led back in its own time."""
+    return replace(
+        gains,
+        proportional=proportional,
+        integral=integral,
+        double_integral=double_integral,
+        derivative=derivative,
+        tracking_s=_TRACKING / integral if integral > 0.0 else gains.tracking_s,
+    )
+
+
+def most_of(facts: Facts) -> dict[str, float]:
+    """Return the greatest amounts that are searched, by their names in :class:`Gains`."""
+    rate = 2.0 * pi * facts.pace_hz
+    integral = rate * _INTEGRAL[1]
+    return {
+        "proportional": _PROPORTIONAL,
+        "integral": integral,
+        "double_integral": _DOUBLE * rate * integral,
+        "derivative": _DERIVATIVE / rate,
+    }
 
 
 def _between(bounds: tuple[float, float], share: float) -> float:

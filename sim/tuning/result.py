@@ -12,6 +12,7 @@ from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 
 from rotemina.sim.input_files import parse_toml, read_text
+from rotemina.sim.messages import message
 from rotemina.sim.robot.numbers import FORBID_UNKNOWN
 from rotemina.sim.tuning.errors import TuningError
 from rotemina.sim.tuning.front import Point, knee_of
@@ -100,7 +101,9 @@ class Tuning:
         """
         if not 0 <= number < len(self.points):
             raise TuningError(
-                f"point {number}: the front has points 0 to {len(self.points) - 1}; choose one"
+                message(
+                    "engine", "point {number}: the front has points 0 to {count}; choose one"
+                ).fill(number=number, count=len(self.points) - 1)
             )
         return replace(self, chosen=number)
 
@@ -118,9 +121,16 @@ def tuning_of(
     if not last.front:
         bounds = problem.constraints
         raise TuningError(
-            f"axis {problem.axis}: after {last.done} generations no gains keep Ms ≤ "
-            f"{bounds.peak_sensitivity:g} and overshoot ≤ {100.0 * bounds.overshoot:g} %; "
-            "search longer, take a faster loop, or allow more"
+            message(
+                "engine",
+                "axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} and "
+                "overshoot ≤ {overshoot} %; search longer, take a faster loop, or allow more",
+            ).fill(
+                axis=problem.axis,
+                done=last.done,
+                peak_sensitivity=bounds.peak_sensitivity,
+                overshoot=100.0 * bounds.overshoot,
+            )
         )
     objectives = np.array([objectives_of(one.figures, settings.against) for one in last.front])
     knee = knee_of(objectives)
@@ -182,14 +192,22 @@ def load_tuning(path: str | PathLike[str]) -> Tuning:
     except ValidationError as error:
         first = error.errors()[0]
         key = ".".join(str(part) for part in first["loc"])
-        raise TuningError(f"{name}: {key} = {first['input']!r:.80}: {first['msg']}") from error
+        raise TuningError(
+            message("engine", "{name}: {key} = {value}: {reason}").fill(
+                name=name, key=key, value=repr(first["input"]), reason=first["msg"]
+            )
+        ) from error
     except ValueError as error:  # of the gains' own checks
-        raise TuningError(f"{name}: {error}") from error
+        raise TuningError(
+            message("engine", "{name}: {error}").fill(name=name, error=str(error))
+        ) from error
     last = len(found.points) - 1
     for key in ("recommended", "chosen"):
         if not 0 <= getattr(found, key) <= last:
             raise TuningError(
-                f"{name}: {key} = {getattr(found, key)}: the file has points 0 to {last}"
+                message("engine", "{name}: {key} = {value}: the file has points 0 to {last}").fill(
+                    name=name, key=key, value=getattr(found, key), last=last
+                )
             )
     return found
 

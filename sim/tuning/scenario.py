@@ -7,6 +7,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.effects.facts import Facts
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact
 from rotemina.sim.robot.model import Axis
 from rotemina.sim.shaping.moves import MotionLimits, minimum_jerk, shortest_minimum_jerk
 from rotemina.sim.tuning.errors import TuningError
@@ -104,8 +106,13 @@ def _room(axis: Axis, length: float, name: str) -> float:
     """Return the middle of the range, about which ``length`` must fit."""
     if length == 0.0 or not abs(length) <= axis.span:
         raise TuningError(
-            f"{name} of {length:g}: must be no more than the axis' range, {axis.span:g} "
-            f"{axis.unit or ''}".rstrip()
-            + ", and not zero"
+            message(
+                "engine",
+                "{name} of {length}: must be no more than the axis' range, {most}, and not zero",
+            ).fill(
+                name=name,
+                length=exact(length, axis.unit or "", size=axis.span),
+                most=exact(axis.span, axis.unit or ""),
+            )
         )
     return 0.5 * sum(axis.range)

@@ -16,6 +16,7 @@ from pymoo.problems.static import StaticProblem
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.feedback.gains import Gains
+from rotemina.sim.messages import message
 from rotemina.sim.tuning.errors import TuningError
 from rotemina.sim.tuning.figures import Figures
 from rotemina.sim.tuning.front import Point
@@ -46,7 +47,11 @@ class SearchSettings:
     def __post_init__(self) -> None:
         for name, (least, most) in _BOUNDS.items():
             if not least <= getattr(self, name) <= most:
-                raise TuningError(f"{name} {getattr(self, name)}: must be {least} to {most}")
+                raise TuningError(
+                    message("engine", "{name} {value}: must be {least} to {most}").fill(
+                        name=name, value=getattr(self, name), least=least, most=most
+                    )
+                )
 
 
 @dataclass(frozen=True, slots=True)

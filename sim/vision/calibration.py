@@ -21,6 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed, rounded
 from rotemina.sim.vision.errors import CalibrationError
 
 LEAST_MOVES = 5
@@ -239,22 +241,32 @@ def _errors(design: FloatArray, aims: FloatArray, solution: FloatArray) -> Float
 def _check_moves(moves: FloatArray, shifts: FloatArray) -> None:
     if moves.shape != shifts.shape or moves.ndim != 2 or moves.shape[1] != 2:
         raise CalibrationError(
-            f"calibration: moves of shape {moves.shape} against shifts of shape {shifts.shape}; "
-            "both must be (moves, 2)"
+            message(
+                "engine",
+                "calibration: moves of shape {shape} against shifts of shape {shifts_shape}; both "
+                "must be (moves, 2)",
+            ).fill(shape=str(moves.shape), shifts_shape=str(shifts.shape))
         )
     if len(moves) < LEAST_MOVES:
         raise CalibrationError(
-            f"calibration: {len(moves)} moves, must be at least {LEAST_MOVES}; allow more of them"
+            message(
+                "engine", "calibration: {n} moves, must be at least {least}; allow more of them"
+            ).fill(n=len(moves), least=LEAST_MOVES)
         )
     if not (np.isfinite(moves).all() and np.isfinite(shifts).all()):
-        raise CalibrationError("calibration: a move or shift is not a finite number; begin again")
+        raise CalibrationError(
+            message("engine", "calibration: a move or shift is not a finite number; begin again")
+        )
     spread = np.linalg.svd(moves - moves.mean(axis=0), compute_uv=False)
     if not spread[1] > _LEAST_SPREAD * spread[0]:
         part = 0.0 if spread[0] == 0.0 else spread[1] / spread[0]
         raise CalibrationError(
-            f"calibration: the moves do not span the plane: across their main direction they reach "
-            f"{100.0 * part:.1f} % of the way along it, must be at least "
-            f"{100.0 * _LEAST_SPREAD:.0f} %; move both axes"
+            message(
+                "engine",
+                "calibration: the moves do not span the plane: across their main "
+                "direction they reach {part} % of the way along it, must be at least "
+                "{least} %; move both axes",
+            ).fill(part=fixed(100.0 * part, 1), least=fixed(100.0 * _LEAST_SPREAD, 0))
         )
 
 
@@ -262,25 +274,45 @@ def _check_fit(fit: StageFit, demands: Demands) -> None:
     lost = 1.0 - float(fit.kept.mean())
     if lost > demands.outliers:
         raise CalibrationError(
-            f"calibration: {np.count_nonzero(~fit.kept)} of {len(fit.kept)} moves do not fit, must "
-            f"be at most {100.0 * demands.outliers:.0f} %; something else moved, or the tracking "
-            "slipped: look at the picture and begin again"
+            message(
+                "engine",
+                "calibration: {bad} of {n} moves do not fit, must be at most {most} "
+                "%; something else moved, or the tracking slipped: look at the "
+                "picture and begin again",
+            ).fill(
+                bad=int(np.count_nonzero(~fit.kept)),
+                n=len(fit.kept),
+                most=fixed(100.0 * demands.outliers, 0),
+            )
         )
     if fit.residual_rms > demands.residual_px:
         worst = int(np.argmax(np.where(fit.kept, np.linalg.norm(fit.residuals, axis=1), -1.0)))
         raise CalibrationError(
-            f"calibration: residuals of {fit.residual_rms:.2f} px rms (greatest at move "
-            f"{worst + 1}), must be at most {demands.residual_px:g} px; backlash, drift or a loose "
-            "tool: let the stage settle, home it, and begin again"
+            message(
+                "engine",
+                "calibration: residuals of {rms} px rms (greatest at move {worst}), "
+                "must be at most {most} px; backlash, drift or a loose tool: let the "
+                "stage settle, home it, and begin again",
+            ).fill(
+                rms=fixed(fit.residual_rms, 2),
+                worst=worst + 1,
+                most=rounded(demands.residual_px, 6),
+            )
         )
     first, second = fit.map.matrix.T
     lengths = float(np.hypot(*first)), float(np.hypot(*second))
     sine = abs(float(np.linalg.det(fit.map.matrix))) / max(lengths[0] * lengths[1], 1e-300)
     if min(lengths) == 0.0 or sine < np.sin(_LEAST_ANGLE):
         raise CalibrationError(
-            f"calibration: both axes move the picture in nearly the same direction "
-            f"({np.degrees(np.arcsin(min(sine, 1.0))):.1f}° apart, must be at least "
-            f"{np.degrees(_LEAST_ANGLE):.0f}°); one of them does not move, or moves along the view"
+            message(
+                "engine",
+                "calibration: both axes move the picture in nearly the same "
+                "direction ({angle}° apart, must be at least {least}°); one of them "
+                "does not move, or moves along the view",
+            ).fill(
+                angle=fixed(np.degrees(np.arcsin(min(sine, 1.0))), 1),
+                least=fixed(np.degrees(_LEAST_ANGLE), 0),
+            )
         )
     told = fit.map.geometry
     worst_scale = max(
@@ -289,8 +321,11 @@ def _check_fit(fit: StageFit, demands: Demands) -> None:
     )
     if worst_scale > demands.scale:
         raise CalibrationError(
-            f"calibration: the pixel size is known within {100.0 * worst_scale:.2f} %, must be "
-            f"{100.0 * demands.scale:g} %; make larger moves, or more of them"
+            message(
+                "engine",
+                "calibration: the pixel size is known within {known} %, must be "
+                "{asked} %; make larger moves, or more of them",
+            ).fill(known=fixed(100.0 * worst_scale, 2), asked=rounded(100.0 * demands.scale, 6))
         )
 
 

@@ -12,6 +12,8 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed, rounded
 from rotemina.sim.vision.errors import VisionError
 from rotemina.sim.vision.image import Image
 from rotemina.sim.vision.registration import flattened
@@ -88,23 +90,38 @@ def find_cell(image: Image, near: FloatArray, radii: tuple[float, float]) -> Cel
     """
     low, high = radii
     if not 2.0 < low < high:
-        raise VisionError(f"cell: radii {low:g} to {high:g} px; must be more than 2 and growing")
+        raise VisionError(
+            message(
+                "engine", "cell: radii {low} to {high} px; must be more than 2 and growing"
+            ).fill(low=low, high=high)
+        )
     centre = np.asarray(near, dtype=float)
     soft = np.asarray(cv2.GaussianBlur(flattened(image), (0, 0), 1.0), dtype=np.float32)
     for _ in range(2):  # the second time from its own middle
         path, darker = _path(soft, centre, low, high)
         if darker < _LEAST_DARKER:
             raise VisionError(
-                f"cell: the line about {centre[0]:.0f}, {centre[1]:.0f} px takes "
-                f"{100.0 * darker:.1f} % of the light, must be at least {100.0 * _LEAST_DARKER:g} "
-                "%; focus on the membrane, or point into the cell"
+                message(
+                    "engine",
+                    "cell: the line about {column}, {row} px takes {darker} % of the "
+                    "light, must be at least {least} %; focus on the membrane, or point "
+                    "into the cell",
+                ).fill(
+                    column=fixed(centre[0], 0),
+                    row=fixed(centre[1], 0),
+                    darker=fixed(100.0 * darker, 1),
+                    least=rounded(100.0 * _LEAST_DARKER, 6),
+                )
             )
         found, spread, rms = _ellipse(path, centre)
         centre = found[:2]
     if rms > _MOST_RMS * float(found[2:4].mean()):
         raise VisionError(
-            f"cell: its outline is {rms:.1f} px rms off an ellipse, must be at most "
-            f"{100.0 * _MOST_RMS:g} % of its radius; point into the middle of one cell"
+            message(
+                "engine",
+                "cell: its outline is {rms} px rms off an ellipse, must be at most "
+                "{most} % of its radius; point into the middle of one cell",
+            ).fill(rms=fixed(rms, 1), most=rounded(100.0 * _MOST_RMS, 6))
         )
     return CellOutline(found, spread, path, darker)
 

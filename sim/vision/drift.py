@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 from rotemina.sim.vision.errors import RegistrationError
 from rotemina.sim.vision.image import Image
 from rotemina.sim.vision.registration import register
@@ -71,9 +72,12 @@ def background_drift(reference: Image, image: Image) -> Drift:
     most = int(close.sum(axis=0).max(initial=0))
     if most < max(_LEAST_AGREEING, len(seen) / 2.0):
         raise RegistrationError(
-            f"drift: {most} of {count} parts of the picture agree on a shift, must be at least "
-            f"{_LEAST_AGREEING} and half of the {len(seen)} that show enough; bring a background "
-            "with detail into view and focus"
+            message(
+                "engine",
+                "drift: {most} of {count} parts of the picture agree on a shift, "
+                "must be at least {least} and half of the {seen} that show enough; "
+                "bring a background with detail into view and focus",
+            ).fill(most=most, count=count, least=_LEAST_AGREEING, seen=len(seen))
         )
     agreed = seen[close[int(np.argmax(close.sum(axis=0)))]]
     spread = np.cov(agreed.T) / len(agreed)

@@ -17,6 +17,8 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed, rounded
 from rotemina.sim.vision.errors import VisionError
 from rotemina.sim.vision.image import Image, noise_rms
 
@@ -55,12 +57,17 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
     z, s = np.asarray(places, dtype=float), np.asarray(values, dtype=float)
     if len(z) < _LEAST_LOOKS or not (np.isfinite(z).all() and np.isfinite(s).all()):
         raise VisionError(
-            f"focus: {len(z)} looks, must be at least {_LEAST_LOOKS} with finite sharpness; "
-            "look at more places"
+            message(
+                "engine",
+                "focus: {count} looks, must be at least {least_looks} with finite sharpness; look "
+                "at more places",
+            ).fill(count=len(z), least_looks=_LEAST_LOOKS)
         )
     span, low, rise = float(np.ptp(z)), float(s.min()), float(np.ptp(s))
     if span == 0.0 or rise == 0.0:
-        raise VisionError("focus: every look is as sharp as the others; bring detail into view")
+        raise VisionError(
+            message("engine", "focus: every look is as sharp as the others; bring detail into view")
+        )
 
     def misfit(values: FloatArray) -> FloatArray:
         base, height, place, width = values
@@ -75,19 +82,32 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
     height, place, width = float(fit.x[1]), float(fit.x[2]), abs(float(fit.x[3]))
     if height < _LEAST_SIGNIFICANCE * float(np.sqrt(abs(spread[1, 1]))) or height <= 0.0:
         raise VisionError(
-            "focus: no peak of the sharpness stands out; bring detail into view, give more light, "
-            "or search a larger range"
+            message(
+                "engine",
+                "focus: no peak of the sharpness stands out; bring detail into view, "
+                "give more light, or search a larger range",
+            )
         )
     if width < _NARROWEST / (len(z) - 1):
         raise VisionError(
-            f"focus: the peak, {width * span * 1e6:.2g} µm wide, is narrower than the looks are "
-            "apart; it is noise, or they must be closer"
+            message(
+                "engine",
+                "focus: the peak, {width} µm wide, is narrower than the looks are apart; it is "
+                "noise, or they must be closer",
+            ).fill(width=rounded(width * span * 1000000.0, 2))
         )
     found = float(z.mean() + place * span)
     if not z.min() <= found <= z.max():
         raise VisionError(
-            f"focus: it would be sharpest at {found * 1e6:.1f} µm, outside the searched "
-            f"{z.min() * 1e6:.1f} to {z.max() * 1e6:.1f} µm; search there"
+            message(
+                "engine",
+                "focus: it would be sharpest at {place} µm, outside the searched "
+                "{low} to {high} µm; search there",
+            ).fill(
+                place=fixed(found * 1e6, 1),
+                low=fixed(z.min() * 1e6, 1),
+                high=fixed(z.max() * 1e6, 1),
+            )
         )
     return FocusPeak(found, float(np.sqrt(abs(spread[2, 2]))) * span, width * span)
 
@@ -126,7 +146,11 @@ class Autofocus:
             If that is no range.
         """
         if not (np.isfinite([low, high]).all() and low < high):
-            raise VisionError(f"focus: from {low} m to {high} m is no range; give low below high")
+            raise VisionError(
+                message(
+                    "engine", "focus: from {low} m to {high} m is no range; give low below high"
+                ).fill(low=low, high=high)
+            )
         return cls(tuple(np.linspace(low, high, _COARSE).tolist()))
 
     @property
@@ -150,7 +174,7 @@ class Autofocus:
             As :func:`fit_peak`.
         """
         if not self.planned:
-            raise VisionError("focus: the search is over; begin another")
+            raise VisionError(message("engine", "focus: the search is over; begin another"))
         after = replace(
             self,
             planned=self.planned[1:],

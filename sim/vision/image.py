@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from rotemina.sim.messages import message
 from rotemina.sim.vision.errors import VisionError
 
 Image = NDArray[np.float32]
@@ -27,17 +28,27 @@ def grey(image: NDArray[Any]) -> Image:
         array = array.astype(np.float32) @ _LUMA
     if array.ndim != 2 or min(array.shape) < LEAST_SIDE:
         raise VisionError(
-            f"image: its shape is {array.shape}; must be (rows, columns) or (rows, columns, 3), "
-            f"at least {LEAST_SIDE} px each way"
+            message(
+                "engine",
+                "image: its shape is {shape}; must be (rows, columns) or (rows, columns, 3), at "
+                "least {least_side} px each way",
+            ).fill(shape=str(array.shape), least_side=LEAST_SIDE)
         )
     plane = np.ascontiguousarray(array, dtype=np.float32)
     low, high = float(plane.min()), float(plane.max())
     if not np.isfinite([low, high]).all():
-        raise VisionError("image: a pixel is not a finite number; the camera's data are damaged")
+        raise VisionError(
+            message(
+                "engine", "image: a pixel is not a finite number; the camera's data are damaged"
+            )
+        )
     if low == high:
         raise VisionError(
-            f"image: every pixel is {low:g}; the camera is dark, saturated or covered: look at "
-            "lamp, shutter and exposure"
+            message(
+                "engine",
+                "image: every pixel is {low}; the camera is dark, saturated or covered: look at "
+                "lamp, shutter and exposure",
+            ).fill(low=low)
         )
     return plane
 
@@ -54,8 +65,17 @@ def relative_to(image: Image, background: Image) -> Image:
     """
     if image.shape != background.shape:
         raise VisionError(
-            f"background: {background.shape[1]} × {background.shape[0]} px against an image of "
-            f"{image.shape[1]} × {image.shape[0]} px; take it again with this camera setting"
+            message(
+                "engine",
+                "background: {columns} × {rows} px against an image of {image_columns} × "
+                "{image_rows} px; "
+                "take it again with this camera setting",
+            ).fill(
+                columns=background.shape[1],
+                rows=background.shape[0],
+                image_columns=image.shape[1],
+                image_rows=image.shape[0],
+            )
         )
     least = 1e-3 * float(np.abs(background).max())
     return np.asarray(image / np.maximum(background, least), dtype=np.float32)

@@ -20,6 +20,8 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
 from rotemina.sim.vision.errors import VisionError
 
 _STEEPEST = np.radians(80.0)
@@ -69,7 +71,11 @@ class Pipette:
         least = {"radius": self.radius, "sharpest": self.sharpest}
         for name, value in least.items():
             if not 0.0 < value < float("inf"):
-                raise VisionError(f"pipette: {name} = {value:g} px: must be more than 0")
+                raise VisionError(
+                    message("engine", "pipette: {name} = {value} px: must be more than 0").fill(
+                        name=name, value=value
+                    )
+                )
 
     @classmethod
     def seen(
@@ -112,9 +118,14 @@ class Pipette:
         """
         if not abs(approach) <= _STEEPEST:
             raise VisionError(
-                f"pipette: it stands at {np.degrees(approach):.0f}° to the focal plane, must be at "
-                f"most {np.degrees(_STEEPEST):.0f}°; seen from its end it has no shape to be found "
-                "by: tilt the view"
+                message(
+                    "engine",
+                    "pipette: it stands at {angle}° to the focal plane, must be at most "
+                    "{most}°; seen from its end it has no shape to be found by: tilt the view",
+                ).fill(
+                    angle=fixed(np.degrees(approach), 0),
+                    most=fixed(np.degrees(_STEEPEST), 0),
+                )
             )
         radius = tip_radius_m / pixel_m
         return cls(

@@ -19,6 +19,8 @@ import numpy as np
 from scipy import fft
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
 from rotemina.sim.vision.alignment import align
 from rotemina.sim.vision.errors import RegistrationError
 from rotemina.sim.vision.image import Image
@@ -82,23 +84,40 @@ def register(reference: Image, image: Image) -> Registration:
     """
     if reference.shape != image.shape:
         raise RegistrationError(
-            f"registration: an image of {image.shape[1]} × {image.shape[0]} px against a reference "
-            f"of {reference.shape[1]} × {reference.shape[0]} px; use one camera setting for both"
+            message(
+                "engine",
+                "registration: an image of {columns} × {rows} px against a reference of "
+                "{other_columns} "
+                "× {other_rows} px; use one camera setting for both",
+            ).fill(
+                columns=image.shape[1],
+                rows=image.shape[0],
+                other_columns=reference.shape[1],
+                other_rows=reference.shape[0],
+            )
         )
     first, second = flattened(reference), flattened(image)
     whole, ratio, rival = _peak(_phase_correlation(first, second))
     if ratio < LEAST_PEAK_TO_SIDELOBE:
         raise RegistrationError(
-            f"registration: peak-to-sidelobe ratio {ratio:.1f}, must be at least "
-            f"{LEAST_PEAK_TO_SIDELOBE:g}; the images show too little common detail, or "
-            "detail that repeats: focus, give more light, make the move smaller, or bring another "
-            "object into view"
+            message(
+                "engine",
+                "registration: peak-to-sidelobe ratio {ratio}, must be at least "
+                "{least_peak_to_sidelobe}; the images show too little common detail, or detail "
+                "that repeats: focus, give more light, make the move smaller, or bring another "
+                "object into view",
+            ).fill(ratio=fixed(ratio, 1), least_peak_to_sidelobe=LEAST_PEAK_TO_SIDELOBE)
         )
     if rival > MOST_SECOND_PEAK:
         raise RegistrationError(
-            f"registration: a second shift fits {100.0 * rival:.0f} % as well, must be at most "
-            f"{100.0 * MOST_SECOND_PEAK:.0f} %; the picture repeats itself (a grating?): use "
-            "another object or smaller moves"
+            message(
+                "engine",
+                "registration: a second shift fits {rival} % as well, must be at most "
+                "{most_second_peak} %; the picture repeats itself (a grating?): use another object "
+                "or smaller moves",
+            ).fill(
+                rival=fixed(100.0 * rival, 0), most_second_peak=fixed(100.0 * MOST_SECOND_PEAK, 0)
+            )
         )
     return _refined(first, second, whole, ratio, rival)
 
@@ -113,8 +132,11 @@ def _refined(
     end = sizes - np.maximum(whole, 0).astype(int) - margin
     if ((end - begin) < LEAST_OVERLAP * sizes).any():
         raise RegistrationError(
-            f"registration: the picture moved by {whole[0]:.0f}, {whole[1]:.0f} px and hardly "
-            "overlaps the one before; make the move smaller"
+            message(
+                "engine",
+                "registration: the picture moved by {right}, {down} px and hardly "
+                "overlaps the one before; make the move smaller",
+            ).fill(right=fixed(whole[0], 0), down=fixed(whole[1], 0))
         )
     template = first[begin[1] : end[1], begin[0] : end[0]]
     # Light noise reduction: what is sampled between pixels then loses no contrast.
@@ -128,8 +150,11 @@ def _refined(
     )
     if found is None or not found.settled:
         raise RegistrationError(
-            "registration: the images cannot be laid over one another; they differ by more than a "
-            "shift (turned, other focus, or only a part of the scene moved)"
+            message(
+                "engine",
+                "registration: the images cannot be laid over one another; they differ by more "
+                "than a shift (turned, other focus, or only a part of the scene moved)",
+            )
         )
     return Registration(found.corner - begin, found.covariance, ratio, rival, found.correlation)
 

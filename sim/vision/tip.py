@@ -17,6 +17,8 @@ import cv2
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
 from rotemina.sim.vision.errors import VisionError
 from rotemina.sim.vision.image import Image
 from rotemina.sim.vision.pipette import Pipette
@@ -95,8 +97,12 @@ def find_tip(image: Image, pipette: Pipette, *, turning: bool = True) -> TipFit:
         best = fit_depths(image, pipette, best.pixel, (away, 0.0), turning=turning)
     if best is None or not plausible(best):
         raise VisionError(
-            f"tip: nothing looks like it (greatest likeness {likeness:.2f}); bring the tip into "
-            "view and near focus, or correct its direction in the image"
+            message(
+                "engine",
+                "tip: nothing looks like it (greatest likeness {likeness}); bring "
+                "the tip into view and near focus, or correct its direction in the "
+                "image",
+            ).fill(likeness=fixed(likeness, 2))
         )
     return best
 
@@ -127,8 +133,11 @@ def find_body(image: Image, pipette: Pipette) -> TipFit:
             refusal = error
     if not fits:
         raise VisionError(
-            "tip: nothing in the picture looks like a pipette, in whatever direction; bring the "
-            "tip into view and near focus"
+            message(
+                "engine",
+                "tip: nothing in the picture looks like a pipette, in whatever "
+                "direction; bring the tip into view and near focus",
+            )
         ) from refusal
     return min(fits, key=lambda fit: fit.uncertainty_px)
 

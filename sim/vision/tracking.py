@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
 from rotemina.sim.vision.body_fit import fit_body, learn_body
 from rotemina.sim.vision.errors import VisionError
 from rotemina.sim.vision.image import Image, relative_to
@@ -234,16 +236,24 @@ def _likely_place(track: TipTrack, image: Image, depths: tuple[float, ...]) -> F
 def _doubt(fit: TipFit | None, track: TipTrack) -> str:
     """Return what speaks against a fit; nothing if it is the tip."""
     if fit is None:
-        return "nothing like it where it should be"
+        return message("engine", "nothing like it where it should be")
     if fit.used < LEAST_USED:
-        return f"only {100.0 * fit.used:.0f} % of its surroundings look as they should"
+        return message("engine", "only {part} % of its surroundings look as they should").fill(
+            part=fixed(100.0 * fit.used, 0)
+        )
     if fit.uncertainty_px > MOST_DOUBT_PX:
-        return f"its place is uncertain by {fit.uncertainty_px:.1f} px"
+        return message("engine", "its place is uncertain by {doubt} px").fill(
+            doubt=fixed(fit.uncertainty_px, 1)
+        )
     if not plausible(fit):
-        return f"what is there takes {-100.0 * fit.contrast:.0f} % of the light"
+        return message("engine", "what is there takes {part} % of the light").fill(
+            part=fixed(-100.0 * fit.contrast, 0)
+        )
     ratio = fit.contrast / track.contrast
     if not _LEAST_CONTRAST <= ratio <= _MOST_CONTRAST:
-        return f"its contrast is {100.0 * ratio:.0f} % of what it was"
+        return message("engine", "its contrast is {part} % of what it was").fill(
+            part=fixed(100.0 * ratio, 0)
+        )
     return ""
 
 

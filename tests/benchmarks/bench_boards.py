@@ -154,7 +154,7 @@ class Stopper(threading.Thread):
 def with_text(session: MotionSession, number: int) -> None:
     """Keep the lines busy with what matters least."""
     with suppress(InputError):  # a full queue is what was wanted
-        session.show(number % 2, f"stop {number}")
+        session.service.show(number % 2, f"stop {number}")
 
 
 def told(name: str, waits: np.ndarray, limit_ms: float) -> None:

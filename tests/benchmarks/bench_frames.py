@@ -226,7 +226,7 @@ def measure(seconds):
     used.play()
     window.bring_up("microscope")
     used.until(lambda: microscope.status.cameras)
-    microscope.open_camera("simulated:microscope")
+    microscope.camera.open("simulated:microscope")
     used.until(lambda: microscope.status.feed.state is FeedState.LIVE)
     told = {"load_before": round(load, 2), "cores": os.cpu_count()}
     told["in_use"] = in_use(used, seconds)

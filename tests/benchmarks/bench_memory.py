@@ -18,7 +18,7 @@ from pathlib import Path
 PLAYS, ACTIONS = 500, 10_000
 PARTS = 20  # between which memory is looked at
 LIMIT_PERCENT = 5.0
-QUICK = {"PLAYS": 20, "ACTIONS": 40}
+QUICK = {"PLAYS": 4, "ACTIONS": 8}
 
 
 def memory_mb() -> dict[str, float]:

@@ -56,7 +56,7 @@ def test_from_the_camera_to_the_screen(tmp_path):
         assert done()
 
     until(lambda: microscope.status.cameras)
-    microscope.open_camera("simulated:microscope")
+    microscope.camera.open("simulated:microscope")
     until(lambda: microscope.status.feed.state is FeedState.LIVE and panel.view.frame is not None)
     panel.view.painted.connect(painted)
     QTimer.singleShot(60_000, loop.quit)

@@ -65,14 +65,14 @@ def thrust(parameters: PenetrationParameters, effects: tuple[AxisEffect, ...]) -
     session.go_to({AXIS: START})
     step(100)
     assert session.snapshot().activity is DeviceState.IDLE
-    session.set_effects([CELL])
+    session.service.set_effects([CELL])
     step(10)
     penetration.arm(parameters, clock())
     step(50)
     penetration.press(clock())
     while penetration.status.phase is not Phase.CONTACT:
         step(1)
-    session.set_effects(effects)
+    session.service.set_effects(effects)
     while penetration.status.phase in (Phase.CONTACT, Phase.THRUST):
         step(1)
     step(20)

@@ -27,7 +27,7 @@ def frames(count: int = 5000) -> list[Frame]:
             1,
             k & 0xFF,
             Telemetry.TYPE,
-            Telemetry.of(k, 0, 0, 0, [(one, one + 1) for one in own]).packed(),
+            Telemetry.of(k, 0, 0, 0, 0, [(one, one + 1) for one in own]).packed(),
             True,
         )
         for k, own in enumerate(numbers)

@@ -31,7 +31,7 @@ from rotemina.sim.robot.file import load_robot
 TIMES_AS_FAST = 4.0
 # What ends the use, takes minutes, leaves the window, or keeps the machine from playing.
 _NOT_DONE = re.compile(
-    "Quit|Language|Home|Disconnect|Reconnect|Connect$|E-stop|Emergency|Teach floor|virtual board|"
+    "Quit|Language|Home|Disconnect|Reconnect|Connect$|Stop and lock|Teach floor|virtual board|"
     "Solve|Compensation: (Simulator|Last record|Records|Sweep|Try it|Tune|Put on)|calibration: Run|"
     "Gap diagnosis: |Identification: Excite|browser|Penetration: (Arm|Start)|Recorder: |Mode |"
     "Microscope: (Close|Open)|Trajectory: (Play|Step|◂)|Motion: Play|Control: .* [−+]$|Go to|Back"

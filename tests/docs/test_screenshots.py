@@ -13,6 +13,9 @@ SLACK = 0.1
 LEAST_COLOURS = 200  # of text with smooth edges alone
 MOST_OF_ONE = 0.97  # of the area; an empty panel is all ground
 
+# On one worker: the pictures are made once.
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("screenshots")]
+
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
@@ -33,7 +36,6 @@ def pictures_in(folder):
     return found
 
 
-@pytest.mark.slow
 def test_every_picture_is_made_anew_in_its_size(made, root):
     kept, new = pictures_in(root / "docs" / "screenshots"), pictures_in(made)
     assert sorted(new) == sorted(kept)  # `make screenshots`
@@ -47,7 +49,6 @@ def test_every_picture_is_made_anew_in_its_size(made, root):
     assert odd == []
 
 
-@pytest.mark.slow
 def test_no_picture_is_empty(made, root):
     for folder in (made, root / "docs" / "screenshots"):
         for name, path in pictures_in(folder).items():

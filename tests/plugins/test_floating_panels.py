@@ -2,6 +2,8 @@
 
 import pytest
 
+PANELS = ("comparison",)
+
 
 @pytest.mark.parametrize(
     ("panel", "button", "asks"),

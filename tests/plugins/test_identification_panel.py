@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PySide6.QtGui import QGuiApplication
 
-from rotemina.app.shell.controls import why_not
+from rotemina.app.widgets.controls import why_not
 from rotemina.plugins.identification.excitation import Wave
 from rotemina.plugins.identification.excite_view import CHECKING
 from rotemina.plugins.identification.export import as_csv
@@ -323,7 +323,7 @@ def test_what_may_not_be_played_says_why(qtbot, exciting):
 @pytest.mark.slow
 def test_an_axis_is_excited_and_looked_at_beside_its_model(qtbot, exciting, answers_of):
     excite, workbench = exciting.excite, exciting.workbench
-    workbench.session.set_effects(
+    workbench.session.service.set_effects(
         [AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.1})]
     )
     set_up(qtbot, excite, Wave.MULTISINE, frequency="100 Hz")

@@ -11,6 +11,8 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect
 
+PANELS = ("comparison",)
+
 LONG_MS = 30_000
 
 
@@ -52,7 +54,7 @@ def test_played_paused_stepped_and_gone_on_with(qtbot, window, panel):
     qtbot.waitUntil(lambda: bench.playback.state.row > 200, timeout=LONG_MS)
     click(qtbot, transport.play)
     qtbot.waitUntil(lambda: phase(panel) is PlaybackPhase.PAUSED and at_rest(panel))
-    qtbot.waitUntil(lambda: transport.play.text() == "Go on", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: transport.play.text() == "Resume", timeout=LONG_MS)
     row = bench.playback.state.row
     assert f"paused, row {row + 1} of 1501" in transport.progress.format()
     assert bench.run is None  # compared when it has ended, not in between
@@ -81,9 +83,11 @@ def test_a_step_from_the_beginning_goes_to_the_first_row(qtbot, window, panel):
 
 
 def test_excess_pauses_and_says_so(qtbot, window, panel):
-    window.workbench.session.set_effects(
+    session = window.workbench.session
+    session.service.set_effects(
         (AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.2}),)
     )
+    qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)  # the plant is exchanged
     panel.table.item(0, BOUND).setText("8")
     assert window.workbench.bounds == {"zn": pytest.approx(8e-6)}
     click(qtbot, panel.transport.play)
@@ -103,6 +107,27 @@ def test_a_bound_may_be_changed_or_taken_away(window, panel):
     assert window.workbench.bounds == {}
 
 
+def test_it_is_repeated_and_begun_anywhere(qtbot, window, panel):
+    bench = window.workbench
+    with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
+        panel.times.setValue(3)
+    assert bench.plan.dry_run.duration_s == pytest.approx(9.0)
+    with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
+        panel.begin.setValue(1.0)
+    assert bench.plan.name == "swing, from 1 s, 3 ×"
+    assert bench.plan.dry_run.duration_s == pytest.approx(8.0)
+    ramp = Record.from_signals(
+        [0.0, 1.0, 2.0], {("x", Tap.CMD): [0.0275, 0.0275, 0.0276]}, {"x": "m"}
+    )
+    with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
+        bench.plan_trajectory("ramp", ramp)
+    assert (panel.begin.value(), panel.begin.maximum(), panel.times.value()) == (0.0, 1.0, 1)
+    with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
+        panel.times.setValue(2)
+    assert "ends 100 µm from where it begins" in notices(window)[-1]
+    assert (bench.plan.name, panel.times.value()) == ("ramp", 1)
+
+
 def test_another_trajectory_ends_a_pause(qtbot, window, panel):
     click(qtbot, panel.transport.forward)
     with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
@@ -119,3 +144,66 @@ def test_what_is_no_bound_is_refused(text):
 def test_a_bound_is_read_as_it_was_written():
     assert read_bound(bound_text(12.5e-6, "rad"), "rad") == pytest.approx(12.5e-6)
     assert read_bound("", "m") is None
+
+
+def test_a_floor_taught_later_refuses_the_plan_before_it_is_played(qtbot, window, panel):
+    session, transport = window.workbench.session, panel.transport
+    assert "and of the tip" in panel.verdict.text()
+    transport.speed.setValue(0.5)
+    panel.table.item(0, BOUND).setText("8")
+    session.go_to({"zn": 60e-6})
+    qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)
+    session.bounds.teach_floor()
+    said = panel.verdict.text
+    qtbot.waitUntil(lambda: "Not playable from here: tip:" in said(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "its floor is" in transport.play.toolTip(), timeout=LONG_MS)
+    assert not transport.play.isEnabled()
+    assert panel.path._out.any()
+    with pytest.raises(InputError) as refused:
+        session.play(swing())
+    assert str(refused.value) in panel.verdict.text()
+    panel.path.whole = True
+    assert not panel.path.grab().isNull()
+    session.bounds.clear_floor()
+    qtbot.waitUntil(transport.play.isEnabled, timeout=LONG_MS)
+    assert not panel.path._out.any()
+    assert transport.speed.value() == 0.5  # what the operator set stays with the trajectory
+    assert window.workbench.bounds == {"zn": pytest.approx(8e-6)}
+    assert notices(window) == []
+
+
+def test_points_are_taken_typed_and_made_a_trajectory_of(qtbot, window, panel):
+    session, view = window.workbench.session, panel.points
+    panel.teach.click()
+    assert view.isVisibleTo(panel)
+    assert not panel.tried.isVisibleTo(panel)
+    click(qtbot, view.take)
+    here = session.snapshot().command["zn"]
+    session.go_to({"zn": 40e-6})
+    qtbot.waitUntil(lambda: session.snapshot().command["zn"] == 40e-6, timeout=LONG_MS)
+    click(qtbot, view.take)
+    assert [point.place["zn"] for point in view.points] == [here, 40e-6]
+    zn, speed, pause = 5, 6, 7
+    for column, text, why in (
+        (zn, "65.1", "must be 0.000 µm to 65.000 µm"),
+        (speed, "0", "above 0 and at most 100 %"),
+        (pause, "x", "must be 0 to 3600 s"),
+    ):
+        before = view.table.item(1, column).text()
+        view.table.item(1, column).setText(text)
+        assert why in notices(window)[0]
+        assert view.table.item(1, column).text() == before
+    view.table.item(1, zn).setText("45.5")
+    view.table.item(1, pause).setText("0.2")
+    assert view.points[1].place["zn"] == pytest.approx(45.5e-6)
+    with qtbot.waitSignal(window.workbench.plan_changed, timeout=LONG_MS):
+        click(qtbot, view.use)
+    plan = window.workbench.plan
+    assert plan.name == "2 taught points"
+    assert plan.dry_run.allowed
+    assert plan.trajectory.signal("zn", Tap.CMD)[[0, -1]] == pytest.approx([here, 45.5e-6])
+    assert not view.isVisibleTo(panel)  # what the dry run found is shown
+    panel.teach.click()
+    view.table.selectRow(0)
+    click(qtbot, view.remove)
+    assert len(view.points) == 1

@@ -9,9 +9,11 @@ from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.thrust import ThrustPlan, plan_thrust
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.abilities import ProfileRunner, VelocityMover
+from rotemina.sim.messages import AxisName, message
+from rotemina.sim.quantities import exact
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.wording import readable
 
+_NANO = "zn"  # moves along the tip as z does, which so makes up for it
 LEASE_S = 0.15  # of the approach: without a host it ends after that
 _OVERSHOOT_S = 0.2  # of approach: until a contact is sure, seen, and the axis at rest
 
@@ -48,12 +50,12 @@ def armed(session: MotionSession, parameters: PenetrationParameters, owner: str)
     """
     _check_device(session, parameters)
     plan = planned(session, parameters)
-    session.reserve(owner)
+    session.reservations.reserve(owner)
     try:
         start = session.snapshot().command[parameters.axis]
         _check_way(session, parameters, plan, start)
     except BaseException:
-        session.set_free(owner)
+        session.reservations.set_free(owner)
         raise
     return Attempt(parameters, plan, start)
 
@@ -69,7 +71,7 @@ def check_now(
         As :func:`armed`.
     """
     _check_device(session, parameters)
-    session.check_reservable(owner)
+    session.reservations.check(owner)
     _check_way(session, parameters, plan, session.snapshot().command[parameters.axis])
 
 
@@ -99,19 +101,61 @@ def travel_margin(
     )
 
 
+def prepared(session: MotionSession, parameters: PenetrationParameters) -> dict[str, float]:
+    """Return where the nano stage must be, m, so that a penetration fits in its range.
+
+    The room that is left over is shared between both ends.
+
+    Raises
+    ------
+    PenetrationError
+        If no place of the axis leaves room enough, or it is not ``zn``: only that can move while z
+        holds the tip.
+    InputError
+        As :func:`planned`.
+    """
+    plan, name = planned(session, parameters), parameters.axis
+    if name != _NANO:
+        raise PenetrationError(
+            message(
+                "engine",
+                "axis {axis}: only {nano} can be moved back while the tip stays; move {axis} back "
+                "yourself, or shorten the way",
+            ).fill(axis=AxisName(name), nano=AxisName(_NANO))
+        )
+    low, high = session.robot.axes[name].range
+    needed = travel_margin(session.robot, parameters, plan, low).needed
+    if needed > high - low:
+        raise PenetrationError(
+            message(
+                "engine",
+                "axis {axis}: {needed} are needed, its whole range is {range}; shorten "
+                "approach_distance or depth",
+            ).fill(axis=AxisName(name), needed=exact(needed, "m"), range=exact(high - low, "m"))
+        )
+    spare = 0.5 * (high - low - needed)
+    return {name: low + spare if parameters.sign > 0.0 else high - spare}
+
+
 def _check_device(session: MotionSession, parameters: PenetrationParameters) -> None:
     driver = session.driver
     if not isinstance(driver, ProfileRunner):
         raise RefusedError(
-            f"driver {driver.name!r} cannot run profiles by itself; a thrust needs that"
+            message(
+                "engine", "driver {driver} cannot run profiles by itself; a thrust needs that"
+            ).fill(driver=repr(driver.name))
         )
     if not isinstance(driver, VelocityMover):
         raise RefusedError(
-            f"driver {driver.name!r} cannot move at a speed; the approach needs that"
+            message(
+                "engine", "driver {driver} cannot move at a speed; the approach needs that"
+            ).fill(driver=repr(driver.name))
         )
-    if parameters.inject_s > 0.0 and session.tool_on is None:
+    if parameters.inject_s > 0.0 and session.tool.on is None:
         raise RefusedError(
-            f"driver {driver.name!r} has no tool that could inject; set inject_s to 0"
+            message(
+                "engine", "driver {driver} has no tool that could inject; set inject_s to 0"
+            ).fill(driver=repr(driver.name))
         )
 
 
@@ -119,18 +163,27 @@ def _check_axis(robot: Robot, parameters: PenetrationParameters) -> None:
     name = parameters.axis
     if name not in robot.axes:
         raise PenetrationError(
-            f"robot {robot.name!r} has no axis {name!r} to penetrate with; it has "
-            f"{', '.join(robot.axes)}"
+            message(
+                "engine", "robot {name} has no axis {axis} to penetrate with; it has {axes}"
+            ).fill(name=repr(robot.name), axis=repr(name), axes=", ".join(robot.axes))
         )
     if robot.unit(name) != "m":
         raise PenetrationError(
-            f"axis {name} of {robot.name!r} turns; a penetration needs a way in m"
+            message("engine", "axis {axis} of {robot} turns; a penetration needs a way in m").fill(
+                axis=AxisName(name), robot=repr(robot.name)
+            )
         )
     axis = robot.axes[name]
     if axis.max_speed is not None and parameters.approach_speed > axis.max_speed:
         raise PenetrationError(
-            f"approach_speed = {readable(parameters.approach_speed, 'm')}/s: axis {name} goes at "
-            f"{readable(axis.max_speed, 'm')}/s at most"
+            message(
+                "engine",
+                "approach_speed = {approach_speed}: axis {name} goes at {max_speed} at most",
+            ).fill(
+                approach_speed=exact(parameters.approach_speed, "m/s"),
+                name=AxisName(name),
+                max_speed=exact(axis.max_speed, "m/s"),
+            )
         )
 
 
@@ -143,17 +196,27 @@ def _check_way(
     plan.profile.check(session.robot, start)
     farthest = start + parameters.sign * taken.needed
     contact = farthest - parameters.sign * taken.thrust
-    session.check_thrust(name, _sorted(start, farthest), 0.0)
-    session.check_thrust(name, _sorted(contact, farthest), plan.peak_speed)
+    session.profiles.check_thrust(name, _sorted(start, farthest), 0.0)
+    session.profiles.check_thrust(name, _sorted(contact, farthest), plan.peak_speed)
 
 
 def _check_room(parameters: PenetrationParameters, taken: TravelMargin) -> None:
     if taken.needed > taken.left:
         raise PenetrationError(
-            f"axis {parameters.axis}: {readable(taken.left, 'm')} of its range are left "
-            f"{parameters.direction}wards, {readable(taken.needed, 'm')} are needed "
-            f"({readable(taken.approach, 'm')} to approach, {readable(taken.halt, 'm')} to halt, "
-            f"{readable(taken.thrust, 'm')} to thrust); move the axis back first, or shorten them"
+            message(
+                "engine",
+                "axis {axis}: {left} of its range are left {direction}wards, "
+                "{needed} are needed ({approach} to approach, {halt} to halt, "
+                "{thrust} to thrust); move the axis back first, or shorten them",
+            ).fill(
+                axis=AxisName(parameters.axis),
+                left=exact(taken.left, "m"),
+                direction=parameters.direction,
+                needed=exact(taken.needed, "m"),
+                approach=exact(taken.approach, "m"),
+                halt=exact(taken.halt, "m"),
+                thrust=exact(taken.thrust, "m"),
+            )
         )
 
 

@@ -28,6 +28,7 @@ from scipy.optimize import brentq
 
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 
 REFERENCE = 0.5  # k: half of the shift, in standard deviations, that is found soonest
 _CORRECTION = 1.166  # of Siegmund's, for the overshoot over h
@@ -96,8 +97,11 @@ def noise_at_rest(time_s: FloatArray, residual: FloatArray, floor: float = 0.0) 
     """
     if len(residual) < _LEAST_SAMPLES:
         raise PenetrationError(
-            f"contact: {len(residual)} samples at rest, at least {_LEAST_SAMPLES} are needed to "
-            "know the noise; wait"
+            message(
+                "engine",
+                "contact: {count} samples at rest, at least {least_samples} are needed to know the "
+                "noise; wait",
+            ).fill(count=len(residual), least_samples=_LEAST_SAMPLES)
         )
     steps = np.diff(residual)
     rms = 0.5 * sqrt(pi) * float(np.mean(np.abs(steps)))

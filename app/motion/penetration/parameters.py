@@ -1,6 +1,5 @@
 """What a penetration is to be like: parameters with bounds, and their file."""
 
-import difflib
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields
@@ -13,7 +12,9 @@ from typing import Any, NamedTuple, Self
 
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.sim.input_files import parse_toml, read_text
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.messages import joined, message
+from rotemina.sim.quantities import exact
+from rotemina.sim.robot.schema_errors import suggestion
 from rotemina.sim.whole_files import replaced
 
 MAX_BYTES = 100_000
@@ -138,7 +139,11 @@ class PenetrationParameters:
 
     def __post_init__(self) -> None:
         if not isinstance(self.axis, str) or not self.axis:
-            raise PenetrationError(f"axis = {self.axis!r}: must be the name of an axis")
+            raise PenetrationError(
+                message("engine", "axis = {axis}: must be the name of an axis").fill(
+                    axis=repr(self.axis)
+                )
+            )
         for name, kind in (("direction", Direction), ("shape", ThrustShape), ("shaping", Shaping)):
             object.__setattr__(self, name, _choice(name, getattr(self, name), kind))
         for name, bound in BOUNDS.items():
@@ -146,8 +151,11 @@ class PenetrationParameters:
         object.__setattr__(self, "table", _table(self.table))
         if (self.shape is ThrustShape.TABLE) != bool(self.table):
             raise PenetrationError(
-                "table: needed for a thrust of shape 'table', and for no other"
-                f" (shape is {str(self.shape)!r}, the table has {len(self.table)} points)"
+                message(
+                    "engine",
+                    "table: needed for a thrust of shape 'table', and for no other (shape is "
+                    "{shape}, the table has {count} points)",
+                ).fill(shape=repr(str(self.shape)), count=len(self.table))
             )
 
     @property
@@ -169,7 +177,9 @@ class PenetrationParameters:
         try:
             return cls._of(table)
         except PenetrationError as error:
-            raise PenetrationError(f"{name}: {error}") from error
+            raise PenetrationError(
+                message("engine", "{name}: {error}").fill(name=name, error=str(error))
+            ) from error
 
     @classmethod
     def kept(cls, path: Path) -> Self:
@@ -186,9 +196,10 @@ class PenetrationParameters:
         known = [field.name for field in fields(cls)]
         for key, value in table.items():
             if key not in known:
-                close = difflib.get_close_matches(key, known, n=1)
-                hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(known)}"
-                raise PenetrationError(f"{key} = {value!r}: unknown key; {hint}")
+                said = message("engine", "{key} = {value}: unknown key").fill(
+                    key=key, value=repr(value)
+                )
+                raise PenetrationError(joined((said, *suggestion(key, known)), "; "))
         return cls(**table)
 
     def text(self) -> str:
@@ -228,17 +239,28 @@ def _choice(name: str, value: object, kind: type[StrEnum]) -> StrEnum:
         return kind(value)  # type: ignore[arg-type]  # what is no text is refused alike
     except ValueError:
         known = ", ".join(repr(str(one)) for one in kind)
-        raise PenetrationError(f"{name} = {value!r}: must be one of {known}") from None
+        raise PenetrationError(
+            message("engine", "{name} = {value}: must be one of {known}").fill(
+                name=name, value=repr(value), known=known
+            )
+        ) from None
 
 
 def _number(name: str, value: object, bound: Bound) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-        raise PenetrationError(f"{name} = {value!r}: must be a finite number")
+        raise PenetrationError(
+            message("engine", "{name} = {value}: must be a finite number").fill(
+                name=name, value=repr(value)
+            )
+        )
     if not bound.least <= value <= bound.most:
         raise PenetrationError(
-            f"{name} = {readable(value, bound.unit).strip()}: must be "
-            f"{readable(bound.least, bound.unit).strip()} to "
-            f"{readable(bound.most, bound.unit).strip()}"
+            message("engine", "{name} = {value}: must be {least} to {most}").fill(
+                name=name,
+                value=exact(value, bound.unit).strip(),
+                least=exact(bound.least, bound.unit).strip(),
+                most=exact(bound.most, bound.unit).strip(),
+            )
         )
     return float(value)
 
@@ -246,11 +268,19 @@ def _number(name: str, value: object, bound: Bound) -> float:
 def _table(rows: Any) -> tuple[tuple[float, float], ...]:
     """Return the points of a table as floats; :mod:`rotemina.sim.shaping.moves` judges them."""
     if not isinstance(rows, list | tuple) or len(rows) > MOST_POINTS:
-        raise PenetrationError(f"table: must be a list of at most {MOST_POINTS} points")
+        raise PenetrationError(
+            message("engine", "table: must be a list of at most {most_points} points").fill(
+                most_points=MOST_POINTS
+            )
+        )
     found = []
     for number, row in enumerate(rows, 1):
         if not isinstance(row, list | tuple) or len(row) != 2:
-            raise PenetrationError(f"table, point {number} = {row!r}: must be [time, depth]")
+            raise PenetrationError(
+                message("engine", "table, point {number} = {row}: must be [time, depth]").fill(
+                    number=number, row=repr(row)
+                )
+            )
         share = Bound(0.0, 1.0, "")
         found.append(
             (
@@ -259,5 +289,5 @@ def _table(rows: Any) -> tuple[tuple[float, float], ...]:
             )
         )
     if found and (found[0] != (0.0, 0.0) or found[-1] != (1.0, 1.0)):
-        raise PenetrationError("table: must go from [0, 0] to [1, 1]")
+        raise PenetrationError(message("engine", "table: must go from [0, 0] to [1, 1]"))
     return tuple(found)

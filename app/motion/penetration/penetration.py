@@ -19,6 +19,7 @@ from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus,
 from rotemina.app.motion.penetration.thrust import ThrustPlan
 from rotemina.app.motion.session import MotionSession
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import marked, message
 
 
 class Penetration(PenetrationSequence):
@@ -62,7 +63,11 @@ class Penetration(PenetrationSequence):
         """
         with self._lock:
             if self._status.phase in UNDER_WAY | {Phase.HELD}:
-                raise RefusedError(f"a penetration is {self._status.phase}; end it first")
+                raise RefusedError(
+                    message("engine", "a penetration is {phase}; end it first").fill(
+                        phase=self._status.phase
+                    )
+                )
             self._release()
             permit = self._session.permit()
             self._attempt = armed(self._session, parameters, OWNER)
@@ -86,7 +91,7 @@ class Penetration(PenetrationSequence):
         """
         phase = self._status.phase
         if phase in UNDER_WAY | {Phase.HELD}:
-            return f"a penetration is {phase}; end it first"
+            return message("engine", "a penetration is {phase}; end it first").fill(phase=phase)
         try:
             check_now(self._session, parameters, plan, OWNER)
         except InputError as error:
@@ -103,7 +108,11 @@ class Penetration(PenetrationSequence):
         """
         with self._lock:
             if self._status.phase in UNDER_WAY:
-                raise RefusedError(f"a penetration is in {self._status.phase}; stop it first")
+                raise RefusedError(
+                    message("engine", "a penetration is in {phase}; stop it first").fill(
+                        phase=self._status.phase
+                    )
+                )
             self._release()
             self._enter(Phase.DISARMED, 0.0)
 
@@ -112,7 +121,7 @@ class Penetration(PenetrationSequence):
         with self._lock:
             if self._status.phase in UNDER_WAY:
                 self._halt()
-                self._hold_here("the program let go of it", self._since_s)
+                self._hold_here(marked("engine", "the program let go of it"), self._since_s)
             self._release()
             self._end()
         self._write()
@@ -128,16 +137,22 @@ class Penetration(PenetrationSequence):
         with self._lock:
             phase, attempt = self._status.phase, self._attempt
             if attempt is None or phase not in UNDER_WAY | {Phase.ARMED, Phase.HELD}:
-                raise RefusedError("the penetration is not armed; arm it first")
+                raise RefusedError(message("engine", "the penetration is not armed; arm it first"))
             if phase is Phase.ARMED:
                 self._start(attempt, now_s)
             elif phase is Phase.HELD:
                 self._retract_held(now_s)
             elif phase is Phase.RETRACT:
                 self._halt()
-                self._hold_here("the retraction was stopped by the button", now_s)
+                self._hold_here(
+                    message("engine", "the retraction was stopped by the button"), now_s
+                )
             else:
-                self._back(Verdict.ABORTED, f"stopped by the button in {phase}", now_s)
+                self._back(
+                    Verdict.ABORTED,
+                    message("engine", "stopped by the button in {phase}").fill(phase=phase),
+                    now_s,
+                )
 
     def step(self, now_s: float) -> None:
         """Go on; ``now_s`` is the host's time. Never raises for what a device does."""
@@ -158,15 +173,19 @@ class Penetration(PenetrationSequence):
             self._status = replace(self._status, armed_left_s=self._armed_until_s - now_s)
             return
         self._release()
-        self._enter(Phase.DISARMED, now_s, broken or "nobody started it in time")
+        self._enter(Phase.DISARMED, now_s, broken or message("engine", "nobody started it in time"))
 
     def _start(self, attempt: Attempt, now_s: float) -> None:
         state = self._session.snapshot()
         broken = self._broken(state)
         if broken is not None:
-            raise RefusedError(f"the penetration cannot start: {broken}")
+            raise RefusedError(
+                message("engine", "the penetration cannot start: {broken}").fill(broken=broken)
+            )
         if state.command[attempt.parameters.axis] != attempt.start:
-            raise RefusedError("the axis has moved since it was armed; arm it again")
+            raise RefusedError(
+                message("engine", "the axis has moved since it was armed; arm it again")
+            )
         attempt.began_s, attempt.started = now_s, self._today().isoformat()
         self._refusals.clear()
         self._renewed_s = float("-inf")
@@ -176,11 +195,22 @@ class Penetration(PenetrationSequence):
         permit = self._session.permit()
         state = self._session.snapshot()
         if state.locked is not None:
-            raise RefusedError(f"the held tip cannot be moved: {state.locked}")
-        if not self._session.has_reserved(OWNER):
-            raise RefusedError("the axes are not the penetration's any more; move them by hand")
+            raise RefusedError(
+                message("engine", "the held tip cannot be moved: {locked}").fill(
+                    locked=state.locked
+                )
+            )
+        if not self._session.reservations.held_by(OWNER):
+            raise RefusedError(
+                message("engine", "the axes are not the penetration's any more; move them by hand")
+            )
         self._permit = permit
-        self._outcome = (Verdict.ABORTED, f"retracted by the button; before: {self._status.reason}")
+        self._outcome = (
+            Verdict.ABORTED,
+            message("engine", "retracted by the button; before: {reason}").fill(
+                reason=self._status.reason
+            ),
+        )
         self._refusals.clear()
         self._enter(Phase.RETRACT, now_s)
 

@@ -12,6 +12,7 @@ from typing import Any, Self
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
 from rotemina.sim.input_files import parse_json, read_bytes
+from rotemina.sim.messages import message
 from rotemina.sim.whole_files import FileWriteError
 
 _MOST_BYTES = 256_000_000  # some hundred thousand runs
@@ -37,6 +38,8 @@ class PenetrationRun:
     robot, driver : str
     model : str
         Id of the model in use.
+    run, operator, sample : str
+        As the operator says of all that is recorded.
     parameters : dict
         All of :class:`rotemina.app.motion.penetration.parameters.PenetrationParameters`.
     verdict : Verdict
@@ -64,6 +67,9 @@ class PenetrationRun:
     reason: str
     phases: tuple[tuple[str, float], ...]
     model: str = ""
+    run: str = ""
+    operator: str = ""
+    sample: str = ""
     start: float | None = None
     contact: float | None = None
     contact_measured: float | None = None
@@ -103,7 +109,9 @@ class PenetrationRun:
             _require_kinds(run)
             return run
         except (ValueError, TypeError, KeyError) as error:
-            raise PenetrationError(f"no penetration's run: {error}") from error
+            raise PenetrationError(
+                message("engine", "no penetration's run: {error}").fill(error=str(error))
+            ) from error
 
 
 class RunLog:
@@ -134,9 +142,17 @@ class RunLog:
             finally:
                 os.close(descriptor)
         except OSError as error:
-            raise FileWriteError(f"{self.path}: cannot be written: {error.strerror}") from error
+            raise FileWriteError(
+                message("engine", "{path}: cannot be written: {strerror}").fill(
+                    path=self.path, strerror=str(error.strerror)
+                )
+            ) from error
         if written != len(data):
-            raise FileWriteError(f"{self.path}: the run is not whole there; the disk may be full")
+            raise FileWriteError(
+                message("engine", "{path}: the run is not whole there; the disk may be full").fill(
+                    path=self.path
+                )
+            )
 
     def read(self) -> tuple[tuple[PenetrationRun, ...], tuple[str, ...]]:
         """Return the runs, and what is wrong with lines that are none, each with its number.
@@ -160,8 +176,9 @@ class RunLog:
 
 def _require_kinds(run: PenetrationRun) -> None:
     """Raise a TypeError unless the run's texts are texts and its figures are figures."""
+    texts = ("started", "robot", "driver", "model", "run", "operator", "sample", "reason")
     kinds: dict[str, tuple[type, ...]] = {
-        **dict.fromkeys(("started", "robot", "driver", "model", "reason"), (str,)),
+        **dict.fromkeys(texts, (str,)),
         **{"parameters": (dict,), "verdict": (Verdict,), "phases": (tuple,)},
         "thrust": (ThrustMeasured, NoneType),
     }

@@ -25,7 +25,8 @@ from rotemina.app.motion.state import CommandRefused, Event, SessionState
 from rotemina.drivers.abilities import Capturer
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact, rounded
 
 OWNER = "penetration"
 _RENEW_S = 0.04  # of the lease
@@ -114,7 +115,7 @@ class PenetrationSequence:
         if not attempt.detectors:
             self._listen(attempt, samples)
             if not self._knows_noise(attempt):
-                self._await(now_s, _LISTEN_S, "the device sends too few samples")
+                self._await(now_s, _LISTEN_S, message("engine", "the device sends too few samples"))
                 return
         elif len(samples):
             contact = self._contact(attempt, samples)
@@ -128,8 +129,13 @@ class PenetrationSequence:
         self._check_load(attempt)
         way = p.sign * (state.command[p.axis] - attempt.start)
         if way >= p.approach_distance:
-            distance = readable(p.approach_distance, "m")
-            self._fail(f"no contact within {distance}; start nearer to the cell", now_s)
+            distance = exact(p.approach_distance, "m")
+            self._fail(
+                message("engine", "no contact within {distance}; start nearer to the cell").fill(
+                    distance=distance
+                ),
+                now_s,
+            )
         elif now_s - self._renewed_s >= _RENEW_S:
             self._renewed_s = now_s
             self._session.move_velocity({p.axis: velocity}, LEASE_S, OWNER, permit=self._permit)
@@ -142,7 +148,9 @@ class PenetrationSequence:
         self._check_load(attempt)
         attempt.thrusting.append(samples)
         pause_s = attempt.parameters.contact_pause_s
-        self._await(now_s, 2.0 * (pause_s + _PATIENCE_S), "the axis did not come to rest")
+        self._await(
+            now_s, 2.0 * (pause_s + _PATIENCE_S), message("engine", "the axis did not come to rest")
+        )
         if not self._at_rest(state):
             self._rested_s = None
             return
@@ -151,7 +159,7 @@ class PenetrationSequence:
             return
         if not self._told:
             self._told = True
-            self._session.upload_profile(attempt.plan.profile, OWNER, permit=self._permit)
+            self._session.profiles.upload(attempt.plan.profile, OWNER, permit=self._permit)
             return
         if not self._capturing:
             self._capturing = True
@@ -161,7 +169,7 @@ class PenetrationSequence:
         attempt.contact_offset = float(np.mean((recent.measured - recent.command)[-20:]))
         attempt.thrust_from = state.command[attempt.parameters.axis]
         attempt.triggered_s = state.device_time_s
-        self._session.trigger_profile(OWNER, permit=self._permit)
+        self._session.profiles.trigger(OWNER, permit=self._permit)
         self._enter(Phase.THRUST, now_s)
 
     def _thrust(
@@ -174,16 +182,25 @@ class PenetrationSequence:
         there = abs(state.command[p.axis] - end) <= 0.01 * p.depth
         over_s = p.duration_s + 2.0 * _MARGIN_S
         if not (self._at_rest(state) and there and now_s - self._since_s > over_s):
-            self._await(now_s, over_s + _PATIENCE_S, "the device did not run the thrust")
+            self._await(
+                now_s, over_s + _PATIENCE_S, message("engine", "the device did not run the thrust")
+            )
             return
         if not self._evaluated(attempt):
-            self._await(now_s, over_s + _PATIENCE_S, "too few samples of the thrust")
+            self._await(
+                now_s, over_s + _PATIENCE_S, message("engine", "too few samples of the thrust")
+            )
             return
         assert attempt.thrust is not None, "evaluated"
         if abs(attempt.thrust.depth - p.depth) > p.depth_tolerance * p.depth:
             self._fail(
-                f"the thrust went {readable(attempt.thrust.depth, 'm')}: must be "
-                f"{readable(p.depth, 'm')} within {100.0 * p.depth_tolerance:g} %",
+                message(
+                    "engine", "the thrust went {depth}: must be {asked} within {tolerance} %"
+                ).fill(
+                    depth=exact(attempt.thrust.depth, "m"),
+                    asked=exact(p.depth, "m"),
+                    tolerance=rounded(100.0 * p.depth_tolerance, 6),
+                ),
                 now_s,
             )
             return
@@ -195,7 +212,7 @@ class PenetrationSequence:
         if now_s - self._since_s < attempt.parameters.hold_s:
             return
         if attempt.parameters.inject_s > 0.0:
-            self._session.switch_tool(True, permit=self._permit)
+            self._session.tool.switch(True, permit=self._permit)
             self._enter(Phase.INJECT, now_s)
         else:
             self._enter(Phase.HOLD_AFTER, now_s)
@@ -204,7 +221,7 @@ class PenetrationSequence:
         self, attempt: Attempt, state: SessionState, samples: AxisSamples, now_s: float
     ) -> None:
         if now_s - self._since_s >= attempt.parameters.inject_s:
-            self._session.switch_tool(False)
+            self._session.tool.switch(False)
             self._enter(Phase.HOLD_AFTER, now_s)
 
     def _hold_after(
@@ -224,12 +241,12 @@ class PenetrationSequence:
                 self._told = True
                 speeds = {p.axis: p.retract_speed}
                 self._session.go_to({p.axis: attempt.start}, OWNER, speeds, permit=self._permit)
-            self._await(now_s, _PATIENCE_S, "the axis did not come to rest")
+            self._await(now_s, _PATIENCE_S, message("engine", "the axis did not come to rest"))
         elif self._at_rest(state) and way <= _SAME:
             self._finish(now_s)
         else:
             most_s = (p.approach_distance + p.depth) / p.retract_speed + 2.0 * _PATIENCE_S
-            self._await(now_s, most_s, "the axis did not come back")
+            self._await(now_s, most_s, message("engine", "the axis did not come back"))
 
     # --- what phases share ----------------------------------------------------------------------
 
@@ -280,8 +297,9 @@ class PenetrationSequence:
         load, most = attempt.load(), attempt.parameters.overload
         if load > most:
             raise PenetrationError(
-                f"overload: the axis is {readable(load, 'm')} from where it should be, "
-                f"{readable(most, 'm')} at most"
+                message(
+                    "engine", "overload: the axis is {load} from where it should be, {most} at most"
+                ).fill(load=exact(load, "m"), most=exact(most, "m"))
             )
 
     def _capture(self, attempt: Attempt) -> None:
@@ -289,13 +307,15 @@ class PenetrationSequence:
         if isinstance(driver, Capturer):
             rate_hz = min(driver.capture_rates.of(1), _CAPTURE_HZ)
             count = int((p.duration_s + 2.0 * _MARGIN_S) * rate_hz)
-            self._session.capture((p.axis,), rate_hz, min(count, driver.capture_rates.samples))
+            self._session.captures.begin(
+                (p.axis,), rate_hz, min(count, driver.capture_rates.samples)
+            )
 
     def _evaluated(self, attempt: Attempt) -> bool:
         """Compare the thrust with its profile, from the samples that are densest."""
         assert attempt.triggered_s is not None, "the thrust was triggered"
         slow = joined(attempt.thrusting)
-        fast = [part for part in self._session.captured() if not part.lost]
+        fast = [part for part in self._session.captures.collected() if not part.lost]
         attempt.captured += fast
         if isinstance(self._session.driver, Capturer) and not any(
             part.complete for part in attempt.captured
@@ -319,9 +339,9 @@ class PenetrationSequence:
         if state.locked is not None:
             return state.locked
         if not self._permit.valid:
-            return "a stop was asked for"
-        if not self._session.has_reserved(OWNER):
-            return "somebody took an axis over"
+            return message("engine", "a stop was asked for")
+        if not self._session.reservations.held_by(OWNER):
+            return message("engine", "somebody took an axis over")
         return None
 
     def _await(self, now_s: float, most_s: float, what: str) -> None:
@@ -346,12 +366,12 @@ class PenetrationSequence:
     def _halt(self) -> None:
         """Let the axis come to a halt without a fault, and the tool be off; as far as possible."""
         phase, attempt = self._status.phase, self._attempt
-        if self._session.tool_on is not None:
+        if self._session.tool.on is not None:
             with suppress(InputError):
-                self._session.switch_tool(False)
+                self._session.tool.switch(False)
         with suppress(InputError):
             if phase is Phase.THRUST:
-                self._session.abort_profile()
+                self._session.profiles.abort()
             elif attempt is not None and phase in (Phase.APPROACH, Phase.RETRACT):
                 self._session.move_velocity({attempt.parameters.axis: 0.0}, LEASE_S, OWNER)
 
@@ -376,13 +396,15 @@ class PenetrationSequence:
         self._begin(phase, now_s)
         model = session.model.id
         run = attempt.ended(session.robot, session.driver.name, verdict, reason, model)
+        said = session.labels
+        run = replace(run, run=said.run, operator=said.operator, sample=said.sample)
         self._unwritten.append(run)
         self._status = replace(
             self._status, phase=phase, reason=reason, armed_left_s=None, run=run, problem=""
         )
 
     def _release(self) -> None:
-        self._session.set_free(OWNER)
+        self._session.reservations.set_free(OWNER)
         if self._feed is not None:
             self._feed.end()
         self._feed = self._attempt = None

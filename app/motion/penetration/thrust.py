@@ -14,7 +14,9 @@ from rotemina.app.motion.penetration.parameters import (
 )
 from rotemina.drivers.profile import MOST_SEGMENTS, Profile, ProfileSegment
 from rotemina.sim.arrays import FloatArray, read_only
+from rotemina.sim.messages import AxisName, message
 from rotemina.sim.modes.vibration import damped_modes
+from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.shaping.cubics import as_cubics
 from rotemina.sim.shaping.feed_forward import inverse_of, led
@@ -143,8 +145,15 @@ def plan_thrust(robot: Robot, parameters: PenetrationParameters, hold_s: float) 
     resonance = resonance_of(robot, parameters.axis)
     if resonance is None and parameters.shaping is not Shaping.NONE:
         raise PenetrationError(
-            f"shaping = {str(parameters.shaping)!r}: axis {parameters.axis} of {robot.name} has no "
-            "resonance in its robot file; choose 'none'"
+            message(
+                "engine",
+                "shaping = {shaping}: axis {axis} of {robot} has no resonance in its "
+                "robot file; choose 'none'",
+            ).fill(
+                shaping=repr(str(parameters.shaping)),
+                axis=AxisName(parameters.axis),
+                robot=robot.name,
+            )
         )
     if resonance is None:
         wanted = commanded = _plain(parameters, depth, parameters.duration_s)
@@ -153,9 +162,16 @@ def plan_thrust(robot: Robot, parameters: PenetrationParameters, hold_s: float) 
         left_s = parameters.duration_s - shaper.duration_s
         if left_s < 0.25 * parameters.duration_s:
             raise PenetrationError(
-                f"duration_s = {parameters.duration_s:g} s: input shaping "
-                f"{str(parameters.shaping)!r} takes {shaper.duration_s:.3g} s of it; at least "
-                f"{shaper.duration_s / 0.75:.3g} s, or another shaping"
+                message(
+                    "engine",
+                    "duration_s = {duration} s: input shaping {shaping} takes {taken} s "
+                    "of it; at least {least} s, or another shaping",
+                ).fill(
+                    duration=rounded(parameters.duration_s, 6),
+                    shaping=repr(str(parameters.shaping)),
+                    taken=rounded(shaper.duration_s, 3),
+                    least=rounded(shaper.duration_s / 0.75, 3),
+                )
             )
         wanted = commanded = shaped(_plain(parameters, depth, left_s), shaper)
     else:
@@ -190,7 +206,11 @@ def thrust_response(
     error = np.abs(way - wanted.position(time_s - begin_s - delay_s)).max()
     after = way[time_s > begin_s + delay_s + wanted.duration_s]
     if not len(after):
-        raise PenetrationError(f"thrust: none of {len(time_s)} samples is behind it")
+        raise PenetrationError(
+            message("engine", "thrust: none of {count} samples is behind it").fill(
+                count=len(time_s)
+            )
+        )
     depth = float(np.mean(after))
     rate_hz = (len(time_s) - 1) / float(time_s[-1] - time_s[0])
     span = min(5, len(way) - 1)
@@ -217,7 +237,11 @@ def _way(time_s: FloatArray, measured: FloatArray, begin_s: float) -> FloatArray
     """Return readings (n,) from where the thrust began, m."""
     before = measured[time_s <= begin_s][-_BEFORE:]
     if not len(before):
-        raise PenetrationError(f"thrust: none of {len(time_s)} samples is before it")
+        raise PenetrationError(
+            message("engine", "thrust: none of {count} samples is before it").fill(
+                count=len(time_s)
+            )
+        )
     return np.asarray(measured - float(np.mean(before)))
 
 

@@ -1,7 +1,9 @@
 """Recordings made into records: of what a machine did, and of what it can be told to do again."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +11,8 @@ import numpy as np
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.reading import RecordedSamples, Recording
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_pieces
 from rotemina.sim.robot.model import Robot
@@ -18,6 +22,8 @@ from rotemina.sim.trajectory.dry_run import dry_run, mode_of
 # Device times are told apart to this many parts of a second: the rounding of a late device time
 # must not make every interval a different one.
 _PER_SECOND = 1e9
+#: Metadata of a recording that stand in what is exported of it as well.
+_CARRIED = ("began", "robot_sha256", "model", "effects", "run", "operator", "sample")
 _REST_S = 0.02  # for so long an axis must stand to count as at rest
 
 
@@ -108,7 +114,11 @@ def trajectory(
     samples = recording.samples(begin_s, end_s)
     moving = np.flatnonzero(np.ptp(samples.command, axis=0) > 0.0)
     if not len(moving):
-        raise RecordingError(f"{recording.path}: no axis was sent anywhere from there to there")
+        raise RecordingError(
+            message("engine", "{path}: no axis was sent anywhere from there to there").fill(
+                path=recording.path
+            )
+        )
     _check_gaps(recording, samples)
     _check_rest(recording, samples)
     time_s = samples.device_time_s - samples.device_time_s[0]
@@ -141,28 +151,40 @@ def _span(recording: Recording, begin_s: float, end_s: float) -> _Span:
         if len(changed):
             at_s = piece.host_time_s[changed[0]] - recording.began_s
             raise RecordingError(
-                f"{recording.path}: the device was connected anew {at_s:.3f} s after the begin, "
-                "with a time of its own; choose what is before or after that"
+                message(
+                    "engine",
+                    "{path}: the device was connected anew {at_s} s after the begin, with a time "
+                    "of its own; choose what is before or after that",
+                ).fill(path=recording.path, at_s=fixed(at_s, 3))
             )
         told &= np.isfinite(piece.inputs).all(axis=0)
     if first is None:
         whole_s = recording.ended_s - recording.began_s
         raise RecordingError(
-            f"{recording.path}: no samples from there to there; it lasts {whole_s:.3f} s"
+            message("engine", "{path}: no samples from there to there; it lasts {whole_s} s").fill(
+                path=recording.path, whole_s=fixed(whole_s, 3)
+            )
         )
     return _Span(float(first.device_time_s[0]), told, _metadata(recording, first))
 
 
 def _metadata(recording: Recording, first: RecordedSamples) -> dict[str, str]:
+    said = dict(recording.metadata)
+    since_s = float(first.host_time_s[0]) - recording.began_s
+    if said.get("began"):
+        with suppress(ValueError):
+            began = datetime.fromisoformat(said["began"]) + timedelta(seconds=since_s)
+            said["began"] = began.isoformat(timespec="milliseconds")
     return {
         "mode": mode_of(recording.robot, recording.axes),
         # What the machine remembers from before the first row is not in the record.
         "history": "unknown",
-        "robot": recording.metadata.get("robot", ""),
-        "driver": recording.metadata.get("driver", ""),
+        "robot": said.get("robot", ""),
+        "driver": said.get("driver", ""),
+        **{key: said[key] for key in _CARRIED if said.get(key)},
         "recording": recording.path.name,
-        "recording_id": recording.metadata["id"],
-        "recording_from_s": f"{first.host_time_s[0] - recording.began_s:.6f}",
+        "recording_id": said["id"],
+        "recording_from_s": f"{since_s:.6f}",
     }
 
 
@@ -187,8 +209,17 @@ def _check_rest(recording: Recording, samples: RecordedSamples) -> None:
         moves = np.flatnonzero(np.ptp(samples.command[rows], axis=0) > 0.0)
         if len(moves):
             raise RecordingError(
-                f"{recording.path}: axis {recording.axes[moves[0]]} moves at the {end}; every axis "
-                f"must stand there for {_REST_S:g} s: choose {advice}"
+                message(
+                    "engine",
+                    "{path}: axis {axes} moves at the {end}; every axis must stand there for "
+                    "{rest_s} s: choose {advice}",
+                ).fill(
+                    path=recording.path,
+                    axes=recording.axes[moves[0]],
+                    end=end,
+                    rest_s=_REST_S,
+                    advice=advice,
+                )
             )
 
 
@@ -199,7 +230,14 @@ def _check_gaps(recording: Recording, samples: RecordedSamples) -> None:
     if len(wide):
         at_s = samples.host_time_s[wide[0]] - recording.began_s
         raise RecordingError(
-            f"{recording.path}: {1e3 * steps_s[wide[0]]:.0f} ms of samples are missing in mid-move "
-            f"{at_s:.3f} s after the begin: at most {1e3 * _REST_S:.0f} ms; choose what is before "
-            "or after that"
+            message(
+                "engine",
+                "{path}: {steps_s} ms of samples are missing in mid-move {at_s} s after the begin: "
+                "at most {rest_s} ms; choose what is before or after that",
+            ).fill(
+                path=recording.path,
+                steps_s=fixed(1000.0 * steps_s[wide[0]], 0),
+                at_s=fixed(at_s, 3),
+                rest_s=fixed(1000.0 * _REST_S, 0),
+            )
         )

@@ -21,6 +21,7 @@ from rotemina.app.motion.recording.tables import (
     name_of,
     samples_schema,
 )
+from rotemina.sim.messages import message
 from rotemina.sim.whole_files import FileWriteError, replaced
 
 SUFFIX, UNFINISHED = ".arrows", ".part"
@@ -36,7 +37,11 @@ def recover(path: Path) -> Path:
         If it is none, is being recorded, holds nothing, or there is no room; it stays then.
     """
     if path.suffix != UNFINISHED:
-        raise RecordingError(f"{path}: a recording that was cut off ends with {UNFINISHED}")
+        raise RecordingError(
+            message("engine", "{path}: a recording that was cut off ends with {unfinished}").fill(
+                path=path, unfinished=UNFINISHED
+            )
+        )
     return merged(path, path.with_suffix(""))
 
 
@@ -75,7 +80,11 @@ def merged(source: Path, target: Path) -> Path:
                     for name, table in tables.items():
                         _merge(segments, table, _schema(name, table, metadata), file)
             except FileWriteError as error:
-                raise RecordingError(f"{error}; what was recorded is in {source}") from error
+                raise RecordingError(
+                    message("engine", "{error}; what was recorded is in {source}").fill(
+                        error=str(error), source=source
+                    )
+                ) from error
             _settle(target.parent)
     source.unlink(missing_ok=True)
     return target
@@ -100,7 +109,9 @@ def _contents(source: Path, segments: WholeSegments) -> tuple[dict[str, str], di
         metadata = _metadata(source, next(found)[1])
     except StopIteration:
         raise RecordingError(
-            f"{source}: it was cut off before anything was recorded; delete it"
+            message(
+                "engine", "{source}: it was cut off before anything was recorded; delete it"
+            ).fill(source=source)
         ) from None
     tables = {SAMPLES: _Table(samples_schema(json.loads(metadata["units"])))}
     for byte_range, content in found:
@@ -114,8 +125,11 @@ def _metadata(source: Path, content: bytes) -> dict[str, str]:
     metadata: dict[str, str] = json.loads(content)
     if metadata.get(FORMAT) != VERSION:
         raise RecordingError(
-            f"{source}: of version {metadata.get(FORMAT)}; this program reads {VERSION}: recover "
-            "it with the program that recorded it"
+            message(
+                "engine",
+                "{source}: of version {get}; this program reads {version}: recover it with the "
+                "program that recorded it",
+            ).fill(source=source, get=str(metadata.get(FORMAT)), version=VERSION)
         )
     return metadata
 
@@ -129,8 +143,11 @@ def _check_same(source: Path, target: Path, metadata: Mapping[str, str]) -> None
         there = {}
     if there.get(b"id") != metadata["id"].encode():
         raise RecordingError(
-            f"{target}: it is there already and is another recording; rename it, then recover "
-            f"{source}"
+            message(
+                "engine",
+                "{target}: it is there already and is another recording; rename it, then recover "
+                "{source}",
+            ).fill(target=target, source=source)
         )
 
 

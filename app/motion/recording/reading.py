@@ -30,6 +30,7 @@ from rotemina.app.motion.recording.tables import (
 )
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.input_files import open_file
+from rotemina.sim.messages import marked, message
 from rotemina.sim.robot.file import parse_robot
 from rotemina.sim.robot.model import Robot
 
@@ -102,9 +103,13 @@ class Recording:
             If it cannot be read, is no recording, was cut off, or is of another version.
         """
         if path.suffix == UNFINISHED:
-            raise RecordingError(f"{path}: it was not ended; recover it first")
+            raise RecordingError(
+                message("engine", "{path}: it was not ended; recover it first").fill(path=path)
+            )
         try:
-            with open_file(path, RecordingError, advice="name a recording") as file:
+            with open_file(
+                path, RecordingError, advice=marked("engine", "name a recording")
+            ) as file:
                 tables = _tables(file)
             _check(path, tables)
             return cls(path, tables)
@@ -113,7 +118,9 @@ class Recording:
         # Arrow's errors are of many kinds, and so is what it makes of damaged bytes.
         except (pa.ArrowException, OSError, ValueError, KeyError, TypeError) as error:
             raise RecordingError(
-                f"{path}: no recording of this program, or a damaged one ({error})"
+                message(
+                    "engine", "{path}: no recording of this program, or a damaged one ({error})"
+                ).fill(path=path, error=str(error))
             ) from error
 
     @property
@@ -261,19 +268,34 @@ def _check(path: Path, tables: Mapping[str, pa.Table]) -> None:
     about = {} if schema is None else schema.metadata or {}
     version = about.get(FORMAT.encode())
     if version is None:
-        raise RecordingError(f"{path}: no recording of this program")
+        raise RecordingError(
+            message("engine", "{path}: no recording of this program").fill(path=path)
+        )
     if version != VERSION.encode():
         raise RecordingError(
-            f"{path}: a recording of version {version.decode('ascii', 'replace')}; this program "
-            f"reads {VERSION}"
+            message(
+                "engine", "{path}: a recording of version {decode}; this program reads {version}"
+            ).fill(path=path, decode=version.decode("ascii", "replace"), version=VERSION)
         )
     lost = [key for key in _WRITTEN if key.encode() not in about]
     if lost:
-        raise RecordingError(f"{path}: damaged, it no longer says its {', '.join(lost)}")
+        raise RecordingError(
+            message("engine", "{path}: damaged, it no longer says its {names}").fill(
+                path=path, names=", ".join(lost)
+            )
+        )
     if not np.isfinite(float(about[b"began_s"])):
-        raise RecordingError(f"{path}: damaged, began_s is {about[b'began_s']!r:.40}")
+        raise RecordingError(
+            message("engine", "{path}: damaged, began_s is {about}").fill(
+                path=path, about=repr(about[b"began_s"])
+            )
+        )
     known = {SAMPLES: samples_schema(json.loads(about[b"units"])), EVENTS: EVENTS_SCHEMA}
     for name, table in tables.items():
         wanted = known.get(name) or channel_schema(name, table.column_names)
         if not table.schema.equals(wanted) or any(column.null_count for column in table.columns):
-            raise RecordingError(f"{path}: damaged, table {name[:40]!r} is none of a recording")
+            raise RecordingError(
+                message("engine", "{path}: damaged, table {name} is none of a recording").fill(
+                    path=path, name=repr(name[:40])
+                )
+            )

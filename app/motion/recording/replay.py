@@ -26,6 +26,7 @@ from rotemina.app.motion.state import (
 )
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import message
 
 _SEEN_S = 60.0  # of history that a jump fills
 
@@ -69,7 +70,9 @@ class Replay:
         """Return the state as it was; motion is locked."""
         received_s = self._state.sample_host_time_s
         age_s = None if received_s is None else self.host_time_s - received_s
-        return replace(self._state, age_s=age_s, locked="this is a replay; nothing moves")
+        return replace(
+            self._state, age_s=age_s, locked=message("engine", "this is a replay; nothing moves")
+        )
 
     def subscribe(self, callback: Callback) -> Callable[[], None]:
         """Have events told to ``callback`` as they come up; return how to end that."""

@@ -18,6 +18,7 @@ from typing import BinaryIO, NamedTuple, Self
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.locking import locked
 from rotemina.sim.input_files import open_file
+from rotemina.sim.messages import message
 
 MAGIC = b"RTMSEG01"
 _PROGRAM = MAGIC[:6]
@@ -67,16 +68,25 @@ class SegmentFile:
             self._file = opener(path)
         except FileExistsError as error:
             raise RecordingError(
-                f"{path}: it is there already, being recorded or left by a crash; "
-                "record to another name, or recover it"
+                message(
+                    "engine",
+                    "{path}: it is there already, being recorded or left by a crash; record to "
+                    "another name, or recover it",
+                ).fill(path=path)
             ) from error
         except OSError as error:
             raise RecordingError(
-                f"{path}: cannot be made ({error.strerror or error}); choose another folder"
+                message("engine", "{path}: cannot be made ({reason}); choose another folder").fill(
+                    path=path, reason=str(error.strerror or error)
+                )
             ) from error
         if not locked(self._file):
             self._file.close()
-            raise RecordingError(f"{path}: another program has it; record to another name")
+            raise RecordingError(
+                message("engine", "{path}: another program has it; record to another name").fill(
+                    path=path
+                )
+            )
 
     @property
     def size(self) -> int:
@@ -168,10 +178,18 @@ class WholeSegments:
         try:
             self._file = path.open("r+b")
         except OSError as error:
-            raise RecordingError(f"{path}: cannot be read ({error.strerror or error})") from error
+            raise RecordingError(
+                message("engine", "{path}: cannot be read ({reason})").fill(
+                    path=path, reason=str(error.strerror or error)
+                )
+            ) from error
         try:
             if not locked(self._file):
-                raise RecordingError(f"{path}: it is still being recorded; end that first")
+                raise RecordingError(
+                    message("engine", "{path}: it is still being recorded; end that first").fill(
+                        path=path
+                    )
+                )
             _check_kind(path, self._file.read(len(MAGIC)))
         except BaseException:
             self._file.close()
@@ -214,10 +232,19 @@ def _check_kind(path: Path, head: bytes) -> None:
     if head == MAGIC:
         return
     if MAGIC.startswith(head):
-        raise RecordingError(f"{path}: it was cut off before anything was recorded; delete it")
+        raise RecordingError(
+            message(
+                "engine", "{path}: it was cut off before anything was recorded; delete it"
+            ).fill(path=path)
+        )
     if head.startswith(_PROGRAM):
         raise RecordingError(
-            f"{path}: of version {head[6:].decode('ascii', 'replace')}; this program reads "
-            f"{MAGIC[6:].decode()}: recover it with the program that recorded it"
+            message(
+                "engine",
+                "{path}: of version {version}; this program reads {known}: recover it with the "
+                "program that recorded it",
+            ).fill(path=path, version=head[6:].decode("ascii", "replace"), known=MAGIC[6:].decode())
         )
-    raise RecordingError(f"{path}: no recording of this program that was cut off")
+    raise RecordingError(
+        message("engine", "{path}: no recording of this program that was cut off").fill(path=path)
+    )

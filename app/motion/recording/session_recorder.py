@@ -9,11 +9,11 @@ from collections.abc import Callable, Mapping
 from importlib.metadata import version
 from pathlib import Path
 
-from rotemina.app.motion.device_session import DeviceSession
 from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.recording.segments import Opener, new_file
 from rotemina.app.motion.recording.tables import units_of
 from rotemina.app.motion.recording.writer import RecorderNotice, RecordingWriter
+from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (
     Alarmed,
     CommandRefused,
@@ -28,6 +28,7 @@ from rotemina.app.motion.state import (
 from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.inputs.device import InputDevice, InputReading
+from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.robot.writing import robot_text
 
@@ -41,7 +42,7 @@ class SessionRecorder:
 
     Parameters
     ----------
-    session : DeviceSession
+    session : MotionSession
     path : Path
         Of the finished recording, by custom ``*.arrows``; until then it is in ``PATH.part``.
     settings : mapping
@@ -63,7 +64,7 @@ class SessionRecorder:
 
     def __init__(
         self,
-        session: DeviceSession,
+        session: MotionSession,
         path: Path,
         *,
         settings: Mapping[str, object] | None = None,
@@ -215,8 +216,10 @@ class _LogLines(logging.Handler):
             self.handleError(record)
 
 
-def _metadata(session: DeviceSession, settings: Mapping[str, object], began: str) -> dict[str, str]:
+def _metadata(session: MotionSession, settings: Mapping[str, object], began: str) -> dict[str, str]:
     robot_file = robot_text(session.robot)
+    driver = session.driver
+    effects = driver.effects_text if isinstance(driver, EffectCarrier) else ""
     settings_json = json.dumps(dict(settings), sort_keys=True, default=str)
     return {
         "program": f"rotemina {version('rotemina')}",
@@ -224,9 +227,11 @@ def _metadata(session: DeviceSession, settings: Mapping[str, object], began: str
         "robot": session.robot.name,
         "robot_file": robot_file,
         "robot_sha256": hashlib.sha256(robot_file.encode()).hexdigest(),
-        "driver": session.driver.name,
-        "driver_settings": json.dumps(dict(session.driver.settings), default=str),
+        "driver": driver.name,
+        "driver_settings": json.dumps(dict(driver.settings), default=str),
         "model": session.model.id,
+        **session.labels.metadata,
+        **({"effects": effects} if effects else {}),
         "calibrations": json.dumps(session.corrections.names, sort_keys=True),
         "settings": settings_json,
         "settings_sha256": hashlib.sha256(settings_json.encode()).hexdigest(),

@@ -20,6 +20,8 @@ from rotemina.app.motion.ticker import Ticker
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import fixed
 
 SEGMENT_S = 0.25  # what a crash can lose, with the time that it takes to write so much
 SLOW_S = 0.7  # a disk that takes longer for a segment endangers the promise of one second
@@ -80,7 +82,11 @@ class RecordingWriter:
         opener: Opener = new_file,
     ) -> None:
         if path.exists():
-            raise RecordingError(f"{path}: it is there already; record to another name")
+            raise RecordingError(
+                message("engine", "{path}: it is there already; record to another name").fill(
+                    path=path
+                )
+            )
         self.path = path
         self._schema = samples_schema(units)
         prepare()  # neither motion nor the first second is to wait for that
@@ -115,8 +121,10 @@ class RecordingWriter:
             self._file.close()
             self._file.path.unlink(missing_ok=True)
             raise RecordingError(
-                f"{path}: cannot be written ({error.strerror or error}); make room, or choose "
-                "another folder"
+                message(
+                    "engine",
+                    "{path}: cannot be written ({reason}); make room, or choose another folder",
+                ).fill(path=path, reason=str(error.strerror or error))
             ) from error
 
     @property
@@ -207,7 +215,9 @@ class RecordingWriter:
         if self._failure is not None:
             self._tell(
                 RecorderNotice(
-                    f"{self.path.name}: its end could not be written ({self._failure})",
+                    message("engine", "{name}: its end could not be written ({failure})").fill(
+                        name=self.path.name, failure=self._failure
+                    ),
                     problem=True,
                 )
             )
@@ -235,7 +245,9 @@ class RecordingWriter:
         entries = self._backlog.take()
         lost = self._backlog.take_lost()
         if lost != Lost():
-            self._gap = f"{lost.samples} samples and {lost.others} other entries are missing"
+            self._gap = message(
+                "engine", "{samples} samples and {others} other entries are missing"
+            ).fill(samples=lost.samples, others=lost.others)
             details = json.dumps({"samples": lost.samples, "others": lost.others})
             entries.append(RecordedEvent(lost.since_s, "recorder", self._gap, details))
         self._waiting = streams(entries, self._schema)
@@ -257,8 +269,11 @@ class RecordingWriter:
     def _note_failure(self, reason: str) -> None:
         if self._failure is None:
             self._notice(
-                f"{self.path.name}: nothing more can be recorded ({reason}): motion goes on, what "
-                f"was recorded until now is safe in {self._file.path}; make room",
+                message(
+                    "engine",
+                    "{name}: nothing more can be recorded ({reason}): motion goes on, what was "
+                    "recorded until now is safe in {path}; make room",
+                ).fill(name=self.path.name, reason=reason, path=self._file.path),
                 problem=True,
             )
         self._failure = reason
@@ -267,15 +282,23 @@ class RecordingWriter:
         gap, self._gap = self._gap, ""
         if self._failure is not None or gap:
             self._failure = None
-            message = f"{self.path.name}: recording goes on; {gap or 'nothing is missing'}"
-            self._notice(message, problem=bool(gap))
+            what = gap or marked("engine", "nothing is missing")
+            self._notice(
+                message("engine", "{file}: recording goes on; {what}").fill(
+                    file=self.path.name, what=what
+                ),
+                problem=bool(gap),
+            )
 
     def _note_speed(self, took_s: float) -> None:
         if took_s > SLOW_S and not self._slow:
             self._slow = True
             self._notice(
-                f"{self.path.name}: the disk took {took_s:.1f} s for a segment: a crash or a power "
-                "cut now could lose more than a second; record to a faster one",
+                message(
+                    "engine",
+                    "{name}: the disk took {took_s} s for a segment: a crash or a power cut now "
+                    "could lose more than a second; record to a faster one",
+                ).fill(name=self.path.name, took_s=fixed(took_s, 1)),
                 problem=True,
             )
 

@@ -9,6 +9,7 @@ import logging
 import re
 from collections.abc import Mapping
 from dataclasses import field
+from math import copysign
 from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated
@@ -19,6 +20,7 @@ from pydantic.dataclasses import dataclass
 from rotemina.app.motion.teleoperation.tables import STRICT, Format, Switch, Text
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 
 logger = logging.getLogger(__name__)
 
@@ -96,6 +98,12 @@ class AxisCalibration:
 UNCALIBRATED = AxisCalibration()
 
 
+def uncalibrated(deflection: float) -> float:
+    """Return what an axis that was never calibrated says at a deflection, −1 to 1."""
+    way = copysign(DEAD_ZONE + (1.0 - DEAD_ZONE) * abs(deflection), deflection)
+    return way if deflection else 0.0
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Calibration:
     """The calibration of one device; an axis that is not in it has the defaults."""
@@ -155,8 +163,11 @@ class CalibrationFolder:
         found = _FORMAT.load(path)
         if found.device != identity.key:
             raise CalibrationError(
-                f"{path}: device = {found.device!r}: this is the file of {identity.key!r}; "
-                "calibrate the device again"
+                message(
+                    "engine",
+                    "{path}: device = {device}: this is the file of {key}; calibrate the device "
+                    "again",
+                ).fill(path=path, device=repr(found.device), key=repr(identity.key))
             )
         return found
 
@@ -172,7 +183,9 @@ class CalibrationFolder:
         """
         if calibration.device != identity.key:
             raise CalibrationError(
-                f"a calibration of {calibration.device!r} cannot be kept for {identity.key!r}"
+                message("engine", "a calibration of {device} cannot be kept for {key}").fill(
+                    device=repr(calibration.device), key=repr(identity.key)
+                )
             )
         path = self.path(identity)
         _FORMAT.save(path, calibration)

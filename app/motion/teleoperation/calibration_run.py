@@ -10,6 +10,8 @@ from math import isfinite
 
 from rotemina.app.motion.teleoperation.calibration import AxisCalibration, CalibrationError
 from rotemina.drivers.inputs.device import InputReading
+from rotemina.sim.messages import AxisName, message
+from rotemina.sim.quantities import fixed, rounded
 
 # Shares of the shorter side (of the only one, if the axis is one-sided).
 SMALLEST_DEAD_ZONE = 0.04  # a stick never comes back to quite the same place
@@ -73,8 +75,9 @@ class CalibrationRun:
         for axis in (*self._seen, *one_sided):
             if axis not in self._axes:
                 raise CalibrationError(
-                    f"axis {axis!r}: the device has none of that name; it has "
-                    f"{', '.join(self._axes) or 'none'}"
+                    message(
+                        "engine", "axis {axis}: the device has none of that name; it has {value}"
+                    ).fill(axis=repr(axis), value=", ".join(self._axes) or "none")
                 )
         self.phase = Phase.REST
         if last is not None:
@@ -129,30 +132,52 @@ class CalibrationRun:
 
     def _problem(self, axis: str, seen: _Seen) -> str | None:
         if seen.rest is None or seen.all is None:
-            return f"axis {axis} has said nothing at rest; move it once, let go, and begin again"
+            return message(
+                "engine",
+                "axis {axis} has said nothing at rest; move it once, let go, and begin again",
+            ).fill(axis=AxisName(axis))
         low, high = seen.all
         if high - low < SMALLEST_RANGE:
-            return (
-                f"axis {axis} hardly moved: {low:.2f} to {high:.2f} of −1 to 1, at least "
-                f"{SMALLEST_RANGE:g} is needed; move it to all its ends"
+            return message(
+                "engine",
+                "axis {axis} hardly moved: {low} to {high} of −1 to 1, at least "
+                "{least} is needed; move it to all its ends",
+            ).fill(
+                axis=AxisName(axis),
+                low=fixed(low, 2),
+                high=fixed(high, 2),
+                least=rounded(SMALLEST_RANGE, 6),
             )
         centre, side, dead_zone = self._rest(axis)
         shorter, longer = sorted((centre - low, high - centre))
-        where = f"rest {centre:.2f}, ends {low:.2f} and {high:.2f}"
+        where = message("engine", "rest {centre}, ends {low} and {high}").fill(
+            centre=fixed(centre, 2), low=fixed(low, 2), high=fixed(high, 2)
+        )
         if axis in self._one_sided:
             if shorter > dead_zone:
-                return f"axis {axis} does not rest at an end: {where}; calibrate it as a stick"
+                return message(
+                    "engine",
+                    "axis {axis} does not rest at an end: {where}; calibrate it as a stick",
+                ).fill(axis=AxisName(axis), where=where)
         elif shorter < LEAST_SHARE * longer:
-            return (
-                f"axis {axis} rests at an end: {where}; move it both ways, or declare it "
-                "one-sided (a trigger)"
-            )
+            return message(
+                "engine",
+                "axis {axis} rests at an end: {where}; move it both ways, or declare "
+                "it one-sided (a trigger)",
+            ).fill(axis=AxisName(axis), where=where)
         widest = WIDEST_DEAD_ZONE * side
         if dead_zone > widest:
-            return (
-                f"axis {axis} jitters at rest, or was moved: {seen.rest[0]:.2f} to "
-                f"{seen.rest[1]:.2f} asks for a dead zone of {dead_zone:.2f}, at most "
-                f"{widest:.2f} is good; leave it alone, and if it stays so have it repaired"
+            return message(
+                "engine",
+                "axis {axis} jitters at rest, or was moved: {low} to {high} asks for "
+                "a dead zone of {zone}, at most {most} is good; leave it alone, and "
+                "if it stays so have it repaired",
+            ).fill(
+                axis=AxisName(axis),
+                low=fixed(seen.rest[0], 2),
+                high=fixed(seen.rest[1], 2),
+                zone=fixed(dead_zone, 2),
+                most=fixed(widest, 2),
             )
         return None
 

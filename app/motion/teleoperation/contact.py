@@ -23,6 +23,8 @@ from math import copysign, isfinite
 
 from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,9 +62,19 @@ class Contact:
         values = self.gain, self.noise, self.most, self.slope, self.longest_step_s, self.delay_s
         if not all(map(isfinite, values)) or min(values) < 0.0 or min(values[3:5]) == 0.0:
             raise ScalingError(
-                f"contact: gain {self.gain:g}, noise {self.noise:g}, greatest force {self.most:g}, "
-                f"slope {self.slope:g}, step {self.longest_step_s:g} s, delay {self.delay_s:g} s: "
-                "all must be finite and not below 0, slope and step above 0"
+                message(
+                    "engine",
+                    "contact: gain {gain}, noise {noise}, greatest force {most}, slope {slope}, "
+                    "step {longest_step_s} s, delay {delay_s} s: all must be finite and not below "
+                    "0, slope and step above 0",
+                ).fill(
+                    gain=self.gain,
+                    noise=self.noise,
+                    most=self.most,
+                    slope=self.slope,
+                    longest_step_s=self.longest_step_s,
+                    delay_s=self.delay_s,
+                )
             )
 
     def force(self, sensed: float) -> float:
@@ -85,8 +97,15 @@ class Contact:
         most = self.greatest_gain(impedance)
         if self.gain > most * (1.0 + 1e-9):
             raise ScalingError(
-                f"contact: gain {self.gain:.6g} might let the stick's mechanism give more energy "
-                f"than it was given: at most {most:.6g} with a damping of "
-                f"{impedance.damping:.6g} N s/m and readings {1e3 * self.delay_s:.3g} ms old; "
-                "lower the gain or raise the damping"
+                message(
+                    "engine",
+                    "contact: gain {gain} might let the stick's mechanism give more energy than it "
+                    "was given: at most {most} with a damping of {damping} N s/m and readings "
+                    "{delay_s} ms old; lower the gain or raise the damping",
+                ).fill(
+                    gain=rounded(self.gain, 6),
+                    most=rounded(most, 6),
+                    damping=rounded(impedance.damping, 6),
+                    delay_s=rounded(1000.0 * self.delay_s, 3),
+                )
             )

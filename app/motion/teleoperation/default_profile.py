@@ -11,6 +11,7 @@ from rotemina.app.motion.teleoperation.profile import (
     Profile,
     ProfileError,
 )
+from rotemina.sim.messages import message
 
 #: What may be the third axis, best first: a twist or the second stick of a gamepad comes back to
 #: its centre, as a slider or a trigger does not.
@@ -58,7 +59,11 @@ def default_profile(device: PluggedDevice) -> Profile:
         If the device has no control at all.
     """
     if not device.axes and not device.buttons:
-        raise ProfileError(f"{device} has neither axes nor buttons that could be mapped")
+        raise ProfileError(
+            message("engine", "{device} has neither axes nor buttons that could be mapped").fill(
+                device=str(device)
+            )
+        )
     sticks = _sticks(device.axes)
     axes = tuple(
         AxisMapping(control=control, drives=drives, inverted=_inverted(device, drives))

@@ -9,6 +9,7 @@ from math import isfinite
 
 from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.drivers.inputs.device import InputReading
+from rotemina.sim.messages import message
 
 WINDOW_S = 1.0  # what drifts is slower than that
 LEAST_WAY = 0.5  # raw, of 2: half way from the centre to an end
@@ -98,12 +99,19 @@ class Detection:
         found = [one for one in moved if self._wanted in (None, one.kind)]
         if len(found) > 1:
             names = " and ".join(f"{one.control} ({self._name(one.device)})" for one in found)
-            return Findings(None, f"{names} moved together; move one only")
+            return Findings(
+                None, message("engine", "{names} moved together; move one only").fill(names=names)
+            )
         if not found:
             what = self._wanted.value if self._wanted is not None else "control"
-            return Findings(None, f"move the {what} now")
+            return Findings(None, message("engine", "move the {what} now").fill(what=what))
         one = found[0]
-        return Findings(one, f"{one.kind.value} {one.control} of {self._name(one.device)}")
+        return Findings(
+            one,
+            message("engine", "{kind} {control} of {device}").fill(
+                kind=one.kind.value, control=one.control, device=self._name(one.device)
+            ),
+        )
 
     def _moved_axes(self, now_s: float) -> Iterator[Detected]:
         """Yield the axis that was moved furthest, and those that nearly kept up with it."""

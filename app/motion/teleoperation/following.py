@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.app.motion.state import SessionState
-from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import resolution_of
+from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 GAIN_HZ = 12.0  # 1/s: an error is gone after a few times 0.08 s
 _LAG_S, _LONGEST_LAG_S = 0.008, 0.05  # of an axis behind its reference: at first, and at most

@@ -13,9 +13,10 @@ from types import MappingProxyType
 from typing import Self
 
 from rotemina.app.motion.teleoperation.reference import Bounds
-from rotemina.drivers.simulator.setpoints import SetpointLimits
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 Values = Mapping[str, float]
 
@@ -150,5 +151,7 @@ def check_known(axes: tuple[str, ...], joints: Values) -> None:
     missing = [axis for axis in axes if axis not in joints]
     if missing:
         raise FrameError(
-            f"mode: the position of axis {', '.join(missing)} is not known; connect and home first"
+            message(
+                "engine", "mode: the position of axis {names} is not known; connect and home first"
+            ).fill(names=", ".join(missing))
         )

@@ -15,6 +15,8 @@ from rotemina.app.motion.teleoperation.contact import Contact
 from rotemina.app.motion.teleoperation.reference import Bounds, Motion, ScalingError
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 
 class Impedance(ScalingLaw):
@@ -51,10 +53,18 @@ class Impedance(ScalingLaw):
             reached = (impedance.force + reserved) * impedance.acceleration_per_force
             mass = impedance.mass * reached / bounds.max_acceleration
             raise ScalingError(
-                f"impedance: forces of up to {impedance.force + reserved:.6g} could accelerate the "
-                f"mass of {impedance.mass:.6g} by {reached:.6g} per s², the axis allows "
-                f"{bounds.max_acceleration:.6g}; lower the force, or use a mass of about "
-                f"{mass:.6g} with the same damping ratio or time constant"
+                message(
+                    "engine",
+                    "impedance: forces of up to {force} could accelerate the mass of {mass} by "
+                    "{reached} per s², the axis allows {max_acceleration}; lower the force, or use "
+                    "a mass of about {wanted} with the same damping ratio or time constant",
+                ).fill(
+                    force=rounded(impedance.force + reserved, 6),
+                    mass=rounded(impedance.mass, 6),
+                    reached=rounded(reached, 6),
+                    max_acceleration=rounded(bounds.max_acceleration, 6),
+                    wanted=rounded(mass, 6),
+                )
             )
         self._rest = self._motion.position
 

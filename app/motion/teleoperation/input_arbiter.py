@@ -26,6 +26,7 @@ from rotemina.app.motion.teleoperation.profile import (
 )
 from rotemina.app.motion.teleoperation.takeover import RoleState, Takeover
 from rotemina.drivers.inputs.device import InputReading
+from rotemina.sim.messages import marked, message
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +132,7 @@ class InputArbiter:
             check_controls(mapping, self._plugged[key])
         self._profile = profile
         self._takeover = Takeover()
-        self._lost.append("another profile is used")
+        self._lost.append(marked("engine", "another profile is used"))
         self._arrange(set(self._plugged))
 
     def calibrate(self, key: str, calibration: Calibration) -> None:
@@ -143,11 +144,19 @@ class InputArbiter:
             If there is no such device, or the calibration is another's.
         """
         if key not in self._plugged:
-            raise CalibrationError(f"device {key!r} is not plugged in; its calibration has no use")
+            raise CalibrationError(
+                message(
+                    "engine", "device {key} is not plugged in; its calibration has no use"
+                ).fill(key=repr(key))
+            )
         if calibration.device != key:
-            raise CalibrationError(f"a calibration of {calibration.device!r} is not for {key!r}")
+            raise CalibrationError(
+                message("engine", "a calibration of {device} is not for {key}").fill(
+                    device=repr(calibration.device), key=repr(key)
+                )
+            )
         self._calibrations[key] = calibration
-        self._lose(key, "calibrated anew")
+        self._lose(key, message("engine", "calibrated anew"))
         self._arrange({key})
 
     @property
@@ -159,7 +168,7 @@ class InputArbiter:
         """Send nothing but stops from now on; what drove, drives no more."""
         if not self._mapping_open:
             self._mapping_open = True
-            self._lost.append("input devices are being set up")
+            self._lost.append(marked("engine", "input devices are being set up"))
 
     def close_mapping(self) -> None:
         """Send again, after every stick was seen at rest and every button let go of."""
@@ -205,7 +214,7 @@ class InputArbiter:
     def problems(self) -> tuple[str, ...]:
         """What keeps a profile or a device from being used, in words."""
         if self._profile is None:
-            return ("no profile is chosen: the input devices do nothing",)
+            return (message("engine", "no profile is chosen: the input devices do nothing"),)
         absent = missing(self._profile, tuple(self._plugged.values()))
         return (*((absent,) if absent is not None else ()), *self._unusable.values())
 
@@ -263,7 +272,9 @@ class InputArbiter:
         if self._drives(self._devices[key]):
             self._lost.append(f"{self._plugged[key].identity.name}: {why}")
             for device in self._of(self.driving):
-                device.distrust(f"another device is gone ({why}): let go of it")
+                device.distrust(
+                    message("engine", "another device is gone ({why}): let go of it").fill(why=why)
+                )
 
     def _drives(self, device: MappedDevice) -> bool:
         return device.mapping is not None and device.mapping.seat is self.driving
@@ -282,7 +293,9 @@ class InputArbiter:
         if reason is not None:
             self._lost.append(reason)
             for device in self._of(self.driving):
-                device.distrust(f"{reason}: let go of it first")
+                device.distrust(
+                    message("engine", "{reason}: let go of it first").fill(reason=reason)
+                )
 
     def _state(self, seat: OperatorRole) -> RoleState:
         devices = self._of(seat)

@@ -26,6 +26,7 @@ from rotemina.app.motion.teleoperation.profile import (
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputDevice, InputReading, Rumbler
 from rotemina.drivers.inputs.hub import Changes, InputHub
+from rotemina.sim.messages import marked
 
 VIEW_S = 1.0 / 30.0  # no screen needs more
 
@@ -233,7 +234,7 @@ class InputDevices:
         """Let go of every device."""
         with self._lock:
             for key in tuple(self._open):
-                self._drop(key, "the program lets go of it")
+                self._drop(key, marked("engine", "the program lets go of it"))
                 self.hub.released(key)
 
     # --- inside -----------------------------------------------------------------------------------

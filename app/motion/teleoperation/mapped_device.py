@@ -10,6 +10,7 @@ from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.app.motion.teleoperation.profile import ActionMapping, DeviceMapping
 from rotemina.app.motion.teleoperation.trust import AxisTrust
 from rotemina.drivers.inputs.device import InputReading
+from rotemina.sim.messages import message
 
 SILENCE_S = 0.25  # of a device that streams
 
@@ -149,8 +150,16 @@ class MappedDevice:
         self._heard_s = reading.host_time_s
         if (len(reading.axes), len(reading.buttons)) != (len(device.axes), len(device.buttons)):
             self._lose(
-                f"a reading of {len(reading.axes)} axes and {len(reading.buttons)} buttons came "
-                f"from a device with {len(device.axes)} and {len(device.buttons)}: replug it"
+                message(
+                    "engine",
+                    "a reading of {axes} axes and {buttons} buttons came from a device "
+                    "with {known} and {others}: replug it",
+                ).fill(
+                    axes=len(reading.axes),
+                    buttons=len(reading.buttons),
+                    known=len(device.axes),
+                    others=len(device.buttons),
+                )
             )
             return set()
         self.problem = None
@@ -177,8 +186,11 @@ class MappedDevice:
         assert self._heard_s is not None
         if self.device.streams and now_s - self._heard_s > SILENCE_S:
             self._lose(
-                "silent, though it streams: nothing has come from it; replug it, or look at its "
-                "cable"
+                message(
+                    "engine",
+                    "silent, though it streams: nothing has come from it; replug it, or "
+                    "look at its cable",
+                )
             )
 
     def _lose(self, why: str) -> None:

@@ -14,6 +14,7 @@ from rotemina.app.motion.teleoperation.profile import (
     ProfileError,
 )
 from rotemina.drivers.inputs.device import InputIdentity
+from rotemina.sim.messages import joined, marked, message
 
 #: The degrees of freedom of the stick, and the robot's axes that they can move in one stage or
 #: the other: a pin along z is tilted along x by thy, along y by thx.
@@ -60,15 +61,25 @@ def check_profile(profile: Profile, robot_axes: Collection[str]) -> None:
                 other = owners.setdefault(axis, mapping)
                 if other is not mapping:
                     raise ProfileError(
-                        f"profile {profile.name!r}: robot axis {axis} would have two owners, "
-                        f"{_owner(profile, other)} and {_owner(profile, mapping)}; let one of "
-                        "them drive something else"
+                        message(
+                            "engine",
+                            "profile {name}: robot axis {axis} would have two owners, {owner} and "
+                            "{other_owner}; let one of them drive something else",
+                        ).fill(
+                            name=repr(profile.name),
+                            axis=axis,
+                            owner=_owner(profile, other),
+                            other_owner=_owner(profile, mapping),
+                        )
                     )
     for device in profile.devices:
         _check_single_use(profile, device)
     if not any(device.seat is OperatorRole.TRAINER for device in profile.devices):
         raise ProfileError(
-            f"profile {profile.name!r}: every device has seat = 'trainee'; one must have 'trainer'"
+            message(
+                "engine",
+                "profile {name}: every device has seat = 'trainee'; one must have 'trainer'",
+            ).fill(name=repr(profile.name))
         )
 
 
@@ -95,10 +106,11 @@ def missing(profile: Profile, devices: Collection[PluggedDevice]) -> str | None:
     if not gone:
         return None
     present = ", ".join(map(str, devices)) or "nothing"
-    return (
-        f"profile {profile.name!r} is for {' and '.join(gone)}, not plugged in; plugged in: "
-        f"{present}. Plug it in, or choose or make a profile for what is there"
-    )
+    return message(
+        "engine",
+        "profile {name} is for {gone}, not plugged in; plugged in: "
+        "{present}. Plug it in, or choose or make a profile for what is there",
+    ).fill(name=repr(profile.name), gone=" and ".join(gone), present=present)
 
 
 def check_controls(mapping: DeviceMapping, device: PluggedDevice) -> None:
@@ -116,9 +128,10 @@ def check_controls(mapping: DeviceMapping, device: PluggedDevice) -> None:
         if action.at is not None and action.control not in device.axes:
             raise ProfileError(_unknown(action.control, "axis", device.axes, device))
         if action.at is None and action.control not in device.buttons:
-            hint = "; an axis needs at = …" if action.control in device.axes else ""
             unknown = _unknown(action.control, "button", device.buttons, device)
-            raise ProfileError(unknown + hint)
+            if action.control in device.axes:
+                unknown = joined((unknown, message("engine", "an axis needs at = …")), "; ")
+            raise ProfileError(unknown)
 
 
 def check(
@@ -149,7 +162,9 @@ def _axes_of(profile: Profile, seat: OperatorRole) -> Iterator[AxisMapping]:
 
 def _owner(profile: Profile, mapping: AxisMapping) -> str:
     key = next(d.key for d in profile.devices if any(mapping is axis for axis in d.axes))
-    return f"{mapping.control!r} of {key} (drives {mapping.drives})"
+    return message("engine", "{control} of {key} (drives {drives})").fill(
+        control=repr(mapping.control), key=key, drives=mapping.drives
+    )
 
 
 def _driven(profile: Profile, mapping: AxisMapping, robot_axes: Collection[str]) -> tuple[str, ...]:
@@ -158,24 +173,43 @@ def _driven(profile: Profile, mapping: AxisMapping, robot_axes: Collection[str])
     if mapping.drives not in robot_axes:
         known = [*DEGREES_OF_FREEDOM, *(a for a in robot_axes if a not in DEGREES_OF_FREEDOM)]
         raise ProfileError(
-            f"profile {profile.name!r}: {mapping.control!r} drives {mapping.drives!r}, which the "
-            f"robot does not have; known: {', '.join(known)}"
+            message(
+                "engine",
+                "profile {name}: {control} drives {drives}, which the robot does not have; known: "
+                "{names}",
+            ).fill(
+                name=repr(profile.name),
+                control=repr(mapping.control),
+                drives=repr(mapping.drives),
+                names=", ".join(known),
+            )
         )
     return (mapping.drives,)
 
 
 def _check_single_use(profile: Profile, device: DeviceMapping) -> None:
     # A control may be an axis with two sides, or a button (side 0) of the same name.
-    uses = [
-        ((axis.control, side), f"drives {axis.drives}") for axis in device.axes for side in (-1, 1)
+    uses: list[tuple[tuple[str, int], str]] = [
+        ((axis.control, side), message("engine", "drives {drives}").fill(drives=axis.drives))
+        for axis in device.axes
+        for side in (-1, 1)
     ]
     uses += [((each.control, _side(each)), each.action.value) for each in device.actions]
     found: dict[tuple[str, int], str] = {}
     for control, use in uses:
         if control in found:
             raise ProfileError(
-                f"profile {profile.name!r}: control {control[0]!r} of {device.key} would do two "
-                f"things, {found[control]} and {use}; leave one out"
+                message(
+                    "engine",
+                    "profile {name}: control {control} of {key} would do two things, {found} and "
+                    "{use}; leave one out",
+                ).fill(
+                    name=repr(profile.name),
+                    control=repr(control[0]),
+                    key=device.key,
+                    found=found[control],
+                    use=use,
+                )
             )
         found[control] = use
 
@@ -185,7 +219,13 @@ def _side(action: ActionMapping) -> int:
 
 
 def _unknown(control: str, kind: str, known: tuple[str, ...], device: PluggedDevice) -> str:
-    return (
-        f"{device} has no {kind} {control!r}; it has {', '.join(known) or 'none'}. Choose one of "
-        "these, or a profile for this device"
+    return message(
+        "engine",
+        "{device} has no {kind} {control}; it has {known}. Choose one of these, or a profile for "
+        "this device",
+    ).fill(
+        device=str(device),
+        kind=kind,
+        control=repr(control),
+        known=", ".join(known) or marked("engine", "none"),
     )

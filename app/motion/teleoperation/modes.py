@@ -6,6 +6,7 @@ from rotemina.app.motion.teleoperation.frames import AxesFrame, Frame, FrameErro
 from rotemina.app.motion.teleoperation.hybrid import HybridFrame
 from rotemina.app.motion.teleoperation.tip_frames import FineFrame, PivotFrame
 from rotemina.sim.kinematics.chain import Chain, ChainError
+from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
 #: Modes of a robot with a tip. One mode holds at a time, so fine and pivot exclude one another.
@@ -43,10 +44,21 @@ class Modes:
         if name in self._stages:
             return AxesFrame(self._robot, name, self._stages[name], joints)
         if name not in self.names or self._chain is None:
-            why = "" if name not in TIP_MODES else " (it needs the axes of the hybrid chain)"
+            said = (
+                message(
+                    "engine",
+                    "mode {name}: robot {robot} has no such mode (it needs the axes of the hybrid "
+                    "chain); use one of {names}",
+                )
+                if name in TIP_MODES
+                else message(
+                    "engine", "mode {name}: robot {robot} has no such mode; use one of {names}"
+                )
+            )
             raise FrameError(
-                f"mode {name!r}: robot {self._robot.name!r} has no such mode{why}; use one of "
-                f"{', '.join(self.names)}"
+                said.fill(
+                    name=repr(name), robot=repr(self._robot.name), names=", ".join(self.names)
+                )
             )
         return TIP_MODES[name](self._chain, joints)
 

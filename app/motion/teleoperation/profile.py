@@ -123,17 +123,6 @@ _FORMAT = Format(
 )
 
 
-def parse_profile(text: str, source: str = "profile") -> Profile:
-    """Return the profile that a text describes; ``source`` names it in errors.
-
-    Raises
-    ------
-    ProfileError
-        With file, key, value and bound.
-    """
-    return _FORMAT.parse(text, source)
-
-
 def load_profile(path: Path) -> Profile:
     """Return the profile of a file.
 

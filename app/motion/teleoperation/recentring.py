@@ -1,4 +1,4 @@
-"""Bringing the nano stage back to the middle of its range while the tip stays.
+"""Moving the nano stage, back to the middle of its range for example, while the tip stays.
 
 Two even ramps do not hold the tip: a table steps by whole microsteps, rings, and lags behind. Here
 the tables step at an even pace and the nano stage follows not what they are told but where the
@@ -24,10 +24,11 @@ from rotemina.sim.kinematics.aiming import free_pose
 from rotemina.sim.kinematics.chain import JOINTS, NANO, TABLES, Chain
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.pivoting import recentre
+from rotemina.sim.messages import marked, message
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.matrices import inertia_matrices
-from rotemina.sim.trajectory.limits import resolution_of
+from rotemina.sim.trajectory.limits import check_target, resolution_of
 
 _PACES = (1, 2, 3, 4)  # set-points a microstep that are tried
 _LOOK_S = 1e-4  # between two looks at the motion
@@ -41,7 +42,7 @@ class RecentringError(InputError):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recentring:
-    """A way to mid-range.
+    """A way of the joints on which the tip stays.
 
     ``trajectory`` is what to play, from the present commands on; ``strayed_m`` (3,) is how far the
     tip leaves its place meanwhile, by the model.
@@ -66,6 +67,21 @@ def plan_recentring(
 ) -> Recentring:
     """Plan how to bring nano joints to the middle of their ranges while the tip stays.
 
+    Parameters and errors as of :func:`plan_with_tip_held`, to which this gives the targets of the
+    ``joints``.
+    """
+    targets = {joint: float(chain.centre[JOINTS.index(joint)]) for joint in _nano(joints)}
+    return plan_with_tip_held(chain, commands, setpoint_period_s, targets)
+
+
+def plan_with_tip_held(
+    chain: Chain,
+    commands: Mapping[str, float],
+    setpoint_period_s: float,
+    targets: Mapping[str, float],
+) -> Recentring:
+    """Plan how to bring nano joints to targets while the tip stays.
+
     Parameters
     ----------
     chain : Chain
@@ -73,20 +89,22 @@ def plan_recentring(
         Present commands of the joints, m or rad; the machine rests there.
     setpoint_period_s : float
         Of the device that shall play it.
-    joints : tuple of str
-        Which of thx, thy, zn.
+    targets : mapping of str to float
+        Where which of thx, thy, zn are to be, m or rad.
 
     Raises
     ------
     RecentringError
         If a joint is no nano joint, or the place of one is not known.
     OutOfLimitsError
-        If a table would leave its range.
+        If a target is out of its range, or a table would leave its own.
     """
-    start = _known(commands, joints)
-    columns = [JOINTS.index(joint) for joint in joints]
+    columns = [JOINTS.index(joint) for joint in _nano(tuple(targets))]
+    start = _known(commands)
+    for joint, target in targets.items():
+        check_target(chain.robot, joint, target)
     nano = start.copy()
-    nano[columns] = chain.centre[columns]
+    nano[columns] = list(targets.values())
     end = recentre(chain, start, nano[NANO])
     ways = [_follow(chain, start, end, setpoint_period_s, pace) for pace in _PACES]
     best = min(ways, key=lambda way: float(np.abs(way.strayed).max()))
@@ -159,17 +177,26 @@ def _asked(chain: Chain, tables: FloatArray, pose: FloatArray, dt: float) -> Flo
     return np.asarray(force[:, NANO] / np.diagonal(c)[NANO])
 
 
-def _known(commands: Mapping[str, float], joints: tuple[str, ...]) -> FloatArray:
+def _nano(joints: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the joints; refuse those that are none of the nano stage."""
     wrong = [joint for joint in joints if joint not in JOINTS[NANO]]
     if wrong or not joints:
         raise RecentringError(
-            f"re-centring: {', '.join(wrong) or 'no joint'} is none of thx, thy, zn, which have "
-            "a middle to come back to"
+            message(
+                "engine",
+                "re-centring: {value} is none of thx, thy, zn, which have a middle to come back to",
+            ).fill(value=", ".join(wrong) or marked("engine", "no joint"))
         )
+    return joints
+
+
+def _known(commands: Mapping[str, float]) -> FloatArray:
     missing = [joint for joint in JOINTS if joint not in commands]
     if missing:
         raise RecentringError(
-            f"re-centring: the position of axis {', '.join(missing)} is not known; connect and "
-            "home first"
+            message(
+                "engine",
+                "re-centring: the position of axis {names} is not known; connect and home first",
+            ).fill(names=", ".join(missing))
         )
     return np.array([commands[joint] for joint in JOINTS], dtype=np.float64)

@@ -19,6 +19,8 @@ from math import isfinite, sqrt
 from typing import NamedTuple
 
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 APPROACH_S = 0.05  # T: several steps of the loop and turns of the line
 
@@ -53,9 +55,17 @@ class Bounds:
         values = self.low, self.high, self.max_speed, self.max_acceleration
         if not all(map(isfinite, values)) or self.low > self.high or min(values[2:]) <= 0.0:
             raise ScalingError(
-                f"bounds: range {self.low:.6g} to {self.high:.6g}, speed {self.max_speed:.6g}, "
-                f"acceleration {self.max_acceleration:.6g}: they must be finite, the range not "
-                "empty, speed and acceleration above 0"
+                message(
+                    "engine",
+                    "bounds: range {low} to {high}, speed {max_speed}, acceleration "
+                    "{max_acceleration}: they must be finite, the range not empty, speed and "
+                    "acceleration above 0",
+                ).fill(
+                    low=rounded(self.low, 6),
+                    high=rounded(self.high, 6),
+                    max_speed=rounded(self.max_speed, 6),
+                    max_acceleration=rounded(self.max_acceleration, 6),
+                )
             )
 
     def clip(self, position: float) -> float:

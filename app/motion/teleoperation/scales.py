@@ -24,7 +24,8 @@ from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
 from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance
-from rotemina.sim.trajectory.wording import readable
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact, rounded
 
 _LONG = 5e-3  # m: what has a longer range is a table
 _TABLE_WAY, _TABLE_SPEED = 5e-4, 1e-3  # m, m/s at full deflection
@@ -128,17 +129,27 @@ class Scale:
         """Return what to change of an impedance that accelerates so many times too fast."""
         name, unit = coordinate.name, coordinate.unit
         if self.spring_hz:
-            return (
-                f"{name}: a way of {readable(self.way, unit)} on a spring of {self.spring_hz:.4g} "
-                "Hz is more than the axes can accelerate; use at most "
-                f"{readable(_rounded(self.way / excess), unit)}, or at most "
-                f"{_rounded(self.spring_hz / sqrt(excess)):g} Hz"
+            return message(
+                "engine",
+                "{name}: a way of {way} on a spring of {spring_hz} Hz is more than the axes can "
+                "accelerate; use at most {most}, or at most {other} Hz",
+            ).fill(
+                name=name,
+                way=exact(self.way, unit),
+                spring_hz=rounded(self.spring_hz),
+                most=exact(_rounded(self.way / excess), unit),
+                other=rounded(_rounded(self.spring_hz / sqrt(excess)), 6),
             )
-        return (
-            f"{name}: {readable(self.speed, f'{unit}/s')} within a time constant of "
-            f"{self.time_constant_s:.4g} s is more than the axes can accelerate; use at most "
-            f"{readable(_rounded(self.speed / excess), f'{unit}/s')}, or at least "
-            f"{_rounded(self.time_constant_s * excess, up=True):g} s"
+        return message(
+            "engine",
+            "{name}: {speed} within a time constant of {time_constant_s} s is more than the axes "
+            "can accelerate; use at most {most}, or at least {other} s",
+        ).fill(
+            name=name,
+            speed=exact(self.speed, f"{unit}/s"),
+            time_constant_s=rounded(self.time_constant_s),
+            most=exact(_rounded(self.speed / excess), f"{unit}/s"),
+            other=rounded(_rounded(self.time_constant_s * excess, up=True), 6),
         )
 
     @property

@@ -10,6 +10,7 @@ from math import isfinite
 from typing import final
 
 from rotemina.app.motion.teleoperation.reference import Bounds, Motion, ScalingError
+from rotemina.sim.messages import message
 
 FINE, COARSE = 0.1, 10.0
 #: Factors on a law's own scale that an operator steps through.
@@ -74,8 +75,11 @@ class ScalingLaw(ABC):
         """
         if not (isfinite(dt) and isfinite(reaction)) or dt < 0.0:
             raise ScalingError(
-                f"scaling: step of {dt} s with a reaction of {reaction}: both must be finite, "
-                "the step not below 0"
+                message(
+                    "engine",
+                    "scaling: step of {dt} s with a reaction of {reaction}: both must be finite, "
+                    "the step not below 0",
+                ).fill(dt=dt, reaction=reaction)
             )
         self._deflection = _deflection(deflection)
         if dt > 0.0:
@@ -98,7 +102,11 @@ class ScalingLaw(ABC):
             If the factor is not finite or not above 0.
         """
         if not isfinite(factor) or factor <= 0.0:
-            raise ScalingError(f"scaling: factor {factor}: it must be finite and above 0")
+            raise ScalingError(
+                message("engine", "scaling: factor {factor}: it must be finite and above 0").fill(
+                    factor=factor
+                )
+            )
         self._rescale(factor)
         self._factor = factor
 
@@ -124,11 +132,19 @@ def checked_scale(scale: float, what: str) -> float:
         If it is not finite, or 0.
     """
     if not isfinite(scale) or scale == 0.0:
-        raise ScalingError(f"{what}: scale {scale}: it must be finite and not 0")
+        raise ScalingError(
+            message("engine", "{what}: scale {scale}: it must be finite and not 0").fill(
+                what=what, scale=scale
+            )
+        )
     return scale
 
 
 def _deflection(value: float) -> float:
     if not isfinite(value):
-        raise ScalingError(f"scaling: the deflection {value} is not a finite number")
+        raise ScalingError(
+            message("engine", "scaling: the deflection {value} is not a finite number").fill(
+                value=value
+            )
+        )
     return min(max(value, -1.0), 1.0)

@@ -3,7 +3,6 @@
 Every error names the file, the key, the value and the bound.
 """
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -16,6 +15,8 @@ from pydantic_core import ErrorDetails
 from rotemina.app.files import write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.input_files import parse_toml, read_text
+from rotemina.sim.messages import Message, joined, marked, message
+from rotemina.sim.robot.schema_errors import bound_of, first_of, suggestion
 from rotemina.sim.whole_files import FileWriteError
 
 MAX_BYTES = 1_000_000
@@ -25,26 +26,6 @@ Switch = Annotated[bool, Field(strict=True)]
 Text = Annotated[str, Field(strict=True, min_length=1, max_length=200)]
 
 T = TypeVar("T")
-
-_BOUNDS = {
-    "greater_than": "must be greater than {gt}",
-    "greater_than_equal": "must be at least {ge}",
-    "less_than": "must be less than {lt}",
-    "less_than_equal": "must be at most {le}",
-    "finite_number": "must be a finite number",
-    "float_type": "must be a number",
-    "bool_type": "must be true or false",
-    "string_type": "must be text",
-    "string_too_short": "must not be empty",
-    "string_too_long": "must have at most {max_length} letters",
-    "literal_error": "must be {expected}",
-    "enum": "must be {expected}",
-    "value_error": "{error}",
-    "too_short": "must have at least {min_length} entry",
-    "tuple_type": "must be a list",
-    "dataclass_type": "must be a table",
-    "dict_type": "must be a table",
-}
 
 
 class Format(Generic[T]):
@@ -71,7 +52,11 @@ class Format(Generic[T]):
         try:
             return self._adapter.validate_python(table)
         except ValidationError as error:
-            raise self._error(f"{source}: {self._describe(error)}") from error
+            raise self._error(
+                message("engine", "{source}: {problem}").fill(
+                    source=source, problem=first_of(error, self._sentence)
+                )
+            ) from error
 
     def load(self, path: Path) -> T:
         """Return what a file describes."""
@@ -93,37 +78,31 @@ class Format(Generic[T]):
             path.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise FileWriteError(
-                f"{path.parent}: the folder cannot be made ({error.strerror}); choose another"
+                message(
+                    "engine", "{parent}: the folder cannot be made ({strerror}); choose another"
+                ).fill(parent=path.parent, strerror=str(error.strerror))
             ) from error
         write_text(path, self.text(value))
 
-    def _describe(self, error: ValidationError) -> str:
-        """Return one line for the first problem, with the number of further ones."""
-        details = error.errors(include_url=False)
-        # An unknown key is the likeliest cause of a missing one: say it first.
-        details.sort(key=lambda detail: detail["type"] != "unexpected_keyword_argument")
-        more = f" (and {len(details) - 1} more)" if len(details) > 1 else ""
-        return self._sentence(details[0]) + more
-
-    def _sentence(self, detail: ErrorDetails) -> str:
+    def _sentence(self, detail: ErrorDetails) -> Message:
         location = detail["loc"]
         key = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in location)
         key = key.lstrip(".")
-        value = f" = {_short(detail['input'])}" if not isinstance(detail["input"], dict) else ""
-        kind = detail["type"]
-        if kind.startswith("missing"):
-            return f"{key}: missing; the file needs it"
-        if kind == "unexpected_keyword_argument":
-            return f"{key}{value}: unknown key{self._suggestion(location)}"
-        template = _BOUNDS.get(kind)
-        bound = template.format(**detail.get("ctx", {})) if template else detail["msg"]
-        return f"{key}{value}: {bound}"
+        if detail["type"].startswith("missing"):
+            return message("engine", "{key}: missing; {need}").fill(
+                key=key, need=marked("engine", "the file needs it")
+            )
+        if not isinstance(detail["input"], dict):
+            key = f"{key} = {_short(detail['input'])}"
+        if detail["type"] == "unexpected_keyword_argument":
+            said = message("engine", "{key}: unknown key").fill(key=key)
+            return joined([said, *self._suggestion(location)], "; ")
+        return message("engine", "{key}: {bound}").fill(key=key, bound=bound_of(detail))
 
-    def _suggestion(self, location: tuple[int | str, ...]) -> str:
+    def _suggestion(self, location: tuple[int | str, ...]) -> list[Message]:
         parents = [part for part in ("", *location[:-1]) if part in self._tables]
         known = [field.name for field in fields(self._tables[parents[-1]])]
-        close = difflib.get_close_matches(str(location[-1]), known, n=1)
-        return f"; did you mean {close[0]!r}?" if close else f"; known here: {', '.join(known)}"
+        return suggestion(str(location[-1]), known)
 
 
 def _filled(value: Any) -> Any:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from rotemina.app.motion.teleoperation.profile import OperatorRole
+from rotemina.sim.messages import message
 
 #: Deflection by which the trainer takes over: clearly beyond the dead zone, well below an end.
 MOVED = 0.25
@@ -43,11 +44,13 @@ class Takeover:
         reason = None
         if self.driving is OperatorRole.TRAINEE:
             if not trainer.present:
-                reason = "the trainer's device is not there: the trainee does not drive alone"
+                reason = message(
+                    "engine", "the trainer's device is not there: the trainee does not drive alone"
+                )
             elif trainer.asks or trainer.most >= MOVED:
-                reason = "the trainer has taken over"
+                reason = message("engine", "the trainer has taken over")
         elif trainee.asks and self._granted(trainer, trainee):
-            reason = "the trainee has taken over"
+            reason = message("engine", "the trainee has taken over")
         if reason is not None:
             self.driving = (
                 OperatorRole.TRAINER

@@ -22,6 +22,7 @@ from rotemina.app.motion.teleoperation.views import TeleoperationState, shown
 from rotemina.drivers.abilities import VelocityMover
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
+from rotemina.sim.messages import AxisName, marked, message
 from rotemina.sim.trajectory.limits import resolution_of
 
 JOYSTICK = "joystick"  # the owner of the axes that it moves
@@ -30,7 +31,7 @@ _RENEW_S = 0.04  # a speed that does not change is said again this often
 _NEARLY, _STEPS_S = 0.02, 10.0  # of a speed, and resolutions a second: changes that can wait
 _LONGEST_STEP_S = 0.05  # a loop that was late does not make up for it
 _NOISE_FLOORS = 3.0  # of a deviation, that are no contact
-_STOPPED = "the machine is being stopped"
+_STOPPED = message("engine", "the machine is being stopped")
 DIRECT = "direct"  # axes that a control drives by their own name
 
 
@@ -95,7 +96,11 @@ class Teleoperator:
             If the robot has no such mode.
         """
         if name not in self.modes.names:
-            raise RefusedError(f"there is no mode {name!r}; use {', '.join(self.modes.names)}")
+            raise RefusedError(
+                message("engine", "there is no mode {name}; use {names}").fill(
+                    name=repr(name), names=", ".join(self.modes.names)
+                )
+            )
         self._request(lambda: self._change_mode(name))
 
     def use_law(self, kind: LawKind) -> None:
@@ -126,7 +131,9 @@ class Teleoperator:
 
         def change() -> None:
             self._scales = scales
-            self._let_go("the scales were changed" if self.state.driving else None)
+            self._let_go(
+                marked("engine", "the scales were changed") if self.state.driving else None
+            )
 
         self._request(change)
 
@@ -167,9 +174,11 @@ class Teleoperator:
     def _stop_if_asked(self, intent: Intent) -> str | None:
         """Stop where that is asked for, or what drove is gone; return why nothing is to move."""
         if Action.EMERGENCY_STOP in intent.pressed:
-            self._session.emergency_stop("the joystick's emergency stop", by=OPERATOR)
+            self._session.emergency_stop(
+                message("engine", "the joystick's stop and lock"), by=OPERATOR
+            )
         elif Action.STOP in intent.pressed:
-            self._session.stop("the joystick's stop", by=OPERATOR)
+            self._session.stop(message("engine", "the joystick's stop"), by=OPERATOR)
         elif intent.lost is not None and self.state.driving:
             self._session.stop(intent.lost)
         else:
@@ -198,14 +207,21 @@ class Teleoperator:
         if state.stopping:
             return _STOPPED
         if state.activity in (DeviceState.PLAYING, DeviceState.HOMING):
-            return f"the machine is {state.activity}"
+            return message("engine", "the machine is {activity}").fill(activity=state.activity)
         if not isinstance(self._session.driver, VelocityMover):
-            return f"driver {self._session.driver.name!r} cannot move at a speed"
+            return message("engine", "driver {driver} cannot move at a speed").fill(
+                driver=repr(self._session.driver.name)
+            )
         if not intent.deflections and not self.state.driving:
-            return "no stick is trusted: let go of it; hold its dead-man, if it has one"
+            return message(
+                "engine",
+                "no stick is active: let go of it, and hold its dead-man switch if it has one",
+            )
         others = {owner for owner in state.owners.values() if owner != JOYSTICK}
         if state.activity is DeviceState.MOVING and others and not self.state.driving:
-            return f"axes are moved by {' and '.join(sorted(others))}"
+            return message("engine", "axes are moved by {owner}").fill(
+                owner=" and ".join(sorted(others))
+            )
         return None
 
     def _steer(self, intent: Intent, state: SessionState, now_s: float, dt: float) -> None:
@@ -246,7 +262,9 @@ class Teleoperator:
             return
         lost = channel.following.lost(speeds, state)
         if lost is not None:
-            self._let_go(f"axis {lost} does not follow the stick")
+            self._let_go(
+                message("engine", "axis {axis} does not follow the stick").fill(axis=AxisName(lost))
+            )
             return
         try:
             used = self._session.move_velocity(speeds, LEASE_S, JOYSTICK, permit=self._permit)
@@ -263,7 +281,7 @@ class Teleoperator:
         share = _share(speeds, used)
         self._refused = None
         if share < 1.0:
-            self._refused = "slowed: the tip is close to its bounds"
+            self._refused = message("engine", "slowed: the tip is close to its bounds")
             channel.steering.hold_back(before, share)
             channel.following.forget()
 

@@ -8,6 +8,8 @@ from collections import deque
 from math import isfinite, isnan
 
 from rotemina.app.motion.teleoperation.calibration import AxisCalibration
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import rounded
 
 SETTLE_S = 0.1  # in the dead zone
 LEAP = 0.1  # of the range, between two readings
@@ -15,8 +17,8 @@ REVERSALS = 10  # leaps to and fro
 WITHIN_S = 0.5  # for no hand moves to and fro ten times a second
 CALM_S = 1.0  # without leaps, until a jittering axis is looked at again
 
-NOT_CENTRED = "not yet seen at rest: let go of it"
-NOTHING_SAID = "has said nothing yet: move it, and let go of it"
+NOT_CENTRED = message("engine", "not yet seen at rest: let go of it")
+NOTHING_SAID = message("engine", "has said nothing yet: move it, and let go of it")
 
 
 class AxisTrust:
@@ -55,13 +57,16 @@ class AxisTrust:
     def reason(self) -> str | None:
         """Why it is not trusted, in words; None if it is."""
         if self._said is not None and not _possible(self._said):
-            return f"says {self._said:g}, which is not in −1 to 1: disconnect it and look at it"
+            return message(
+                "engine", "says {raw}, which is not in −1 to 1: disconnect it and look at it"
+            ).fill(raw=rounded(self._said, 6))
         if self._jitter.found:
-            return "jitters from end to end: its potentiometer or cable is bad"
+            return message("engine", "jitters from end to end: its potentiometer or cable is bad")
         if self._why is not None and self._said is not None and self._at_end_only:
-            return (
-                "has stood at its end from the first moment: free it; if it rests there, "
-                "calibrate it as one-sided"
+            return message(
+                "engine",
+                "has stood at its end from the first moment: free it; if it rests "
+                "there, calibrate it as one-sided",
             )
         return NOTHING_SAID if self._said is None and self._why == NOT_CENTRED else self._why
 

@@ -17,6 +17,8 @@ from math import acos, acosh, cos, exp, expm1, inf, isfinite, pi, sin, sqrt
 from typing import NamedTuple, Self
 
 from rotemina.app.motion.teleoperation.reference import ScalingError
+from rotemina.sim.messages import marked, message
+from rotemina.sim.quantities import rounded
 
 _LEAST_DAMPING_RATIO = 0.1  # below it a let-go stick rings for seconds
 _MOST_TRAVEL = 1e3  # m or rad, of the spring: beyond, it is none
@@ -68,25 +70,44 @@ class VirtualImpedance:
     def __post_init__(self) -> None:
         for one in fields(self):
             value = getattr(self, one.name)
-            least = "not below 0" if one.name == "stiffness" else "above 0"
+            least = (
+                marked("engine", "not below 0")
+                if one.name == "stiffness"
+                else marked("engine", "above 0")
+            )
             if not isfinite(value) or value < 0.0 or (value == 0.0 and one.name != "stiffness"):
                 raise ScalingError(
-                    f"impedance: {one.name} {value:.6g}: it must be finite and {least}"
+                    message(
+                        "engine", "impedance: {name} {value}: it must be finite and {least}"
+                    ).fill(name=one.name, value=rounded(value, 6), least=least)
                 )
         if not self.stiffness:
             return
         if self.force / self.stiffness > _MOST_TRAVEL:
             raise ScalingError(
-                f"impedance: stiffness {self.stiffness:.6g} lets the force {self.force:.6g} reach "
-                f"{self.force / self.stiffness:.6g} m (or rad), at most {_MOST_TRAVEL:g}; use 0 "
-                "for none"
+                message(
+                    "engine",
+                    "impedance: stiffness {stiffness} lets the force {force} reach {travel} m (or "
+                    "rad), at most {most_travel}; use 0 for none",
+                ).fill(
+                    stiffness=rounded(self.stiffness, 6),
+                    force=rounded(self.force, 6),
+                    travel=rounded(self.force / self.stiffness, 6),
+                    most_travel=_MOST_TRAVEL,
+                )
             )
         if self._damping_ratio < _LEAST_DAMPING_RATIO:
             least_damping = 2.0 * _LEAST_DAMPING_RATIO * sqrt(self.stiffness * self.mass)
             raise ScalingError(
-                f"impedance: damping ratio {self._damping_ratio:.3g} is below "
-                f"{_LEAST_DAMPING_RATIO:g}, it would ring; use a damping of {least_damping:.6g} or "
-                "more"
+                message(
+                    "engine",
+                    "impedance: damping ratio {damping_ratio} is below {least_damping_ratio}, it "
+                    "would ring; use a damping of {least_damping} or more",
+                ).fill(
+                    damping_ratio=rounded(self._damping_ratio, 3),
+                    least_damping_ratio=_LEAST_DAMPING_RATIO,
+                    least_damping=rounded(least_damping, 6),
+                )
             )
 
     @classmethod

@@ -15,6 +15,7 @@ from rotemina.drivers.inputs.hid.controls import (
 from rotemina.drivers.inputs.hid.descriptor import Field, ReportDescriptor
 from rotemina.drivers.inputs.hid.items import DescriptorError
 from rotemina.drivers.inputs.hid.usages import APPLICATIONS, HAT, axis_name, button_name
+from rotemina.sim.messages import message
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +53,11 @@ class Decoder:
         plan = _Plan(descriptor)
         if not plan.axes and not plan.buttons:
             raise DescriptorError(
-                "its report descriptor has no axis and no button of a joystick, gamepad or "
-                "multi-axis controller"
+                message(
+                    "engine",
+                    "its report descriptor has no axis and no button of a joystick, gamepad or "
+                    "multi-axis controller",
+                )
             )
         self.axes = tuple(plan.axes)
         self.buttons = tuple(plan.buttons)

@@ -18,6 +18,7 @@ from hid_parser import (  # type: ignore[import-untyped]  # it has no types
 )
 
 from rotemina.drivers.inputs.hid.items import DescriptorError, Item, items
+from rotemina.sim.messages import message
 
 _APPLICATION = 1
 _CONSTANT, _VARIABLE, _RELATIVE, _NULL_STATE = 1 << 0, 1 << 1, 1 << 2, 1 << 6
@@ -266,4 +267,8 @@ class _Walk:
 
 
 def _nonsense(item: Item, what: str) -> DescriptorError:
-    return DescriptorError(f"its report descriptor makes no sense at byte {item.at}: {what}")
+    return DescriptorError(
+        message("engine", "its report descriptor makes no sense at byte {at}: {what}").fill(
+            at=item.at, what=what
+        )
+    )

@@ -13,6 +13,7 @@ from rotemina.drivers.inputs.device import (
 from rotemina.drivers.inputs.hid.decoder import Decoder, Ignored
 from rotemina.drivers.inputs.hid.hidapi import Handle
 from rotemina.drivers.inputs.hid.streaming import Streaming
+from rotemina.sim.messages import message
 
 _LOG = logging.getLogger(__name__)
 _REPORT_BYTES = 4096
@@ -53,7 +54,11 @@ class HidDevice(InputDevice):
     def read(self) -> tuple[InputReading, ...]:
         """Return a reading for each report that has come in; see :class:`InputDevice`."""
         if self._handle is None:
-            raise StateError(f"{self.identity.name}: it was closed; open it again")
+            raise StateError(
+                message("engine", "{name}: it was closed; open it again").fill(
+                    name=self.identity.name
+                )
+            )
         readings = []
         for _ in range(_MOST_WAITING):
             report = self._receive(self._handle)
@@ -84,6 +89,8 @@ class HidDevice(InputDevice):
             return bytes(handle.read(_REPORT_BYTES))
         except (OSError, ValueError) as error:
             raise InputLostError(
-                f"{self.identity.name}: it was unplugged, or has lost its power or radio link "
-                f"({error})"
+                message(
+                    "engine",
+                    "{name}: it was unplugged, or has lost its power or radio link ({error})",
+                ).fill(name=self.identity.name, error=str(error))
             ) from error

@@ -7,15 +7,17 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputLostError
+from rotemina.sim.messages import marked, message
 
 if TYPE_CHECKING:
     from rotemina.drivers.inputs.hid.descriptor import ReportDescriptor
 
 _DESCRIPTOR_BYTES = 4096
-_PERMISSION = (
+_PERMISSION = marked(
+    "engine",
     "no permission to open it. On Linux, put the rule of docs/inputs.md into "
-    "/etc/udev/rules.d/70-rotemina-inputs.rules, run `sudo udevadm control --reload`, and plug the "
-    "device in again; elsewhere, allow this program to read input devices"
+    "/etc/udev/rules.d/70-rotemina-inputs.rules, run `sudo udevadm control --reload`, and plug "
+    "the device in again; elsewhere, allow this program to read input devices",
 )
 
 
@@ -55,8 +57,11 @@ def load_hidapi() -> Hidapi:
         except ImportError as error:
             failure = error
     raise DriverError(
-        f"USB joysticks cannot be used: the library hidapi does not load ({failure}); install it "
-        "with `pip install hidapi`, and libudev of the system"
+        message(
+            "engine",
+            "USB joysticks cannot be used: the library hidapi does not load ({failure}); install "
+            "it with `pip install hidapi`, and libudev of the system",
+        ).fill(failure=str(failure))
     ) from failure
 
 
@@ -75,7 +80,11 @@ def open_handle(library: Hidapi, path: bytes, who: str) -> Handle:
         handle.open_path(path)
         handle.set_nonblocking(1)
     except (OSError, ValueError) as error:
-        why = _why_closed(who, path, f"{error}: {_said(handle)}")
+        why = _why_closed(
+            who,
+            path,
+            message("engine", "{error}: {said}").fill(error=str(error), said=_said(handle)),
+        )
         handle.close()
         raise why from error
     return handle
@@ -95,7 +104,11 @@ def read_descriptor(handle: Handle, who: str) -> "ReportDescriptor":
         raw = bytes(handle.get_report_descriptor(_DESCRIPTOR_BYTES))
     except (OSError, ValueError) as error:
         raise DriverError(
-            f"{who}: its report descriptor cannot be read ({error}); unplug it and plug it in again"
+            message(
+                "engine",
+                "{who}: its report descriptor cannot be read ({error}); unplug it and plug it in "
+                "again",
+            ).fill(who=who, error=str(error))
         ) from error
     return ReportDescriptor.parse(raw)
 
@@ -105,7 +118,7 @@ def _said(handle: Handle) -> str:
     try:
         return str(handle.error())
     except (OSError, ValueError):
-        return "no reason given"
+        return marked("engine", "no reason given")
 
 
 def _why_closed(who: str, path: bytes, said: str) -> DriverError:
@@ -113,11 +126,25 @@ def _why_closed(who: str, path: bytes, said: str) -> DriverError:
     where = f"{who} ({path.decode(errors='replace')})"
     lower = said.lower()
     if "no such" in lower or "not found" in lower or "cannot find" in lower:
-        return InputLostError(f"{where}: it is there no more; plug it in again")
+        return InputLostError(
+            message("engine", "{where}: it is there no more; plug it in again").fill(where=where)
+        )
     if "denied" in lower or "not permitted" in lower:
-        return DriverError(f"{where}: {_PERMISSION} ({said})")
+        return DriverError(
+            message("engine", "{where}: {permission} ({said})").fill(
+                where=where, permission=_PERMISSION, said=said
+            )
+        )
     if "busy" in lower or "exclusive" in lower or "being used" in lower:
-        return DriverError(f"{where}: another program uses it; close that program ({said})")
+        return DriverError(
+            message("engine", "{where}: another program uses it; close that program ({said})").fill(
+                where=where, said=said
+            )
+        )
     return DriverError(
-        f"{where}: it cannot be opened ({said}); unplug it and plug it in again; see docs/inputs.md"
+        message(
+            "engine",
+            "{where}: it cannot be opened ({said}); unplug it and plug it in again; see "
+            "docs/inputs.md",
+        ).fill(where=where, said=said)
     )

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rotemina.drivers.errors import DriverError
+from rotemina.sim.messages import message
 
 _LONG = 0xFE
 _DATA_BYTES = (0, 1, 2, 4)
@@ -51,8 +52,11 @@ def items(descriptor: bytes) -> Iterator[Item]:
         data = descriptor[at + 1 : at + 1 + size]
         if len(data) < size:
             raise DescriptorError(
-                f"its report descriptor is cut off: byte {at} of {len(descriptor)} begins an item "
-                f"with {size} bytes of data"
+                message(
+                    "engine",
+                    "its report descriptor is cut off: byte {at} of {count} begins an item with "
+                    "{size} bytes of data",
+                ).fill(at=at, count=len(descriptor), size=size)
             )
         yield Item(at, prefix >> 2 & 0b11, prefix >> 4, data)
         at += 1 + size

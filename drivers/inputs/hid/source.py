@@ -17,6 +17,7 @@ from rotemina.drivers.inputs.hid.hidapi import (
     read_descriptor,
 )
 from rotemina.drivers.inputs.hid.items import DescriptorError
+from rotemina.sim.messages import marked, message
 
 if TYPE_CHECKING:
     from rotemina.drivers.inputs.hid.device import HidDevice
@@ -59,7 +60,13 @@ class _Plugged:
         product = str(entry.get("product_string") or "").strip()
         name = product if product.startswith(maker) else f"{maker} {product}".strip()
         serial = str(entry.get("serial_number") or "").strip()
-        return cls(path, name or f"HID device {model}", model, serial, port(path))
+        return cls(
+            path,
+            name or f"HID device {model}",
+            model,
+            serial,
+            port(path),
+        )
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -86,7 +93,7 @@ class HidSource(InputSource):
         Where a path is plugged in; see :func:`port_of`.
     """
 
-    name = "USB and Bluetooth joysticks"
+    name = marked("engine", "USB and Bluetooth joysticks")
 
     def __init__(
         self,
@@ -115,10 +122,11 @@ class HidSource(InputSource):
         except (DriverError, OSError, RuntimeError) as error:
             problem = str(error) or type(error).__name__
         if entries and not any(entry.get("usage_page") for entry in entries):
-            problem = (
-                f"hidapi finds {len(entries)} HID devices but does not tell which are joysticks: "
-                "it was built on libusb; install one that uses hidraw (`pip install hidapi`)"
-            )
+            problem = message(
+                "engine",
+                "hidapi finds {count} HID devices but does not tell which are joysticks: it was "
+                "built on libusb; install one that uses hidraw (`pip install hidapi`)",
+            ).fill(count=len(entries))
         if problem != self._problem and problem is not None:
             _LOG.warning("no USB joysticks: %s", problem)
         self._problem = problem
@@ -132,13 +140,21 @@ class HidSource(InputSource):
 
         plugged = self._plugged.get(identity.key)
         if plugged is None:
-            raise InputLostError(f"{identity.name} ({identity.key}): it is not plugged in")
+            raise InputLostError(
+                message("engine", "{name} ({key}): it is not plugged in").fill(
+                    name=identity.name, key=identity.key
+                )
+            )
         handle = open_handle(self._load(), plugged.path, identity.name)
         try:
             decoder = Decoder(read_descriptor(handle, identity.name))
         except DescriptorError as error:
             handle.close()
-            raise DescriptorError(f"{identity.name}: {error}; it cannot be used") from error
+            raise DescriptorError(
+                message("engine", "{name}: {error}; it cannot be used").fill(
+                    name=identity.name, error=str(error)
+                )
+            ) from error
         except DriverError:
             handle.close()
             raise

@@ -69,10 +69,10 @@ PATHS = {
 }
 
 # Bytes on the line, and those of a body that are checked and stuffed.
-_SEGMENT, _ACK, _TELEMETRY, _INPUTS = 32, 10, 30, 14
+_SEGMENT, _TELEMETRY, _INPUTS = 32, 31, 14
 _CAPTURED = {1: (32, 11), 3: (28, 3)}  # bytes, samples of a frame
 # Version 1 on two lines at 200 Hz, a second: SetPoint; Done, Telemetry and a fourth of Inputs.
-_VERSION_1 = (200 * 25, 200 * (9 + _TELEMETRY + _INPUTS / 4))
+_VERSION_1 = (200 * 25, 200 * (9 + 30 + _INPUTS / 4))
 _EDGES_HZ = 3 * 2000  # three steppers at 10 mm/s, a full step of 5 um each
 
 
@@ -80,7 +80,7 @@ _EDGES_HZ = 3 * 2000  # three steppers at 10 mm/s, a full step of 5 um each
 class Case:
     """What a board does at once, each so often a second at E = 2 MHz.
 
-    ``acks`` are as many at any clock, and so are edges, which are a matter of the motor.
+    Edges are as many at any clock: they are a matter of the motor.
     """
 
     name: str
@@ -93,9 +93,8 @@ class Case:
 
     def line(self, faster: int) -> tuple[float, float]:
         """Return bytes a second towards the board and from it."""
-        acks = 25 if self.segments else 0
         telemetry = self.telemetry * faster
-        out = acks * _ACK + telemetry * (_TELEMETRY + _INPUTS / 4)
+        out = telemetry * (_TELEMETRY + _INPUTS / 4)
         axes, rate_hz = self.captures
         if axes:
             size, samples = _CAPTURED[axes]
@@ -109,8 +108,7 @@ class Case:
         captured = axes * rate_hz * faster
         frames = captured / (_CAPTURED[axes][1] * axes) if axes else 0.0
         telemetry, segments = self.telemetry * faster, self.segments * faster
-        acks = 25 if segments else 0
-        ended = telemetry * 1.25 + frames + acks
+        ended = telemetry * 1.25 + frames
         return {
             f"tick, {self.board}": self.tick * faster,
             "byte received": into,

@@ -2,7 +2,8 @@
         .include "board.inc"
         .text
 
-; The head of a frame that goes: address, number, type, time, state, fault, switches.
+; The head of a frame that goes: address, number, type, time, state, fault, switches, and the index
+; of the segment that comes next.
         .globl tell_head
 tell_head:
         ldd #0xFFFF
@@ -13,7 +14,7 @@ tell_head:
         stx *in
         ldaa #1
         staa *code
-        .irp part, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9
+        .irp part, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10
         ldaa *head_of_telemetry+\part
         jsr put_byte
         .endr

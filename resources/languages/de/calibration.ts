@@ -80,8 +80,8 @@
         <translation>5 bis 101 Positionen, die von beiden Seiten angefahren werden (ISO 230-2)</translation>
     </message>
     <message>
-        <source>the laser&apos;s zero is the axis&apos;</source>
-        <translation>Nullpunkt des Lasers gilt</translation>
+        <source>the laser&apos;s zero is the axis&apos; zero</source>
+        <translation>der Nullpunkt des Lasers ist der der Achse</translation>
     </message>
     <message>
         <source>Off: the laser was zeroed anywhere; the reading in the middle of the travel stays</source>
@@ -184,7 +184,7 @@
         <translation>sie ist aus</translation>
     </message>
     <message>
-        <source>Correct the axis&apos; readings by it</source>
+        <source>Correct the axis&apos; readings with it</source>
         <translation>Die Messwerte der Achse damit korrigieren</translation>
     </message>
     <message>
@@ -224,66 +224,6 @@
         <translation>Messwert vorher</translation>
     </message>
     <message>
-        <source>where it went</source>
-        <translation>Wohin es ging</translation>
-    </message>
-    <message>
-        <source>offset</source>
-        <translation>Versatz</translation>
-    </message>
-    <message>
-        <source>gain error</source>
-        <translation>Verstärkungsfehler</translation>
-    </message>
-    <message>
-        <source>nonlinearity</source>
-        <translation>Nichtlinearität</translation>
-    </message>
-    <message>
-        <source>hysteresis</source>
-        <translation>Hysterese</translation>
-    </message>
-    <message>
-        <source>interpolation error</source>
-        <translation>Interpolationsfehler</translation>
-    </message>
-    <message>
-        <source>its period</source>
-        <translation>seine Periode</translation>
-    </message>
-    <message>
-        <source>lag, time constant</source>
-        <translation>Verzögerung, Zeitkonstante</translation>
-    </message>
-    <message>
-        <source>lag, delay</source>
-        <translation>Verzögerung, Totzeit</translation>
-    </message>
-    <message>
-        <source>A, accuracy</source>
-        <translation>A, Genauigkeit</translation>
-    </message>
-    <message>
-        <source>R, repeatability</source>
-        <translation>R, Wiederholgenauigkeit</translation>
-    </message>
-    <message>
-        <source>B, reversal value</source>
-        <translation>B, Umkehrspanne</translation>
-    </message>
-    <message>
-        <source>B̄, mean reversal</source>
-        <translation>B̄, mittlere Umkehrspanne</translation>
-    </message>
-    <message>
-        <source>E, systematic deviation</source>
-        <translation>E, systematische Abweichung</translation>
-    </message>
-    <message>
-        <source>M, mean bidirectional</source>
-        <translation>M, mittlere beidseitige</translation>
-    </message>
-    <message>
         <source>Plan the motion and run it, or fit records that hold the sensor and the laser.</source>
         <translation>Die Bewegung planen und starten, oder Aufzeichnungen mit Sensor und Laser anpassen.</translation>
     </message>
@@ -294,6 +234,10 @@
     <message>
         <source>{axis}: {runs} runs, ISO 230-2 cycles of {targets} targets, {ends}, {time} min</source>
         <translation>{axis}: {runs} Läufe, Zyklen nach ISO 230-2 mit {targets} Zielen, {ends}, {time} min</translation>
+    </message>
+    <message>
+        <source>position reached</source>
+        <translation>erreichte Position</translation>
     </message>
     <message>
         <source>{low} to {high}</source>
@@ -346,22 +290,6 @@
     <message>
         <source>off</source>
         <translation>aus</translation>
-    </message>
-    <message>
-        <source>{axis}: at runs that were left out of the fit the reading&apos;s error is {after} {unit} rms with the calibration and {before} {same} without; it is not better and not used</source>
-        <translation>{axis}: bei zurückgehaltenen Läufen ist der Fehler des Messwerts {after} {unit} rms mit der Kalibrierung und {before} {same} ohne; sie ist nicht besser und wird nicht genutzt</translation>
-    </message>
-    <message>
-        <source>the zero drifts by {drift} rms while the runs last: it goes with time and not with the axis, and no calibration removes it; warm up, or calibrate often</source>
-        <translation>der Nullpunkt driftet während der Läufe um {drift} rms: er geht mit der Zeit und nicht mit der Achse, und keine Kalibrierung nimmt das weg; aufwärmen oder oft kalibrieren</translation>
-    </message>
-    <message>
-        <source>the laser was lost from {begin} s to {end} s</source>
-        <translation>der Laser war von {begin} s bis {end} s verloren</translation>
-    </message>
-    <message>
-        <source>no rows from {begin} s to {end} s</source>
-        <translation>keine Zeilen von {begin} s bis {end} s</translation>
     </message>
 </context>
 <context>

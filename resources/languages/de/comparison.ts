@@ -4,8 +4,8 @@
 <context>
     <name>comparison</name>
     <message>
-        <source>Play a trajectory, or open a record of the real machine, to see how far the model is.</source>
-        <translation>Eine Trajektorie abspielen oder eine Aufzeichnung der Maschine öffnen: dann zeigt sich, wie weit das Modell abweicht.</translation>
+        <source>Play a trajectory or open a record of the real machine to see how far the model is off.</source>
+        <translation>Eine Trajektorie abspielen oder eine Aufzeichnung der realen Maschine öffnen, um zu sehen, wie weit das Modell danebenliegt.</translation>
     </message>
     <message>
         <source>tap</source>
@@ -46,6 +46,10 @@
     <message>
         <source>Write the record in hand to a file (Ctrl+S)</source>
         <translation>Die vorliegende Aufzeichnung in eine Datei schreiben (Strg+S)</translation>
+    </message>
+    <message>
+        <source>Signals and their gaps</source>
+        <translation>Signale und ihre Lücken</translation>
     </message>
     <message>
         <source>, stopped early</source>

@@ -20,10 +20,6 @@
         <translation>Abnehmen</translation>
     </message>
     <message>
-        <source>Apply point</source>
-        <translation>Anlegen</translation>
-    </message>
-    <message>
         <source>it moves</source>
         <translation>sie bewegt sich</translation>
     </message>
@@ -32,32 +28,24 @@
         <translation>der Roboter hat keinen Piezo im offenen Kreis</translation>
     </message>
     <message>
-        <source>Close the marked point&apos;s loop around the axis, which stays in place, or open it</source>
-        <translation>Den Regelkreis des markierten Punkts um die Achse schließen, die stehen bleibt, oder ihn öffnen</translation>
+        <source>Close a loop of these gains around the axis, which stays in place, or open it</source>
+        <translation>Einen Regelkreis mit diesen Verstärkungen um die Achse schließen, die stehen bleibt, oder ihn öffnen</translation>
+    </message>
+    <message>
+        <source>Ends of moves, speeds and each row of a trajectory go through the inverse; the axis stays in place</source>
+        <translation>Enden von Bewegungen, Geschwindigkeiten und jede Zeile einer Trajektorie gehen durch die Inverse; die Achse bleibt stehen</translation>
     </message>
     <message>
         <source>no inverse is on: put one on first</source>
         <translation>keine Inverse ist angelegt: zuerst eine anlegen</translation>
     </message>
     <message>
-        <source>this device sends only trajectories through the inverse</source>
-        <translation>dieses Gerät schickt nur Trajektorien durch die Inverse</translation>
-    </message>
-    <message>
         <source>Play 6 s of swings over 60 % of the range</source>
         <translation>6 s Schwingungen über 60 % des Bereichs abspielen</translation>
     </message>
     <message>
-        <source>the gains in hand are of axis {axis}</source>
-        <translation>die vorliegenden Reglerparameter sind von Achse {axis}</translation>
-    </message>
-    <message>
         <source>Every set-point of this axis goes through the inverse; the axis stays in place</source>
         <translation>Jeder Sollwert dieser Achse geht durch die Inverse; die Achse bleibt stehen</translation>
-    </message>
-    <message>
-        <source>Played trajectories go through the inverse; single moves go as they are told</source>
-        <translation>Abgespielte Trajektorien gehen durch die Inverse; einzelne Bewegungen gehen unverändert</translation>
     </message>
     <message>
         <source>Without</source>
@@ -156,8 +144,8 @@
         <translation>Vorsteuerung</translation>
     </message>
     <message>
-        <source>What is left of the error on a trial</source>
-        <translation>Restfehler im Test</translation>
+        <source>Remaining error of a trial</source>
+        <translation>Restfehler eines Versuchs</translation>
     </message>
     <message>
         <source>moving the simulated axis</source>
@@ -244,12 +232,20 @@
         <translation>Aus Aufzeichnungen mit cmd und meas oder ref lernen</translation>
     </message>
     <message>
-        <source>Take the inverses of a file</source>
-        <translation>Die Inversen einer Datei nehmen</translation>
+        <source>Load inverses from a file</source>
+        <translation>Inverse aus einer Datei laden</translation>
     </message>
     <message>
-        <source>Keep these inverses in a file</source>
-        <translation>Diese Inversen in einer Datei behalten</translation>
+        <source>Save these inverses to a file</source>
+        <translation>Diese Inversen in einer Datei speichern</translation>
+    </message>
+    <message>
+        <source>Load gains from a file that rotemina tune wrote</source>
+        <translation>Verstärkungen aus einer Datei von rotemina tune laden</translation>
+    </message>
+    <message>
+        <source>Save inverses</source>
+        <translation>Inverse speichern</translation>
     </message>
     <message>
         <source>Search gains of a PID loop at 5 kHz on the simulated axis</source>
@@ -258,10 +254,6 @@
     <message>
         <source>Write the front with the point that is marked</source>
         <translation>Die Front mit dem markierten Punkt schreiben</translation>
-    </message>
-    <message>
-        <source>Take the gains of a file, as rotemina tune writes one</source>
-        <translation>Die Reglerparameter einer Datei nehmen, wie rotemina tune sie schreibt</translation>
     </message>
     <message>
         <source>nothing is under way</source>
@@ -282,10 +274,6 @@
     <message>
         <source>Inverses</source>
         <translation>Inverse</translation>
-    </message>
-    <message>
-        <source>Keep inverses</source>
-        <translation>Inverse sichern</translation>
     </message>
     <message>
         <source>Keep gains</source>
@@ -336,10 +324,6 @@
         <translation>Front</translation>
     </message>
     <message>
-        <source>What each inverse leaves of the command, on unseen rows</source>
-        <translation>Was jede Inverse vom Sollwert übrig lässt, auf ungesehenen Zeilen</translation>
-    </message>
-    <message>
         <source>Unseen, over the command [{unit}]</source>
         <translation>Ungesehen, über dem Sollwert [{unit}]</translation>
     </message>
@@ -348,16 +332,20 @@
         <translation>Sollwert [{unit}]</translation>
     </message>
     <message>
-        <source>Reading over what is wanted [{unit}]</source>
-        <translation>Messwert über Soll [{unit}]</translation>
+        <source>Residual of each inverse on unseen rows</source>
+        <translation>Restfehler jeder Inverse auf ungesehenen Zeilen</translation>
     </message>
     <message>
-        <source>wanted [{unit}]</source>
-        <translation>Soll [{unit}]</translation>
+        <source>Reading over reference [{unit}]</source>
+        <translation>Messwert über Sollwert [{unit}]</translation>
     </message>
     <message>
-        <source>Reading − wanted, mean off [{unit}]</source>
-        <translation>Messwert − Soll, ohne Mittel [{unit}]</translation>
+        <source>reference [{unit}]</source>
+        <translation>Sollwert [{unit}]</translation>
+    </message>
+    <message>
+        <source>Reading − reference, mean removed [{unit}]</source>
+        <translation>Messwert − Sollwert, ohne Mittelwert [{unit}]</translation>
     </message>
     <message>
         <source>Effort [ranges/s] over tracking [%]</source>
@@ -420,56 +408,28 @@
         <translation>Der Regelkreis verlangt mehr als den Bereich der Achse: sie vom Ende wegbewegen.</translation>
     </message>
     <message>
-        <source>Swing over all that the inverse saw, to wipe out what the axis went through before: takes off most of a constant error (of a loop it is taken off anyway)</source>
-        <translation>Über alles schwingen, was die Inverse gesehen hat, um die Vorgeschichte der Achse zu löschen: nimmt den größten Teil eines konstanten Fehlers weg (bei Regelung ist er ohnehin weg)</translation>
+        <source>Sweep the whole range of the inverse to erase the history of the axis: this removes most of a constant error (a loop removes it anyway)</source>
+        <translation>Den ganzen Bereich der Inverse durchfahren, um die Vorgeschichte der Achse zu löschen: das beseitigt den größten Teil eines konstanten Fehlers (ein Regelkreis beseitigt ihn ohnehin)</translation>
     </message>
     <message>
-        <source>modified Prandtl–Ishlinskii</source>
-        <translation>modifiziertes Prandtl–Ishlinskii</translation>
+        <source>Apply gains</source>
+        <translation>Regler anlegen</translation>
     </message>
     <message>
-        <source>linear</source>
-        <translation>linear</translation>
+        <source>below its trained range (clamped)</source>
+        <translation>unter dem gelernten Bereich (begrenzt)</translation>
     </message>
     <message>
-        <source>All swings are of one size, so that richer kinds would guess at other sizes: train on swings that grow or fade</source>
-        <translation>Alle Schwingungen sind gleich groß, sodass reichere Arten andere Größen raten müssten: mit wachsenden oder abklingenden Schwingungen lernen</translation>
+        <source>above its trained range (clamped)</source>
+        <translation>über dem gelernten Bereich (begrenzt)</translation>
     </message>
     <message>
-        <source>It is the simplest of those within 2% of the least</source>
-        <translation>Sie ist die einfachste unter denen bis 2% über dem kleinsten Fehler</translation>
-    </message>
-    <message>
-        <source>lag and creep</source>
-        <translation>Verzögerung und Kriechen</translation>
-    </message>
-    <message>
-        <source>plays</source>
-        <translation>Spiele</translation>
-    </message>
-    <message>
-        <source>done</source>
-        <translation>fertig</translation>
-    </message>
-    <message>
-        <source>below what it saw (clamped)</source>
-        <translation>unter dem Gesehenen (begrenzt)</translation>
-    </message>
-    <message>
-        <source>above what it saw (clamped)</source>
-        <translation>über dem Gesehenen (begrenzt)</translation>
-    </message>
-    <message>
-        <source>faster than it saw</source>
-        <translation>schneller als das Gesehene</translation>
+        <source>faster than it was trained</source>
+        <translation>schneller als gelernt</translation>
     </message>
     <message>
         <source>at an end of the machine&apos;s range (clamped)</source>
         <translation>an einem Ende des Maschinenbereichs (begrenzt)</translation>
-    </message>
-    <message>
-        <source>ANFIS, epoch {epoch}: {error} unseen</source>
-        <translation>ANFIS, Epoche {epoch}: {error} ungesehen</translation>
     </message>
     <message>
         <source>{rms} rms, mean {mean}</source>
@@ -488,8 +448,12 @@
         <translation>Punkt {number}: Folgefehler {tracking:.3g} %, Einschwingzeit {settling:.3g} ms, Überschwingen {overshoot:.2g} %, Ms {peak:.2f}</translation>
     </message>
     <message>
-        <source>{inverse} leaves {share} of the range on rows that no inverse was trained on; {others}</source>
-        <translation>{inverse} lässt {share} des Bereichs übrig, auf Zeilen, aus denen keine Inverse gelernt hat; {others}</translation>
+        <source>0 to {most}; held against the axis before it acts</source>
+        <translation>0 bis {most}; wird an der Achse geprüft, bevor es wirkt</translation>
+    </message>
+    <message>
+        <source>gain {letter} = {text}: must be a number from 0 to {most}, the greatest that a search tries</source>
+        <translation>Verstärkung {letter} = {text}: muss eine Zahl von 0 bis {most} sein, dem Größten, was eine Suche versucht</translation>
     </message>
 </context>
 <context>

@@ -20,11 +20,11 @@
         <translation>Gerät</translation>
     </message>
     <message>
-        <source>Look for ports again</source>
+        <source>Refresh the ports</source>
         <translation>Anschlüsse neu suchen</translation>
     </message>
     <message>
-        <source>Look for serial ports again</source>
+        <source>Refresh the serial ports</source>
         <translation>Serielle Anschlüsse neu suchen</translation>
     </message>
     <message>
@@ -48,12 +48,12 @@
         <translation>kein Treiber ist gewählt</translation>
     </message>
     <message>
-        <source>Connect to {name}; any other device is let go</source>
-        <translation>Mit {name} verbinden; ein anderes Gerät wird losgelassen</translation>
+        <source>Connect to {name}; any other device is disconnected</source>
+        <translation>Mit {name} verbinden; jedes andere Gerät wird getrennt</translation>
     </message>
     <message>
-        <source>Stop, and let go of the device; it holds where it stands</source>
-        <translation>Anhalten und das Gerät loslassen; es hält, wo es steht</translation>
+        <source>Stop and disconnect the device; it holds its position</source>
+        <translation>Anhalten und das Gerät trennen; es hält seine Position</translation>
     </message>
     <message>
         <source>Connect again to {name}, with the settings it had</source>
@@ -248,8 +248,8 @@
         <translation>Den Endschalter von {label} suchen</translation>
     </message>
     <message>
-        <source>You have looked: the machine stands where it stood when the connection was lost</source>
-        <translation>Nachgesehen: Die Maschine steht, wo sie beim Verlust der Verbindung stand</translation>
+        <source>Confirm that the machine stands where it stood when the connection was lost</source>
+        <translation>Bestätigen, dass die Maschine dort steht, wo sie beim Verlust der Verbindung stand</translation>
     </message>
     <message>
         <source>Go back to where the axes rested before the latest move: up, across, down</source>
@@ -328,8 +328,12 @@
         <translation>keine verlorene Verbindung macht die Position zweifelhaft</translation>
     </message>
     <message>
-        <source>there is no move to take back</source>
-        <translation>es gibt keine Bewegung zum Zurücknehmen</translation>
+        <source>there is no move to undo</source>
+        <translation>keine Bewegung zum Zurücknehmen</translation>
+    </message>
+    <message>
+        <source>this robot has no tip that a floor could bound</source>
+        <translation>dieser Roboter hat keine Spitze, die ein Boden begrenzen könnte</translation>
     </message>
     <message>
         <source>{name} keeps no parameters</source>
@@ -340,8 +344,8 @@
         <translation>die Parameter des Geräts sind die der Roboterdatei oder übernommen</translation>
     </message>
     <message>
-        <source>this robot has no tip that a floor could hold</source>
-        <translation>dieser Roboter hat keine Spitze, die ein Boden hielte</translation>
+        <source>{name} cannot set a voltage</source>
+        <translation>{name} kann keine Spannung ausgeben</translation>
     </message>
     <message>
         <source>there is no floor</source>
@@ -352,8 +356,8 @@
         <translation>Zustand</translation>
     </message>
     <message>
-        <source>E-stop</source>
-        <translation>Not-Halt</translation>
+        <source>Stop and lock</source>
+        <translation>Halt und sperren</translation>
     </message>
     <message>
         <source>Release</source>
@@ -380,8 +384,8 @@
         <translation>Alle Achsen anhalten; nichts bewegt sich bis zur Freigabe</translation>
     </message>
     <message>
-        <source>no emergency stop is latched</source>
-        <translation>kein Not-Halt ist eingerastet</translation>
+        <source>nothing is locked</source>
+        <translation>nichts ist gesperrt</translation>
     </message>
     <message>
         <source>Let the machine move again; it stands until it is told to</source>
@@ -404,22 +408,6 @@
         <translation>Über dem Boden</translation>
     </message>
     <message>
-        <source>Yes</source>
-        <translation>Ja</translation>
-    </message>
-    <message>
-        <source>Do what the question asks</source>
-        <translation>Tun, was gefragt ist</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation>Alles lassen, wie es ist</translation>
-    </message>
-    <message>
         <source>Tip</source>
         <translation>Spitze</translation>
     </message>
@@ -436,7 +424,7 @@
         <translation>unbekannt</translation>
     </message>
     <message>
-        <source>Put the floor where the tip is now; below it nothing moves</source>
+        <source>Set the floor where the tip is now; nothing moves below it</source>
         <translation>Den Boden dorthin legen, wo die Spitze jetzt ist; darunter bewegt sich nichts</translation>
     </message>
     <message>
@@ -470,6 +458,38 @@
     <message>
         <source>Remove</source>
         <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Amplifier voltage</source>
+        <translation>Spannung des Verstärkers</translation>
+    </message>
+    <message>
+        <source>Axis of the amplifier</source>
+        <translation>Achse des Verstärkers</translation>
+    </message>
+    <message>
+        <source>Voltage</source>
+        <translation>Spannung</translation>
+    </message>
+    <message>
+        <source>Apply …</source>
+        <translation>Anlegen …</translation>
+    </message>
+    <message>
+        <source>For service: apply this voltage slowly, whatever position it leads to</source>
+        <translation>Für den Service: diese Spannung langsam anlegen, zu welcher Position sie auch führt</translation>
+    </message>
+    <message>
+        <source>{low} to {high} V</source>
+        <translation>{low} bis {high} V</translation>
+    </message>
+    <message>
+        <source>Apply {volts:g} V to {axis}? The axis moves slowly to about {position}.</source>
+        <translation>{volts:g} V an {axis} anlegen? Die Achse fährt langsam auf etwa {position}.</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Anlegen</translation>
     </message>
 </context>
 <context>

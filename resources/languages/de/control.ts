@@ -28,10 +28,6 @@
         <translation>unbekannt</translation>
     </message>
     <message>
-        <source>go to [{symbol}]</source>
-        <translation>→ [{symbol}]</translation>
-    </message>
-    <message>
         <source>{label} target in {symbol}</source>
         <translation>{label} Ziel in {symbol}</translation>
     </message>
@@ -42,6 +38,14 @@
     <message>
         <source>{label}: the robot file gives no max_speed; use steps instead.</source>
         <translation>{label}: die Roboterdatei nennt keine max_speed; Schritte benutzen.</translation>
+    </message>
+    <message>
+        <source>{label}: measured minus command</source>
+        <translation>{label}: gemessen minus Sollwert</translation>
+    </message>
+    <message>
+        <source>Measured minus command; the bound is {bound}.</source>
+        <translation>Gemessen minus Sollwert; die Grenze ist {bound}.</translation>
     </message>
     <message>
         <source>Move?</source>
@@ -96,8 +100,8 @@
         <translation>Skalierung</translation>
     </message>
     <message>
-        <source>What the stick&apos;s place means</source>
-        <translation>Was die Lage des Knüppels bedeutet</translation>
+        <source>Meaning of the stick&apos;s position</source>
+        <translation>Bedeutung der Stellung des Joysticks</translation>
     </message>
     <message>
         <source>Step preset</source>
@@ -116,12 +120,12 @@
         <translation>Keine Achse wird gefahren.</translation>
     </message>
     <message>
-        <source>nobody else drives an axis that could be taken over</source>
-        <translation>niemand sonst fährt eine Achse, die zu übernehmen wäre</translation>
+        <source>nobody else drives an axis</source>
+        <translation>niemand sonst bewegt eine Achse</translation>
     </message>
     <message>
-        <source>Make the axes yours that somebody else drives; they go on until told otherwise</source>
-        <translation>Achsen übernehmen, die ein anderer fährt; sie laufen weiter, bis anderes befohlen wird</translation>
+        <source>Take over the axes that somebody else drives; they go on until you command them</source>
+        <translation>Achsen übernehmen, die jemand anders bewegt; sie fahren weiter, bis ein neuer Befehl kommt</translation>
     </message>
     <message>
         <source>Mode {text}</source>
@@ -201,6 +205,7 @@
     </message>
     <message>
         <source>Saved positions</source>
+        <extracomment>What the next press replaces or deletes.</extracomment>
         <translation>Gespeicherte Positionen</translation>
     </message>
     <message>
@@ -212,20 +217,96 @@
         <translation>noch keine</translation>
     </message>
     <message>
-        <source>name of this place</source>
-        <translation>Name dieser Position</translation>
+        <source>Change pin or dish</source>
+        <translation>Nadel oder Schale wechseln</translation>
     </message>
     <message>
-        <source>Name for where the robot is now</source>
-        <translation>Name für die jetzige Position des Roboters</translation>
+        <source>Skip</source>
+        <translation>Auslassen</translation>
     </message>
     <message>
-        <source>What to call where the robot is now; at most {most} letters</source>
-        <translation>Wie die jetzige Position heißen soll; höchstens {most} Zeichen</translation>
+        <source>Leave this step out</source>
+        <translation>Diesen Schritt auslassen</translation>
+    </message>
+    <message>
+        <source>Teach here?</source>
+        <translation>Hier lernen?</translation>
+    </message>
+    <message>
+        <source>no position {name!r} is saved; skip, or save it</source>
+        <translation>keine Position {name!r} ist gespeichert; auslassen oder speichern</translation>
+    </message>
+    <message>
+        <source>Retract: Z to its upper end</source>
+        <translation>Zurückziehen: Z an sein oberes Ende</translation>
+    </message>
+    <message>
+        <source>Retract</source>
+        <translation>Zurückziehen</translation>
+    </message>
+    <message>
+        <source>Go to the load position</source>
+        <translation>Zur Ladeposition fahren</translation>
     </message>
     <message>
         <source>Go there</source>
         <translation>Anfahren</translation>
+    </message>
+    <message>
+        <source>Forget the floor and the tip in the picture</source>
+        <translation>Boden und Spitze im Bild vergessen</translation>
+    </message>
+    <message>
+        <source>Forget them</source>
+        <translation>Vergessen</translation>
+    </message>
+    <message>
+        <source>Lock; then change the pin or the dish by hand</source>
+        <translation>Sperren; dann Nadel oder Schale von Hand wechseln</translation>
+    </message>
+    <message>
+        <source>Stop and lock</source>
+        <translation>Halt und sperren</translation>
+    </message>
+    <message>
+        <source>Pin or dish is changed and hands are clear: release the lock</source>
+        <translation>Stift oder Schale ist gewechselt, keine Hand ist in der Nähe: Sperre lösen</translation>
+    </message>
+    <message>
+        <source>Release</source>
+        <translation>Freigeben</translation>
+    </message>
+    <message>
+        <source>Go above the work position, Z up</source>
+        <translation>Über die Arbeitsposition fahren, Z oben</translation>
+    </message>
+    <message>
+        <source>Find the tip in the microscope; come down by hand, slowly</source>
+        <translation>Die Spitze im Mikroskop suchen; langsam von Hand herunterfahren</translation>
+    </message>
+    <message>
+        <source>Show the microscope</source>
+        <translation>Mikroskop zeigen</translation>
+    </message>
+    <message>
+        <source>Teach the floor where the tip touches</source>
+        <translation>Den Boden lernen, wo die Spitze berührt</translation>
+    </message>
+    <message>
+        <source>Teach floor</source>
+        <translation>Boden lernen</translation>
+    </message>
+    <message>
+        <source>name of this position</source>
+        <translation>Name dieser Position</translation>
+    </message>
+    <message>
+        <source>Name for the present position</source>
+        <translation>Name für die jetzige Position</translation>
+    </message>
+    <message>
+        <source>Name for the present position; at most {most} letters</source>
+        <translation>Name für die jetzige Position; höchstens {most} Buchstaben</translation>
     </message>
     <message>
         <source>Delete</source>
@@ -234,6 +315,22 @@
     <message>
         <source>Save</source>
         <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>Home</source>
+        <translation>Ruhe</translation>
+    </message>
+    <message>
+        <source>Load</source>
+        <translation>Laden</translation>
+    </message>
+    <message>
+        <source>Work</source>
+        <translation>Arbeit</translation>
+    </message>
+    <message>
+        <source>Change …</source>
+        <translation>Wechseln …</translation>
     </message>
     <message>
         <source>Home all</source>
@@ -252,8 +349,16 @@
         <translation>Die Spitze über beide Orte heben, verfahren, absenken</translation>
     </message>
     <message>
-        <source>Forget this position; asks once more</source>
-        <translation>Diese Position vergessen; fragt nochmals</translation>
+        <source>Delete this position, after a question</source>
+        <translation>Diese Position nach einer Rückfrage löschen</translation>
+    </message>
+    <message>
+        <source>Save the present target of all axes</source>
+        <translation>Das jetzige Ziel aller Achsen speichern</translation>
+    </message>
+    <message>
+        <source>Not set: press twice to save the present target of all axes</source>
+        <translation>Nicht gesetzt: zweimal drücken, um das jetzige Ziel aller Achsen zu speichern</translation>
     </message>
     <message>
         <source>the position is not known</source>
@@ -264,8 +369,12 @@
         <translation>erst einen Namen eingeben</translation>
     </message>
     <message>
-        <source>Keep where all axes are told to be</source>
-        <translation>Die Sollpositionen aller Achsen behalten</translation>
+        <source>this robot has no axis z to lift the tip</source>
+        <translation>dieser Roboter hat keine Achse z, die die Spitze hebt</translation>
+    </message>
+    <message>
+        <source>Change the pin or the dish, step by step</source>
+        <translation>Nadel oder Schale Schritt für Schritt wechseln</translation>
     </message>
     <message>
         <source>Find the limit switches of all axes</source>
@@ -276,6 +385,14 @@
         <translation>Dorthin zurück, wo die Achsen vor der letzten Bewegung ruhten: hoch, quer, ab</translation>
     </message>
     <message>
+        <source>Go to the position {name!r} by a safe way; to move it, save another one by that name</source>
+        <translation>Auf sicherem Weg zur Position {name!r} fahren; um sie zu verlegen, eine andere unter diesem Namen speichern</translation>
+    </message>
+    <message>
+        <source>Set here?</source>
+        <translation>Hier setzen?</translation>
+    </message>
+    <message>
         <source>Replace?</source>
         <translation>Ersetzen?</translation>
     </message>
@@ -284,7 +401,7 @@
         <translation>Position {name!r} ist gespeichert.</translation>
     </message>
     <message>
-        <source>Sure?</source>
+        <source>Delete it?</source>
         <translation>Sicher?</translation>
     </message>
     <message>
@@ -388,6 +505,22 @@
         <translation>nicht referenziert</translation>
     </message>
     <message>
+        <source>H⁻¹: commands go through the inverse {name}; take it off in Compensation.</source>
+        <translation>H⁻¹: Sollwerte gehen durch die Inverse {name}; abnehmen im Panel Kompensation.</translation>
+    </message>
+    <message>
+        <source>{sign}: jogs and go-to end from below.</source>
+        <translation>{sign}: Schritte und Fahrten enden von unten.</translation>
+    </message>
+    <message>
+        <source>{sign}: jogs and go-to end from above.</source>
+        <translation>{sign}: Schritte und Fahrten enden von oben.</translation>
+    </message>
+    <message>
+        <source>In brackets: it did not come here so.</source>
+        <translation>In Klammern: hierher kam sie nicht so.</translation>
+    </message>
+    <message>
         <source>{label} range: {low} … {high}</source>
         <translation>Bereich {label}: {low} … {high}</translation>
     </message>
@@ -397,7 +530,7 @@
     </message>
     <message>
         <source>a point, no comma</source>
-        <translation>Punkt, kein Komma</translation>
+        <translation>nur ein Komma, keine Tausenderpunkte</translation>
     </message>
     <message>
         <source>no number</source>
@@ -409,7 +542,7 @@
     </message>
     <message>
         <source>{label}: {text!r} is not a position; type a number in {symbol} with a decimal point.</source>
-        <translation>{label}: {text!r} ist keine Position; eine Zahl in {symbol} mit Dezimalpunkt eingeben.</translation>
+        <translation>{label}: {text!r} ist keine Position; eine Zahl in {symbol} mit Dezimalkomma eingeben.</translation>
     </message>
     <message>
         <source>No tip: this robot has no chain of axes to one.</source>
@@ -448,8 +581,12 @@
         <translation>Spitze unbekannt</translation>
     </message>
     <message>
-        <source>Only the ranges of the axes hold this robot.</source>
-        <translation>Nur die Achsbereiche begrenzen diesen Roboter.</translation>
+        <source>Only the ranges of its axes bound this robot.</source>
+        <translation>Nur die Bereiche seiner Achsen begrenzen diesen Roboter.</translation>
+    </message>
+    <message>
+        <source>Only the ranges of the axes bound the tip. Teach a floor in Connection, Tip.</source>
+        <translation>Nur die Bereiche der Achsen begrenzen die Spitze. Unter Verbindung, Spitze einen Boden einlernen.</translation>
     </message>
     <message>
         <source>floor at {height}</source>
@@ -464,12 +601,88 @@
         <translation>höchstens {height} von der Mitte</translation>
     </message>
     <message>
-        <source>Nothing bounds the tip but its axes. Teach a floor in Connection, Tip.</source>
-        <translation>Nur die Achsen begrenzen die Spitze. Boden lernen: Verbindung, Spitze.</translation>
+        <source> Within {height} above the floor it goes down at {speed} at most.</source>
+        <translation> Bis {height} über dem Boden sinkt sie mit höchstens {speed}.</translation>
     </message>
     <message>
-        <source> Within {height} above the floor it goes down at {speed}/s at most.</source>
-        <translation> Bis {height} über dem Boden sinkt sie mit höchstens {speed}/s.</translation>
+        <source>Axis</source>
+        <translation>Achse</translation>
+    </message>
+    <message>
+        <source>Whose range and approach</source>
+        <translation>Wessen Bereich und Anfahrt</translation>
+    </message>
+    <message>
+        <source>Low end of the range</source>
+        <translation>Unteres Ende des Bereichs</translation>
+    </message>
+    <message>
+        <source>High end of the range</source>
+        <translation>Oberes Ende des Bereichs</translation>
+    </message>
+    <message>
+        <source>Width of the approach</source>
+        <translation>Weite der Anfahrt</translation>
+    </message>
+    <message>
+        <source>Narrow</source>
+        <translation>Einengen</translation>
+    </message>
+    <message>
+        <source>Whole</source>
+        <translation>Ganz</translation>
+    </message>
+    <message>
+        <source>Approach</source>
+        <translation>Anfahrt</translation>
+    </message>
+    <message>
+        <source>straight</source>
+        <translation>direkt</translation>
+    </message>
+    <message>
+        <source>from below</source>
+        <translation>von unten</translation>
+    </message>
+    <message>
+        <source>from above</source>
+        <translation>von oben</translation>
+    </message>
+    <message>
+        <source>the machine is moving</source>
+        <translation>die Maschine bewegt sich</translation>
+    </message>
+    <message>
+        <source>Let the axis be sent nowhere else</source>
+        <translation>Die Achse nirgends sonst hinschicken lassen</translation>
+    </message>
+    <message>
+        <source>its range is whole</source>
+        <translation>ihr Bereich ist ganz</translation>
+    </message>
+    <message>
+        <source>Give back the range of the robot file</source>
+        <translation>Den Bereich der Roboterdatei zurückgeben</translation>
+    </message>
+    <message>
+        <source>only stepper axes have backlash to take up</source>
+        <translation>nur Schrittmotorachsen haben Spiel, das herauszunehmen ist</translation>
+    </message>
+    <message>
+        <source>Within {ends}</source>
+        <translation>Innerhalb {ends}</translation>
+    </message>
+    <message>
+        <source>From which side targets are come to</source>
+        <translation>Von welcher Seite Ziele angefahren werden</translation>
+    </message>
+    <message>
+        <source>How far beyond it goes first: more than the play</source>
+        <translation>Wie weit sie erst darüber hinaus fährt: mehr als das Spiel</translation>
+    </message>
+    <message>
+        <source>Range</source>
+        <translation>Bereich</translation>
     </message>
 </context>
 <context>

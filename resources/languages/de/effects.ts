@@ -201,11 +201,11 @@
     </message>
     <message>
         <source>{text} is no number; type one with a decimal point</source>
-        <translation>{text} ist keine Zahl; eine mit Dezimalpunkt eingeben</translation>
+        <translation>{text} ist keine Zahl; eine mit Dezimalkomma eingeben</translation>
     </message>
     <message>
         <source>{text} is no number; type one in {unit} with a decimal point</source>
-        <translation>{text} ist keine Zahl; eine in {unit} mit Dezimalpunkt eingeben</translation>
+        <translation>{text} ist keine Zahl; eine in {unit} mit Dezimalkomma eingeben</translation>
     </message>
     <message>
         <source>{value} is refused: must be {range}</source>
@@ -260,8 +260,8 @@
         <translation>Verstärkerverzögerung</translation>
     </message>
     <message>
-        <source>Phase and gain both fall with frequency; a tap at u shows it.</source>
-        <translation>Phase und Verstärkung fallen mit der Frequenz; ein Abgriff bei u zeigt es.</translation>
+        <source>Phase and gain both fall with frequency; a recorded u shows it.</source>
+        <translation>Phase und Verstärkung fallen mit der Frequenz; ein aufgezeichnetes u zeigt es.</translation>
     </message>
     <message>
         <source>Delay</source>

@@ -100,8 +100,12 @@
         <translation>Karte</translation>
     </message>
     <message>
-        <source>A board begins anew; it does not know where its steppers are</source>
-        <translation>Eine Steuerkarte beginnt neu; sie weiß nicht, wo ihre Schrittmotoren stehen</translation>
+        <source>A board restarts and does not know where its steppers are</source>
+        <translation>Eine Karte startet neu und weiß nicht, wo ihre Schrittmotoren stehen</translation>
+    </message>
+    <message>
+        <source>A sensor repeats one reading until it is thawed</source>
+        <translation>Ein Sensor wiederholt einen Messwert, bis er freigegeben wird</translation>
     </message>
     <message>
         <source>reset</source>
@@ -114,10 +118,6 @@
     <message>
         <source>Sensor</source>
         <translation>Sensor</translation>
-    </message>
-    <message>
-        <source>A sensor says the same until it is thawed</source>
-        <translation>Ein Sensor meldet dasselbe, bis er wieder freigegeben wird</translation>
     </message>
     <message>
         <source>freeze</source>
@@ -168,8 +168,8 @@
         <translation>wieder da</translation>
     </message>
     <message>
-        <source>emergency stop</source>
-        <translation>Not-Halt</translation>
+        <source>stop and lock</source>
+        <translation>Halt und sperren</translation>
     </message>
     <message>
         <source>injected</source>

@@ -57,12 +57,12 @@
     </message>
     <message>
         <source>Press Diagnose: the program looks where the model departs from what was measured, which effect the model lacks, and how far the gap shrinks with it. It takes about half a minute for each axis with a gap, and can be stopped at any time.</source>
-        <translation>Diagnose drücken: das Programm sucht, wo das Modell vom Gemessenen abweicht, welcher Effekt dem Modell fehlt und wie weit die Lücke damit schrumpft. Es dauert etwa eine halbe Minute je Achse mit einer Lücke und lässt sich jederzeit anhalten.</translation>
+        <translation>Diagnose drücken: das Programm sucht, wo das Modell vom Gemessenen abweicht, welcher Effekt dem Modell fehlt und wie weit die Abweichung damit schrumpft. Es dauert etwa eine halbe Minute je Achse mit einer Abweichung und lässt sich jederzeit anhalten.</translation>
     </message>
     <message>
-        <source>Here stands how far the gap shrinks on a motion that the diagnosis has not seen.
+        <source>This page shows how far the gap shrinks on a motion that the diagnosis has not seen.
 Press “New motion …”, or play any trajectory of the diagnosed axes.</source>
-        <translation>Hier steht, wie weit die Lücke bei einer Bewegung schrumpft, die die Diagnose nicht gesehen hat.
+        <translation>Hier steht, wie weit die Abweichung bei einer Bewegung schrumpft, die die Diagnose nicht gesehen hat.
 „Neue Bewegung …“ drücken oder irgendeine Trajektorie der diagnostizierten Achsen abspielen.</translation>
     </message>
     <message>
@@ -74,24 +74,28 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Das Modell so verwenden. Effekte, die diese Bewegungen nicht anregen, sind nicht ausgeschlossen.</translation>
     </message>
     <message>
-        <source>The model lacks what is named below; with it in, it follows the machine.</source>
-        <translation>Dem Modell fehlt das unten Genannte; damit folgt es der Maschine.</translation>
+        <source>The model lacks what is named below; with it, the model follows the machine.</source>
+        <translation>Dem Modell fehlt, was unten genannt ist; damit folgt es der Maschine.</translation>
+    </message>
+    <message>
+        <source>Press “Play next experiment …” to tell them apart.</source>
+        <translation>„Nächstes Experiment spielen …“ drücken, um sie zu unterscheiden.</translation>
     </message>
     <message>
         <source>Press “Use corrected model”; then “New motion …” shows how far the gap shrinks.</source>
         <translation>Drücken Sie „Korrigiertes Modell verwenden“; dann zeigt „Neue Bewegung …“, wie weit die Abweichung schrumpft.</translation>
     </message>
     <message>
+        <source>What is named below is present; no effect of the catalogue explains the rest of the gap.</source>
+        <translation>Was unten genannt ist, liegt vor; den Rest der Abweichung erklärt kein Effekt des Katalogs.</translation>
+    </message>
+    <message>
         <source>Press “Use corrected model”: it follows the machine better. Look under Where what the rest depends on.</source>
         <translation>Drücken Sie „Korrigiertes Modell verwenden“: Es folgt der Maschine besser. Sehen Sie unter Wo nach, wovon der Rest abhängt.</translation>
     </message>
     <message>
-        <source>What is named below is there; something else, which no effect of the catalogue accounts for, is left beside it.</source>
-        <translation>Was unten genannt ist, ist da; daneben bleibt etwas, das kein Effekt des Katalogs erklärt.</translation>
-    </message>
-    <message>
         <source>The gap is real, but no effect of the catalogue accounts for it. Nothing is guessed.</source>
-        <translation>Die Lücke ist echt, aber kein Effekt des Katalogs erklärt sie. Nichts wird geraten.</translation>
+        <translation>Die Abweichung ist echt, aber kein Effekt des Katalogs erklärt sie. Nichts wird geraten.</translation>
     </message>
     <message>
         <source>Look under Where what it depends on; check cables, clamps and sensor; record once more, slower and faster. Keep what the report says for whoever maintains the model.</source>
@@ -114,16 +118,12 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Nicht entschieden: {effects} täte es bei diesen Aufzeichnungen ebenso. Die ganze Menge als Antwort nehmen.</translation>
     </message>
     <message>
-        <source>Press “Play next experiment …”: it parts them.</source>
-        <translation>„Nächstes Experiment …“ drücken: es trennt sie.</translation>
-    </message>
-    <message>
         <source>What to do: {advice}</source>
         <translation>Was zu tun ist: {advice}</translation>
     </message>
     <message>
         <source>Gap: {bars}</source>
-        <translation>Lücke: {bars}</translation>
+        <translation>Abweichung: {bars}</translation>
     </message>
     <message>
         <source>Machines are drawn by equations that the diagnosis does not know, each with hidden effects. The name of what is hidden is sealed until the diagnosis has answered; then it is opened and compared. A case takes about half a minute. It runs beside everything else and can be stopped and gone on with: what is done stays.</source>
@@ -137,7 +137,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>no gap</source>
-        <translation>keine Lücke</translation>
+        <translation>keine Abweichung</translation>
     </message>
     <message>
         <source>unknown</source>
@@ -301,7 +301,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>Back to the map of the gap by band and regime</source>
-        <translation>Zurück zur Karte der Lücke nach Band und Bewegungsart</translation>
+        <translation>Zurück zur Karte der Abweichung nach Band und Bewegungsart</translation>
     </message>
     <message>
         <source>Record</source>
@@ -317,7 +317,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>gap [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;the whole&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in this band meanwhile&lt;/span&gt;: {rms} rms in {time:.3g} s</source>
-        <translation>Lücke [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;ganz&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in diesem Band dabei&lt;/span&gt;: {rms} rms in {time:.3g} s</translation>
+        <translation>Abweichung [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;ganz&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in diesem Band dabei&lt;/span&gt;: {rms} rms in {time:.3g} s</translation>
     </message>
     <message>
         <source>{doing}, about {time:.0f} s left</source>
@@ -325,11 +325,11 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>Rms of the gap on data that no fit has seen: as the model is, with its own parameters re-tuned, then with one effect after the other. No model gets below the noise floor; the black box is what no explanation can be expected to beat by far.</source>
-        <translation>Effektivwert der Lücke auf Daten, die keine Anpassung gesehen hat: wie das Modell ist, mit neu abgestimmten eigenen Parametern, dann mit einem Effekt nach dem anderen. Kein Modell kommt unter die Rauschgrenze; die Blackbox ist, was keine Erklärung weit übertreffen kann.</translation>
+        <translation>Effektivwert der Abweichung auf Daten, die keine Anpassung gesehen hat: wie das Modell ist, mit neu abgestimmten eigenen Parametern, dann mit einem Effekt nach dem anderen. Kein Modell kommt unter die Rauschgrenze; die Blackbox ist, was keine Erklärung weit übertreffen kann.</translation>
     </message>
     <message>
         <source>No gap to close was found on this axis.</source>
-        <translation>Auf dieser Achse ist keine Lücke zu schließen.</translation>
+        <translation>Auf dieser Achse ist keine Abweichung zu schließen.</translation>
     </message>
     <message>
         <source>re-tuned</source>
@@ -350,26 +350,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>{axis} {tap}, rms on unseen data: closed {share} ({interval})</source>
         <translation>{axis} {tap}, rms auf neuen Daten: geschlossen {share} ({interval})</translation>
-    </message>
-    <message>
-        <source>No gap.</source>
-        <translation>Keine Lücke.</translation>
-    </message>
-    <message>
-        <source>Explained.</source>
-        <translation>Erklärt.</translation>
-    </message>
-    <message>
-        <source>Explained in part.</source>
-        <translation>Zum Teil erklärt.</translation>
-    </message>
-    <message>
-        <source>Unknown gap.</source>
-        <translation>Unbekannte Lücke.</translation>
-    </message>
-    <message>
-        <source>Insufficient excitation.</source>
-        <translation>Anregung ungenügend.</translation>
     </message>
     <message>
         <source>{times:.3g} × smaller</source>
@@ -404,12 +384,28 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Wie weit</translation>
     </message>
     <message>
-        <source>New motion</source>
-        <translation>Neue Bewegung</translation>
+        <source>Unseen motion</source>
+        <translation>Ungesehene Bewegung</translation>
     </message>
     <message>
-        <source>On which axis, at which tap, in which frequencies and while the axis did what</source>
-        <translation>Auf welcher Achse, an welchem Abgriff, bei welchen Frequenzen und während welcher Bewegung</translation>
+        <source>Axis, channel, frequencies and kind of motion in which the gap lies</source>
+        <translation>Achse, Kanal, Frequenzen und Bewegungsart, in denen die Abweichung liegt</translation>
+    </message>
+    <message>
+        <source>nothing of what was found can be predicted from commands</source>
+        <translation>nichts vom Gefundenen lässt sich aus Befehlen vorhersagen</translation>
+    </message>
+    <message>
+        <source>Play the motion that best tells what these records cannot, and diagnose its record with them</source>
+        <translation>Die Bewegung abspielen, die am besten verrät, was diese Aufzeichnungen nicht können, und ihre Aufzeichnung mit ihnen diagnostizieren</translation>
+    </message>
+    <message>
+        <source>Stop the diagnosis; motion goes on</source>
+        <translation>Die Diagnose abbrechen; die Bewegung geht weiter</translation>
+    </message>
+    <message>
+        <source>New motion</source>
+        <translation>Neue Bewegung</translation>
     </message>
     <message>
         <source>The candidates with their probabilities, what is said of them and what to do</source>
@@ -417,27 +413,11 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>How far the gap shrinks with what was found, down to the noise floor</source>
-        <translation>Wie weit die Lücke mit dem Gefundenen schrumpft, bis zur Rauschgrenze</translation>
+        <translation>Wie weit die Abweichung mit dem Gefundenen schrumpft, bis zur Rauschgrenze</translation>
     </message>
     <message>
         <source>How far it shrinks on a motion that the diagnosis has not seen</source>
         <translation>Wie weit sie bei einer Bewegung schrumpft, die die Diagnose nicht gesehen hat</translation>
-    </message>
-    <message>
-        <source>First: the model, and records of the real machine</source>
-        <translation>Zuerst: das Modell und Aufzeichnungen der echten Maschine</translation>
-    </message>
-    <message>
-        <source>Then: let the program look for what the model lacks</source>
-        <translation>Dann: das Programm suchen lassen, was dem Modell fehlt</translation>
-    </message>
-    <message>
-        <source>In the end: use what was found</source>
-        <translation>Am Ende: das Gefundene nutzen</translation>
-    </message>
-    <message>
-        <source>commands foretell nothing of what was found</source>
-        <translation>Befehle sagen nichts von dem voraus, was gefunden wurde</translation>
     </message>
     <message>
         <source>there is no answer yet; diagnose records first</source>
@@ -496,16 +476,16 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Nächstes Experiment …</translation>
     </message>
     <message>
-        <source>Play the motion that would tell best what these records cannot, and diagnose its record together with them</source>
-        <translation>Die Bewegung abspielen, die am besten zeigt, was diese Aufzeichnungen nicht können, und ihre Aufzeichnung mit ihnen diagnostizieren</translation>
+        <source>Noise floor {floor}</source>
+        <translation>Rauschgrenze {floor}</translation>
     </message>
     <message>
         <source>Axis</source>
         <translation>Achse</translation>
     </message>
     <message>
-        <source>The axis of which the page speaks</source>
-        <translation>Die Achse, von der die Seite handelt</translation>
+        <source>Nominal → corrected, on data that no fit has seen</source>
+        <translation>Nominal → korrigiert, an Daten, die keine Anpassung gesehen hat</translation>
     </message>
     <message>
         <source>There are no records to diagnose: choose some.</source>
@@ -528,7 +508,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Diagnose …</translation>
     </message>
     <message>
-        <source>Look for what the model lacks</source>
+        <source>Find what the model lacks</source>
         <translation>Suchen, was dem Modell fehlt</translation>
     </message>
     <message>
@@ -538,10 +518,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>a diagnosis runs</source>
         <translation>eine Diagnose läuft</translation>
-    </message>
-    <message>
-        <source>End it now; motion goes on</source>
-        <translation>Jetzt beenden; die Bewegung geht weiter</translation>
     </message>
     <message>
         <source>no effect was found</source>
@@ -613,6 +589,10 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Achse, Abgriff</translation>
     </message>
     <message>
+        <source>record</source>
+        <translation>Aufzeichnung</translation>
+    </message>
+    <message>
         <source>nominal</source>
         <translation>nominal</translation>
     </message>
@@ -621,8 +601,20 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>mit dem Gefundenen</translation>
     </message>
     <message>
-        <source>change</source>
-        <translation>Änderung</translation>
+        <source>unseen motion</source>
+        <translation>ungesehene Bewegung</translation>
+    </message>
+    <message>
+        <source>worse: {change}</source>
+        <translation>schlechter: {change}</translation>
+    </message>
+    <message>
+        <source>better: {change}</source>
+        <translation>besser: {change}</translation>
+    </message>
+    <message>
+        <source>about the same</source>
+        <translation>etwa gleich</translation>
     </message>
     <message>
         <source>Rms of what was measured less what the model says, its offset included, over what moves and 0.5 s after; intervals by drawing blocks of the record anew</source>
@@ -630,7 +622,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>How far the gap shrinks on the new motion</source>
-        <translation>Wie weit die Lücke bei der neuen Bewegung schrumpft</translation>
+        <translation>Wie weit die Abweichung bei der neuen Bewegung schrumpft</translation>
     </message>
     <message>
         <source>{axis}: 1 candidate tried</source>
@@ -677,6 +669,22 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Aufzeichnungen, die diagnostiziert werden:</translation>
     </message>
     <message>
+        <source>Add records …</source>
+        <translation>Aufzeichnungen hinzufügen …</translation>
+    </message>
+    <message>
+        <source>Records</source>
+        <translation>Aufzeichnungen</translation>
+    </message>
+    <message>
+        <source>gap</source>
+        <translation>Abweichung</translation>
+    </message>
+    <message>
+        <source>Gap from the model in use: of the axis with most noise floors</source>
+        <translation>Abweichung vom verwendeten Modell: die der Achse mit den meisten Rauschgrenzen</translation>
+    </message>
+    <message>
         <source>{name}: it has no header; add it by itself to name its columns</source>
         <translation>{name}: ohne Kopfzeile; allein hinzufügen, um die Spalten zu benennen</translation>
     </message>
@@ -687,18 +695,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>Add files …</source>
         <translation>Dateien hinzufügen …</translation>
-    </message>
-    <message>
-        <source>Add {name}</source>
-        <translation>{name} hinzufügen</translation>
-    </message>
-    <message>
-        <source>Add the last playback</source>
-        <translation>Die letzte Wiedergabe hinzufügen</translation>
-    </message>
-    <message>
-        <source>Remove {name}</source>
-        <translation>{name} entfernen</translation>
     </message>
     <message>
         <source>Records of the real machine</source>
@@ -733,24 +729,24 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Die Aufzeichnungen werden gelesen.</translation>
     </message>
     <message>
-        <source>Where does the gap lie: on which axis, at which tap, in which frequencies?</source>
-        <translation>Wo liegt die Lücke: auf welcher Achse, an welchem Abgriff, bei welchen Frequenzen?</translation>
-    </message>
-    <message>
-        <source>A first look at every effect that the axis may have.</source>
-        <translation>Ein erster Blick auf jeden Effekt, den die Achse haben kann.</translation>
-    </message>
-    <message>
         <source>The likeliest candidates are fitted to the records, one beside the other.</source>
         <translation>Die wahrscheinlichsten Kandidaten werden an die Aufzeichnungen angepasst, nebeneinander.</translation>
     </message>
     <message>
-        <source>Which of them stands on data that its fit has not seen?</source>
-        <translation>Welcher davon besteht auf ungesehenen Daten?</translation>
+        <source>Where does the gap lie: on which axis, in which channel, at which frequencies?</source>
+        <translation>Wo liegt die Abweichung: auf welcher Achse, in welchem Kanal, bei welchen Frequenzen?</translation>
     </message>
     <message>
-        <source>What was found is drawn.</source>
-        <translation>Das Gefundene wird gezeichnet.</translation>
+        <source>Screening every effect that the axis may have.</source>
+        <translation>Alle Effekte, die die Achse haben kann, werden gesichtet.</translation>
+    </message>
+    <message>
+        <source>Which of them holds on data that its fit has not seen?</source>
+        <translation>Welcher davon besteht auf Daten, die seine Anpassung nicht gesehen hat?</translation>
+    </message>
+    <message>
+        <source>Drawing the result.</source>
+        <translation>Das Ergebnis wird gezeichnet.</translation>
     </message>
     <message>
         <source>Axis {axis}.</source>
@@ -758,23 +754,23 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>A bar is the share of the gap that a candidate closes: an outline at a first look, light once it is fitted, full once it is judged by data that its fit has not seen. The answer also asks which causes are needed beside each other, and may be another.</source>
-        <translation>Balken: Anteil der Lücke, den ein Kandidat schließt. Umriss: erster Blick; hell: angepasst; voll: auf ungesehenen Daten beurteilt. Die Antwort prüft auch, welche Ursachen zusammen nötig sind, und kann anders sein.</translation>
+        <translation>Balken: Anteil der Abweichung, den ein Kandidat schließt. Umriss: erster Blick; hell: angepasst; voll: auf ungesehenen Daten beurteilt. Die Antwort prüft auch, welche Ursachen zusammen nötig sind, und kann anders sein.</translation>
     </message>
     <message>
         <source>Record and tap</source>
         <translation>Aufzeichnung und Abgriff</translation>
     </message>
     <message>
-        <source>Which record, at which tap of the chain</source>
-        <translation>Welche Aufzeichnung, an welchem Abgriff der Kette</translation>
+        <source>Record and channel</source>
+        <translation>Aufzeichnung und Kanal</translation>
     </message>
     <message>
         <source>gap [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;before&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;noise floor&lt;/span&gt;</source>
-        <translation>Lücke [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;vorher&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;Rauschgrenze&lt;/span&gt;</translation>
+        <translation>Abweichung [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;vorher&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;Rauschgrenze&lt;/span&gt;</translation>
     </message>
     <message>
         <source>gap [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;before&lt;/span&gt;, &lt;span style=&quot;color:{model}&quot;&gt;after&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;noise floor&lt;/span&gt;</source>
-        <translation>Lücke [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;vorher&lt;/span&gt;, &lt;span style=&quot;color:{model}&quot;&gt;nachher&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;Rauschgrenze&lt;/span&gt;</translation>
+        <translation>Abweichung [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;vorher&lt;/span&gt;, &lt;span style=&quot;color:{model}&quot;&gt;nachher&lt;/span&gt;, &lt;span style=&quot;color:{good}&quot;&gt;Rauschgrenze&lt;/span&gt;</translation>
     </message>
     <message>
         <source>share</source>
@@ -782,7 +778,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>gap rms</source>
-        <translation>Lücke rms</translation>
+        <translation>Abweichung rms</translation>
     </message>
     <message>
         <source>worst at</source>
@@ -801,36 +797,36 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Wo gelesen wurde: u ist die Spannung, ref der Referenzsensor, meas der eigene Sensor der Maschine</translation>
     </message>
     <message>
-        <source>Of the gap above the noise floors of all axes and taps</source>
-        <translation>Von der Lücke über den Rauschgrenzen aller Achsen und Abgriffe</translation>
-    </message>
-    <message>
-        <source>Of what was measured less what the model says, its mean taken out</source>
-        <translation>Von Messung minus Modell, ohne Mittelwert</translation>
-    </message>
-    <message>
-        <source>Rms of what noise and rounding of the sensor leave, which no model explains</source>
-        <translation>Effektivwert dessen, was Rauschen und Rundung des Sensors lassen und kein Modell erklärt</translation>
-    </message>
-    <message>
         <source>The band that holds most of it</source>
         <translation>Das Band, das am meisten davon enthält</translation>
     </message>
     <message>
         <source>What the axis was doing where the gap is largest</source>
-        <translation>Was die Achse tat, wo die Lücke am größten ist</translation>
+        <translation>Was die Achse tat, wo die Abweichung am größten ist</translation>
     </message>
     <message>
-        <source>The share is between these in 95 of 100 cases</source>
-        <translation>Der Anteil liegt in 95 von 100 Fällen dazwischen</translation>
+        <source>Share of the gap above the noise floors of all axes and channels</source>
+        <translation>Anteil an der Abweichung über den Rauschgrenzen aller Achsen und Kanäle</translation>
+    </message>
+    <message>
+        <source>Measured minus model, mean removed</source>
+        <translation>Gemessen minus Modell, ohne Mittelwert</translation>
+    </message>
+    <message>
+        <source>Rms of the sensor&apos;s noise and rounding, which no model explains</source>
+        <translation>Effektivwert von Rauschen und Rundung des Sensors, die kein Modell erklärt</translation>
+    </message>
+    <message>
+        <source>95 % interval of the share</source>
+        <translation>95-%-Intervall des Anteils</translation>
     </message>
     <message>
         <source>Where the gap lies</source>
-        <translation>Wo die Lücke liegt</translation>
+        <translation>Wo die Abweichung liegt</translation>
     </message>
     <message>
         <source>Gap by band and regime</source>
-        <translation>Lücke nach Band und Bewegungsart</translation>
+        <translation>Abweichung nach Band und Bewegungsart</translation>
     </message>
     <message>
         <source>{axis} {tap}, {regime}, {low:g} to {high:g} Hz</source>
@@ -842,7 +838,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>{place}: gap rms [noise floors], by what the axis did and by frequency from … Hz on. Click a cell to see its traces.</source>
-        <translation>{place}: Lücke rms [Rauschgrenzen], nach Bewegungsart und Frequenz ab … Hz. Eine Zelle anklicken, um die Verläufe zu sehen.</translation>
+        <translation>{place}: Abweichung rms [Rauschgrenzen], nach Bewegungsart und Frequenz ab … Hz. Eine Zelle anklicken, um die Verläufe zu sehen.</translation>
     </message>
     <message>
         <source>{low} to {high} Hz</source>
@@ -854,7 +850,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>{share} of the gap of the whole path</source>
-        <translation>{share} der Lücke des ganzen Wegs</translation>
+        <translation>{share} der Abweichung des ganzen Wegs</translation>
     </message>
     <message>
         <source>Click to see the traces</source>
@@ -873,10 +869,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Wahrscheinl.</translation>
     </message>
     <message>
-        <source>left [floors]</source>
-        <translation>Rest [Grenzen]</translation>
-    </message>
-    <message>
         <source>What was tried in place of the leading cause, the likeliest first; those that may be it stand out</source>
         <translation>Was anstelle der führenden Ursache geprüft wurde, das Wahrscheinlichste zuerst; was es sein kann, tritt hervor</translation>
     </message>
@@ -885,12 +877,16 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Wie wahrscheinlich es die Ursache ist, unter den geprüften und dem, was nicht dabei ist</translation>
     </message>
     <message>
-        <source>Rms of the gap that it leaves on data that its fit did not see, in noise floors: 1 is all that noise allows</source>
-        <translation>Effektivwert der Lücke, die es auf Daten lässt, die seine Anpassung nicht sah, in Rauschgrenzen: 1 ist alles, was das Rauschen zulässt</translation>
+        <source>remainder (noise floors)</source>
+        <translation>Rest (Rauschgrenzen)</translation>
     </message>
     <message>
-        <source>What it leaves is between these in 95 of 100 cases, in noise floors</source>
-        <translation>Was es lässt, liegt in 95 von 100 Fällen dazwischen, in Rauschgrenzen</translation>
+        <source>Rms of the remaining gap on data that its fit did not see, in noise floors; noise alone is 1</source>
+        <translation>Effektivwert der restlichen Abweichung auf Daten, die die Anpassung nicht sah, in Rauschgrenzen; Rauschen allein ist 1</translation>
+    </message>
+    <message>
+        <source>95 % interval of the remainder, in noise floors</source>
+        <translation>95-%-Intervall des Rests, in Rauschgrenzen</translation>
     </message>
     <message>
         <source>Candidates, likeliest first</source>
@@ -903,10 +899,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>What the diagnosis says of the axis</source>
         <translation>Was die Diagnose über die Achse sagt</translation>
-    </message>
-    <message>
-        <source>Not testable: {effects} ({reason}).</source>
-        <translation>Nicht prüfbar: {effects} ({reason}).</translation>
     </message>
     <message>
         <source>Next experiment: {why}</source>
@@ -934,11 +926,11 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>No gap: model and machine differ by no more than noise</source>
-        <translation>Keine Lücke: Modell und Maschine unterscheiden sich nur um Rauschen</translation>
+        <translation>Keine Abweichung: Modell und Maschine unterscheiden sich nur um Rauschen</translation>
     </message>
     <message>
         <source>Explained: the effects below account for the gap</source>
-        <translation>Erklärt: die Effekte unten erklären die Lücke</translation>
+        <translation>Erklärt: die Effekte unten erklären die Abweichung</translation>
     </message>
     <message>
         <source>Explained in part: what causes the rest is not known</source>
@@ -946,7 +938,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>Unknown: there is a gap that no effect of the catalogue explains</source>
-        <translation>Unbekannt: es gibt eine Lücke, die kein Effekt des Katalogs erklärt</translation>
+        <translation>Unbekannt: es gibt eine Abweichung, die kein Effekt des Katalogs erklärt</translation>
     </message>
     <message>
         <source>The records cannot tell: the excitation is insufficient</source>
@@ -954,7 +946,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>No gap of its own</source>
-        <translation>Keine eigene Lücke</translation>
+        <translation>Keine eigene Abweichung</translation>
     </message>
     <message>
         <source>Explained</source>
@@ -1038,7 +1030,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>where</source>
-        <translation>Ort der Lücke</translation>
+        <translation>Ort der Abweichung</translation>
     </message>
     <message>
         <source>screening</source>
@@ -1062,7 +1054,7 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>… where the gap is ≥ 5 floors</source>
-        <translation>… wo die Lücke ≥ 5 Grenzen ist</translation>
+        <translation>… wo die Abweichung ≥ 5 Grenzen ist</translation>
     </message>
     <message>
         <source>… where it is smaller</source>
@@ -1110,11 +1102,11 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>gap closed on unseen data, median</source>
-        <translation>Lücke geschlossen, ungesehen, Median</translation>
+        <translation>Abweichung geschlossen, ungesehen, Median</translation>
     </message>
     <message>
         <source>gap closed, 10th percentile</source>
-        <translation>Lücke geschlossen, 10. Perzentil</translation>
+        <translation>Abweichung geschlossen, 10. Perzentil</translation>
     </message>
     <message>
         <source>expected calibration error</source>
@@ -1141,56 +1133,24 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>und</translation>
     </message>
     <message>
-        <source>Nothing of its own to explain on {axes}.</source>
-        <translation>Nichts Eigenes zu erklären auf {axes}.</translation>
+        <source>the records name no axis of the robot</source>
+        <translation>die Aufzeichnungen nennen keine Achse des Roboters</translation>
     </message>
     <message>
-        <source>{axis}: the records do not move it in a way that could tell what it lacks.</source>
-        <translation>{axis}: die Aufzeichnungen bewegen sie nicht so, dass sich zeigt, was fehlt.</translation>
-    </message>
-    <message>
-        <source>{axis}: the model lacks {causes}.</source>
-        <translation>{axis}: dem Modell fehlt {causes}.</translation>
-    </message>
-    <message>
-        <source>{axis}: what else is there, no effect here explains.</source>
-        <translation>{axis}: was sonst noch da ist, erklärt hier kein Effekt.</translation>
-    </message>
-    <message>
-        <source>{axis}: there is a gap beside that that no effect here explains.</source>
-        <translation>{axis}: daneben gibt es eine Lücke, die kein Effekt hier erklärt.</translation>
-    </message>
-    <message>
-        <source>{axis}: there is a gap that no effect here explains.</source>
-        <translation>{axis}: es gibt eine Lücke, die kein Effekt hier erklärt.</translation>
-    </message>
-    <message>
-        <source>{effect} ({share} likely)</source>
-        <translation>{effect} (zu {share} wahrscheinlich)</translation>
-    </message>
-    <message>
-        <source>{effect} ({share} likely) from {axis}</source>
-        <translation>{effect} (zu {share} wahrscheinlich) von {axis}</translation>
-    </message>
-    <message>
-        <source>{cause}, or {rivals}, which these records cannot tell from it</source>
-        <translation>{cause} oder {rivals}, was diese Aufzeichnungen nicht trennen können</translation>
-    </message>
-    <message>
-        <source>On data that no fit saw, its gap at {tap} shrinks from {raw} to {corrected} rms (noise floor {floor}).</source>
-        <translation>Auf Daten, die keine Anpassung sah, schrumpft die Lücke bei {tap} von {raw} auf {corrected} rms (Rauschgrenze {floor}).</translation>
-    </message>
-    <message>
-        <source>On data that no fit saw, its gap at {tap} shrinks from {raw} to {corrected} rms (noise floor {floor}): {share} of it closes.</source>
-        <translation>Auf Daten, die keine Anpassung sah, schrumpft die Lücke bei {tap} von {raw} auf {corrected} rms (Rauschgrenze {floor}): {share} davon schließt sich.</translation>
+        <source>Its numbers fail, so that no cause can be found: {error}.</source>
+        <translation>Die Rechnung scheitert, sodass sich keine Ursache finden lässt: {error}.</translation>
     </message>
     <message>
         <source>Its gap comes from what was found on other axes.</source>
-        <translation>Ihre Lücke kommt von dem, was auf anderen Achsen gefunden wurde.</translation>
+        <translation>Ihre Abweichung kommt von dem, was auf anderen Achsen gefunden wurde.</translation>
     </message>
     <message>
         <source>It is coupled to axis {axis}, whose gap is larger and not explained.</source>
-        <translation>Sie ist mit Achse {axis} gekoppelt, deren Lücke größer und nicht erklärt ist.</translation>
+        <translation>Sie ist mit Achse {axis} gekoppelt, deren Abweichung größer und nicht erklärt ist.</translation>
+    </message>
+    <message>
+        <source>{group} ({percent})</source>
+        <translation>{group} ({percent})</translation>
     </message>
     <message>
         <source>What is left depends on {groups}, as far as simple features predict it.</source>
@@ -1217,6 +1177,34 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Der Sensor rauscht {times}-mal so stark wie angegeben.</translation>
     </message>
     <message>
+        <source>no record was given; name at least one</source>
+        <translation>keine Aufzeichnung angegeben; mindestens eine nennen</translation>
+    </message>
+    <message>
+        <source>{listed}: no measured channel (u, ref or meas) but only commands; give records of the real machine</source>
+        <translation>{listed}: kein gemessener Kanal (u, ref oder meas), nur Befehle; Aufzeichnungen der realen Maschine angeben</translation>
+    </message>
+    <message>
+        <source>{name}: robot {robot_name} has no axis {axis}; its axes are {names}; name the right robot by --robot</source>
+        <translation>{name}: Roboter {robot_name} hat keine Achse {axis}; seine Achsen sind {names}; den richtigen Roboter mit --robot nennen</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} is in units of {units}, but robot {robot_name} moves it in units of {unit}; correct the unit</source>
+        <translation>{name}: Achse {axis} steht in Einheiten von {units}, Roboter {robot_name} bewegt sie in Einheiten von {unit}; die Einheit berichtigen</translation>
+    </message>
+    <message>
+        <source>{name}: axis {quoted} has no {axis}.cmd column to drive the model; add it</source>
+        <translation>{name}: Achse {quoted} hat keine Spalte {axis}.cmd, die das Modell treibt; hinzufügen</translation>
+    </message>
+    <message>
+        <source>{name}: {count} rows; a diagnosis needs {least_rows} rows or more in each record: leave it out, or record longer</source>
+        <translation>{name}: {count} Zeilen; eine Diagnose braucht mindestens {least_rows} Zeilen je Aufzeichnung: weglassen oder länger aufzeichnen</translation>
+    </message>
+    <message>
+        <source>{name}: axis {quoted} is moved by a force, and no {axis}.u column tells which: add it, or write &apos;# mode: closed_loop&apos; and give the robot file its controller</source>
+        <translation>{name}: Achse {quoted} wird von einer Kraft bewegt, und keine Spalte {axis}.u sagt, von welcher: hinzufügen, oder &apos;# mode: closed_loop&apos; schreiben und der Roboterdatei ihren Regler geben</translation>
+    </message>
+    <message>
         <source>The axis was commanded but not measured: nothing is said of it.</source>
         <translation>Die Achse bekam Sollwerte, wurde aber nicht gemessen: über sie wird nichts gesagt.</translation>
     </message>
@@ -1233,24 +1221,36 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Keine unabhängige Referenz (ref) wurde aufgezeichnet: Effekte des Sensors lassen sich nicht von denen der Achse trennen.</translation>
     </message>
     <message>
-        <source>The reading stands at exactly {stand}: either the axis does not follow, or the sensor is {fault}, and the records cannot tell which.</source>
-        <translation>Der Messwert steht auf genau {stand}: entweder folgt die Achse nicht, oder der Sensor ist {fault}; die Aufzeichnungen können es nicht sagen.</translation>
+        <source>{low} to {high}</source>
+        <translation>{low} bis {high}</translation>
     </message>
     <message>
-        <source>A command goes beyond the range {range}, to {value}; the model knows no ends of the range.</source>
-        <translation>Ein Sollwert überschreitet den Bereich {range}, bis {value}; das Modell kennt keine Bereichsenden.</translation>
+        <source>{name}: {axis}.cmd = {command} at row {row} is far outside the range {bounds} of robot {robot_name}: this looks like a unit error; correct the unit in the header, or the robot file</source>
+        <translation>{name}: {axis}.cmd = {command} in Zeile {row} liegt weit außerhalb des Bereichs {bounds} von Roboter {robot_name}: das sieht nach einem Einheitenfehler aus; die Einheit in der Kopfzeile oder die Roboterdatei berichtigen</translation>
+    </message>
+    <message>
+        <source>A command goes beyond the range {low} to {high}, to {value}; the model knows no ends of the range.</source>
+        <translation>Ein Sollwert überschreitet den Bereich {low} bis {high}, bis {value}; das Modell kennt keine Bereichsenden.</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} is commanded at {speed} {unit}/s, {times} × its speed limit: this looks like a unit error of time; correct the unit of t, such as ms for s</source>
+        <translation>{name}: Achse {axis} wird mit {speed} {unit}/s bewegt, dem {times}-Fachen ihrer Grenzgeschwindigkeit: das sieht nach einem Einheitenfehler der Zeit aus; die Einheit von t berichtigen, etwa ms statt s</translation>
+    </message>
+    <message>
+        <source>{name}: {axis}.{tap} is {gain} × what {axis}.cmd asks for: this looks like a unit error, a factor of {text}; correct the unit of the column that is wrong</source>
+        <translation>{name}: {axis}.{tap} ist das {gain}-Fache dessen, was {axis}.cmd verlangt: das sieht nach einem Einheitenfehler aus, einem Faktor {text}; die Einheit der falschen Spalte berichtigen</translation>
     </message>
     <message>
         <source>The {tap} channel is {gain} × what is commanded, which no single effect brings about: check signs, units and the gain in the robot file.</source>
         <translation>Der Kanal {tap} ist {gain} × der Sollwert, was kein einzelner Effekt bewirkt: Vorzeichen, Einheiten und Verstärkung in der Roboterdatei prüfen.</translation>
     </message>
     <message>
-        <source>Time leaps {n} ×, by up to {time} s: the record is split there, and what came before a piece is unknown.</source>
-        <translation>Die Zeit springt {n} ×, um bis zu {time} s: Die Aufzeichnung wird dort geteilt, und was vor einem Stück war, ist unbekannt.</translation>
+        <source>{name}: {axis}.u is {gain} × cmd/gain, the output of the amplifier: this looks like a unit error, or a voltage before the amplifier; correct the column, leave it out, or correct the gain in the robot file</source>
+        <translation>{name}: {axis}.u ist das {gain}-Fache von cmd/gain, der Ausgabe des Verstärkers: das sieht nach einem Einheitenfehler oder einer Spannung vor dem Verstärker aus; die Spalte berichtigen, weglassen oder gain in der Roboterdatei berichtigen</translation>
     </message>
     <message>
-        <source>Time leaps {n} ×, by up to {time} s: the record is split there, and what came before a piece is unknown; {rows} rows in pieces shorter than {least} are left out.</source>
-        <translation>Die Zeit springt {n} ×, um bis zu {time} s: Die Aufzeichnung wird dort geteilt, und was vor einem Stück war, ist unbekannt; {rows} Zeilen in Stücken von weniger als {least} bleiben weg.</translation>
+        <source>{factor}, such as {wrong} read as {right}</source>
+        <translation>{factor}, etwa {wrong} gelesen als {right}</translation>
     </message>
     <message>
         <source>Rows are missing in a record for up to {time} s while no axis is under way; the commands are taken as held meanwhile.</source>
@@ -1265,12 +1265,16 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>An {n} Stellen einer Aufzeichnung fehlen Zeilen; die Sollwerte gelten dort als gehalten.</translation>
     </message>
     <message>
+        <source>{name}: &apos;# history: periodic&apos; with period_samples = {period}, but {axis}.cmd at row {row} is not what it was a period before; correct period_samples, or write &apos;# history: unknown&apos;</source>
+        <translation>{name}: &apos;# history: periodic&apos; mit period_samples = {period}, aber {axis}.cmd ist in Zeile {row} nicht, was es eine Periode vorher war; period_samples berichtigen oder &apos;# history: unknown&apos; schreiben</translation>
+    </message>
+    <message>
         <source>The records move {axis} too little to tell effects apart. Play this: {test}; it goes through many amplitudes and speeds.</source>
         <translation>Die Aufzeichnungen bewegen {axis} zu wenig, um Effekte zu trennen. Dies abspielen: {test}; es durchläuft viele Amplituden und Geschwindigkeiten.</translation>
     </message>
     <message>
-        <source>To tell {effects} apart, play this: {test}; it sets them{closest} {floors} apart, even once each is fitted to it</source>
-        <translation>Um {effects} zu trennen, dies abspielen: {test}; es bringt sie{closest} {floors} auseinander, auch wenn jeder daran angepasst ist</translation>
+        <source>To tell {effects} apart, play this: {test}; it sets them{closest} {n} noise floors (rms) apart, even once each is fitted to it{doubt}{reference}{others}.</source>
+        <translation>Um {effects} zu trennen, dies abspielen: {test}; es bringt sie{closest} {n} Rauschgrenzen (rms) auseinander, auch wenn jeder daran angepasst ist{doubt}{reference}{others}.</translation>
     </message>
     <message>
         <source>, which may be too little</source>
@@ -1285,8 +1289,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>; kein Test hier trennt {any} von einem davon</translation>
     </message>
     <message>
-        <source>{value} for {share} % of the rows, while the axis is commanded to move</source>
-        <translation>{value} in {share} % der Zeilen, während die Achse sich bewegen soll</translation>
+        <source>{name}: {axis}.meas stands at exactly {stand} for {percent} % of the rows, while the axis is commanded to move (first at t = {time_s} s): the sensor is {what}; repair it, stay within what it can read, or leave the column out</source>
+        <translation>{name}: {axis}.meas steht in {percent} % der Zeilen bei genau {stand}, während die Achse sich bewegen soll (zuerst bei t = {time_s} s): der Sensor ist {what}; ihn reparieren, in seinem Messbereich bleiben oder die Spalte weglassen</translation>
+    </message>
+    <message>
+        <source>The reading stands at exactly {stand} for {percent} % of the rows, while the axis is commanded to move: either the axis does not follow, or the sensor is {fault}, and the records cannot tell which.</source>
+        <translation>Der Messwert steht in {percent} % der Zeilen auf genau {stand}, während die Achse sich bewegen soll: Entweder folgt die Achse nicht, oder der Sensor ist {fault}; die Aufzeichnungen können es nicht sagen.</translation>
     </message>
     <message>
         <source>stuck or not connected</source>
@@ -1299,14 +1307,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>, the closest two of them,</source>
         <translation>, die zwei ähnlichsten,</translation>
-    </message>
-    <message>
-        <source>{n} noise floors (rms)</source>
-        <translation>{n} Rauschgrenzen (rms)</translation>
-    </message>
-    <message>
-        <source>{low} to {high}</source>
-        <translation>{low} bis {high}</translation>
     </message>
     <message>
         <source>{name}, ±{size} about {middle}, {time} s</source>
@@ -1373,8 +1373,50 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>großes </translation>
     </message>
     <message>
+        <source>very likely</source>
+        <translation>sehr wahrscheinlich</translation>
+    </message>
+    <message>
+        <source>likely</source>
+        <translation>wahrscheinlich</translation>
+    </message>
+    <message>
+        <source>possible</source>
+        <translation>möglich</translation>
+    </message>
+    <message>
+        <source>model as it is</source>
+        <translation>Modell, wie es ist</translation>
+    </message>
+    <message>
+        <source>gap, rms [{unit}]</source>
+        <translation>Abweichung, rms [{unit}]</translation>
+    </message>
+    <message>
+        <source>Waterfall of the gap: {bars}</source>
+        <translation>Wasserfall der Abweichung: {bars}</translation>
+    </message>
+    <message>
+        <source>remainder on unseen data, rms [noise floors]; with probability</source>
+        <translation>Rest auf ungesehenen Daten, rms [Rauschgrenzen]; mit Wahrscheinlichkeit</translation>
+    </message>
+    <message>
+        <source>Candidates, likeliest first: {names}</source>
+        <translation>Kandidaten, der wahrscheinlichste zuerst: {names}</translation>
+    </message>
+    <message>
         <source>command</source>
         <translation>Sollwert</translation>
+    </message>
+    <message>
+        <source>minus that of
+{effect} [{unit}]</source>
+        <translation>abzüglich der von
+{effect} [{unit}]</translation>
+    </message>
+    <message>
+        <source>Predictions of {rivals} for the suggested experiment</source>
+        <translation>Vorhersagen von {rivals} für das vorgeschlagene Experiment</translation>
     </message>
     <message>
         <source>direction</source>
@@ -1401,6 +1443,70 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Achse {axis}</translation>
     </message>
     <message>
+        <source>No gap of its own on {axes}.</source>
+        <translation>Keine eigene Abweichung: {axes}.</translation>
+    </message>
+    <message>
+        <source>{axis}: the records do not move it enough to tell what it lacks.</source>
+        <translation>{axis}: Die Aufzeichnungen bewegen die Achse zu wenig, um zu zeigen, was dem Modell fehlt.</translation>
+    </message>
+    <message>
+        <source>{axis}: a gap that no known effect explains.</source>
+        <translation>{axis}: eine Abweichung, die kein bekannter Effekt erklärt.</translation>
+    </message>
+    <message>
+        <source>{axis}: {cause}, {likelihood}.</source>
+        <translation>{axis}: {cause}, {likelihood}.</translation>
+    </message>
+    <message>
+        <source>{axis}: {causes}.</source>
+        <translation>{axis}: {causes}.</translation>
+    </message>
+    <message>
+        <source>{effects} (these records cannot tell which)</source>
+        <translation>{effects} (diese Aufzeichnungen unterscheiden sie nicht)</translation>
+    </message>
+    <message>
+        <source>{cause} ({likelihood})</source>
+        <translation>{cause} ({likelihood})</translation>
+    </message>
+    <message>
+        <source>{gap} is {raw} rms (noise floor {floor}).</source>
+        <translation>{gap} beträgt {raw} rms (Rauschgrenze {floor}).</translation>
+    </message>
+    <message>
+        <source>Adding it to the model takes {gap} from {raw} to {corrected} rms on unseen data (noise floor {floor}).</source>
+        <translation>Im Modell ergänzt, bringt das {gap} auf ungesehenen Daten von {raw} auf {corrected} rms (Rauschgrenze {floor}).</translation>
+    </message>
+    <message>
+        <source>Adding them to the model takes {gap} from {raw} to {corrected} rms on unseen data (noise floor {floor}).</source>
+        <translation>Im Modell ergänzt, bringen sie {gap} auf ungesehenen Daten von {raw} auf {corrected} rms (Rauschgrenze {floor}).</translation>
+    </message>
+    <message>
+        <source>The gap</source>
+        <translation>Die Abweichung</translation>
+    </message>
+    <message>
+        <source>the gap</source>
+        <translation>die Abweichung</translation>
+    </message>
+    <message>
+        <source>The gap at {tap}</source>
+        <translation>Die Abweichung bei {tap}</translation>
+    </message>
+    <message>
+        <source>the gap at {tap}</source>
+        <translation>die Abweichung bei {tap}</translation>
+    </message>
+    <message>
+        <source>No known effect explains what is left.</source>
+        <translation>Was übrig bleibt, erklärt kein bekannter Effekt.</translation>
+    </message>
+    <message>
+        <source>What is left depends on {groups}; no known effect explains it.</source>
+        <translation>Was übrig bleibt, hängt ab von: {groups}. Kein bekannter Effekt erklärt es.</translation>
+    </message>
+    <message>
         <source>the process of the diagnosis has ended (status {status}) before it answered; is there memory enough? Diagnose again, with fewer or shorter records</source>
         <translation>der Prozess der Diagnose endete (Status {status}), bevor er antwortete; reicht der Speicher? Noch einmal diagnostizieren, mit weniger oder kürzeren Aufzeichnungen</translation>
     </message>
@@ -1409,8 +1515,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Schlechter bei {motion}: {axes}.   </translation>
     </message>
     <message>
-        <source>Make predictions with this model all the same?</source>
-        <translation>Trotzdem mit diesem Modell vorhersagen?</translation>
+        <source>Use this model for predictions anyway?</source>
+        <translation>Dieses Modell trotzdem für Vorhersagen verwenden?</translation>
     </message>
     <message>
         <source>Predictions only. What is sent to the machine does not change, and no bound of it becomes wider.</source>
@@ -1433,8 +1539,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Während {record} gespielt wurde: {noted}.</translation>
     </message>
     <message>
-        <source>It has learned {causes}: something may have been leant on. A penetration leaves that out, and looks for a contact by the nominal model as well.</source>
-        <translation>Es hat {causes} gelernt: Vielleicht lag etwas an. Eine Penetration lässt das weg und sucht den Kontakt auch mit dem Nominalmodell.</translation>
+        <source>It has learned {causes}: the axis may have touched something. A penetration leaves this out and looks for the contact with the nominal model as well.</source>
+        <translation>Es hat {causes} gelernt: die Achse hat vielleicht etwas berührt. Eine Penetration lässt das weg und sucht den Kontakt auch mit dem nominalen Modell.</translation>
     </message>
     <message>
         <source>Drawing a machine …</source>
@@ -1472,12 +1578,636 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <source>nothing</source>
         <translation>nichts</translation>
     </message>
+    <message>
+        <source>{name}, rows {first} to {last}</source>
+        <translation>{name}, Zeilen {first} bis {last}</translation>
+    </message>
+    <message>
+        <source>record {number} ({rows} rows, {duration} s)</source>
+        <translation>Aufzeichnung {number} ({rows} Zeilen, {duration} s)</translation>
+    </message>
+    <message>
+        <source>{name}: time leaps {count} ×, by up to {longest_s} s, and no piece between has more than {max} rows; a diagnosis needs {least_rows} or more without a leap: leave the record out, or record without losses</source>
+        <translation>{name}: die Zeit springt {count}-mal, um bis zu {longest_s} s, und kein Stück dazwischen hat mehr als {max} Zeilen; eine Diagnose braucht mindestens {least_rows} ohne Sprung: die Aufzeichnung weglassen oder ohne Verluste aufzeichnen</translation>
+    </message>
+    <message>
+        <source>; {rows} rows in pieces shorter than {least} are left out</source>
+        <translation>; {rows} Zeilen in Stücken von weniger als {least} bleiben weg</translation>
+    </message>
+    <message>
+        <source>Time leaps {n} ×, by up to {time} s: the record is split there, and what came before a piece is unknown{left_out}.</source>
+        <translation>Die Zeit springt {n} ×, um bis zu {time} s: Die Aufzeichnung wird dort geteilt, und was vor einem Stück war, ist unbekannt{left_out}.</translation>
+    </message>
+    <message>
+        <source>{n} of {all} records count their place from another origin: what is locked to the position has the same period in all, at another phase in these.</source>
+        <translation>{n} von {all} Aufzeichnungen zählen ihren Ort von einem anderen Nullpunkt: Was an die Position gebunden ist, hat in allen dieselbe Periode, in diesen eine andere Phase.</translation>
+    </message>
+    <message>
+        <source>The reading wanders whatever the axis does, though the reference does not.</source>
+        <translation>Der Messwert wandert, was auch immer die Achse tut, die Referenz aber nicht.</translation>
+    </message>
+    <message>
+        <source>The reading wanders whatever the axis does, at rest as well.</source>
+        <translation>Der Messwert wandert, was auch immer die Achse tut, auch in Ruhe.</translation>
+    </message>
+    <message>
+        <source>axis {axis}: no record holds a measured channel of it (u, ref or meas) whose noise floor is known or can be measured; nothing can be compared</source>
+        <translation>Achse {axis}: keine Aufzeichnung enthält einen gemessenen Kanal (u, ref oder meas) mit bekannter oder messbarer Rauschgrenze; es gibt nichts zu vergleichen</translation>
+    </message>
+    <message>
+        <source>en</source>
+        <translation>de</translation>
+    </message>
+    <message>
+        <source>Gap diagnosis of {robot}</source>
+        <translation>Diagnose der Abweichung von {robot}</translation>
+    </message>
+    <message>
+        <source>Gap between model and machine: {robot}</source>
+        <translation>Abweichung zwischen Modell und Maschine: {robot}</translation>
+    </message>
+    <message>
+        <source>How far it shrinks</source>
+        <translation>Wie weit sie schrumpft</translation>
+    </message>
+    <message>
+        <source>Parameters</source>
+        <translation>Parameter</translation>
+    </message>
+    <message>
+        <source>Remarks</source>
+        <translation>Bemerkungen</translation>
+    </message>
+    <message>
+        <source>Facts</source>
+        <translation>Angaben</translation>
+    </message>
+    <message>
+        <source>axis</source>
+        <translation>Achse</translation>
+    </message>
+    <message>
+        <source>verdict</source>
+        <translation>Urteil</translation>
+    </message>
+    <message>
+        <source>Axes and channels whose gap exceeds the noise floor beyond doubt. Shares are of the squared gap above the floors; intervals are 95 % intervals.</source>
+        <translation>Achsen und Kanäle, deren Abweichung zweifelsfrei über der Rauschgrenze liegt. Anteile beziehen sich auf das Quadrat oberhalb der Rauschgrenzen; Intervalle sind 95-%-Intervalle.</translation>
+    </message>
+    <message>
+        <source>channel</source>
+        <translation>Kanal</translation>
+    </message>
+    <message>
+        <source>stage</source>
+        <translation>Stufe</translation>
+    </message>
+    <message>
+        <source>gap, rms</source>
+        <translation>Abweichung, rms</translation>
+    </message>
+    <message>
+        <source>noise floor</source>
+        <translation>Rauschgrenze</translation>
+    </message>
+    <message>
+        <source>its interval</source>
+        <translation>Intervall dazu</translation>
+    </message>
+    <message>
+        <source>(gap² − floor²)/floor²</source>
+        <translation>(Abweichung² − Rauschgrenze²)/Rauschgrenze²</translation>
+    </message>
+    <message>
+        <source>worst band</source>
+        <translation>schlechtestes Band</translation>
+    </message>
+    <message>
+        <source>worst regime</source>
+        <translation>schlechteste Bewegungsart</translation>
+    </message>
+    <message>
+        <source>No axis has a gap that exceeds the noise floor beyond doubt.</source>
+        <translation>Keine Achse hat eine Abweichung, die zweifelsfrei über der Rauschgrenze liegt.</translation>
+    </message>
+    <message>
+        <source>{axis} at {tap}, by band and regime</source>
+        <translation>{axis} an {tap}, nach Band und Bewegungsart</translation>
+    </message>
+    <message>
+        <source>regime</source>
+        <translation>Bewegungsart</translation>
+    </message>
+    <message>
+        <source>share of the path&apos;s</source>
+        <translation>Anteil am ganzen Weg</translation>
+    </message>
+    <message>
+        <source>{share} of the whole path&apos;s</source>
+        <translation>{share} des ganzen Wegs</translation>
+    </message>
+    <message>
+        <source>Rms of the model&apos;s gap within each band, in noise floors. Regimes overlap: forward motion is also fast or slow.</source>
+        <translation>Rms der Modellabweichung im jeweiligen Band, in Rauschgrenzen. Bewegungsarten überschneiden sich: wer vorwärts fährt, fährt auch schnell oder langsam.</translation>
+    </message>
+    <message>
+        <source>Which effect causes it</source>
+        <translation>Welcher Effekt sie verursacht</translation>
+    </message>
+    <message>
+        <source>effect</source>
+        <translation>Effekt</translation>
+    </message>
+    <message>
+        <source>formulation</source>
+        <translation>Formulierung</translation>
+    </message>
+    <message>
+        <source>indistinguishable from</source>
+        <translation>nicht unterscheidbar von</translation>
+    </message>
+    <message>
+        <source>gap without it</source>
+        <translation>Abweichung ohne ihn</translation>
+    </message>
+    <message>
+        <source>with it</source>
+        <translation>mit ihm</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>geschlossen</translation>
+    </message>
+    <message>
+        <source>Gaps are rms on data that the fit did not see; all other causes are in the model.</source>
+        <translation>Abweichungen sind rms auf Daten, die die Anpassung nicht sah; alle anderen Ursachen sind im Modell.</translation>
+    </message>
+    <message>
+        <source>No effect is named.</source>
+        <translation>Kein Effekt wird genannt.</translation>
+    </message>
+    <message>
+        <source>Candidates for {axis}</source>
+        <translation>Kandidaten für {axis}</translation>
+    </message>
+    <message>
+        <source>remainder on unseen data [noise floors]</source>
+        <translation>Rest auf ungesehenen Daten [Rauschgrenzen]</translation>
+    </message>
+    <message>
+        <source>How far the gap shrinks</source>
+        <translation>Wie weit die Abweichung schrumpft</translation>
+    </message>
+    <message>
+        <source>{axis} at {tap}</source>
+        <translation>{axis} an {tap}</translation>
+    </message>
+    <message>
+        <source>Rms of the gap on data that no fit saw: with the model as it is, with its own parameters re-tuned, and with one effect after another.</source>
+        <translation>Rms der Abweichung auf Daten, die keine Anpassung sah: mit dem Modell, wie es ist, mit neu abgestimmten eigenen Parametern und mit einem Effekt nach dem anderen.</translation>
+    </message>
+    <message>
+        <source>raw</source>
+        <translation>roh</translation>
+    </message>
+    <message>
+        <source>black-box model</source>
+        <translation>Black-Box-Modell</translation>
+    </message>
+    <message>
+        <source>with</source>
+        <translation>mit</translation>
+    </message>
+    <message>
+        <source>on</source>
+        <translation>an</translation>
+    </message>
+    <message>
+        <source>remainder, rms</source>
+        <translation>Rest, rms</translation>
+    </message>
+    <message>
+        <source>share of what closes (Shapley)</source>
+        <translation>Anteil an dem, was sich schließt (Shapley)</translation>
+    </message>
+    <message>
+        <source>Left: the gap before (grey) and after (blue) over time; the band is the noise floor. Middle: reading over command, real and models. Right: the gap over the command. Each model is shifted to the mean of its record: constant offsets are not judged.</source>
+        <translation>Links: die Abweichung vorher (grau) und nachher (blau) über der Zeit; das Band ist die Rauschgrenze. Mitte: Messwert über dem Befehl, real und Modelle. Rechts: die Abweichung über dem Befehl. Jedes Modell ist auf den Mittelwert seiner Aufzeichnung verschoben: konstante Versätze werden nicht beurteilt.</translation>
+    </message>
+    <message>
+        <source>From command to {tap} by Welch&apos;s method (H1), where the response is coherent; the band is the 95 % interval of the real one.</source>
+        <translation>Vom Befehl zu {tap} nach Welch (H1), wo die Antwort kohärent ist; das Band ist das 95-%-Intervall der realen.</translation>
+    </message>
+    <message>
+        <source>parameter</source>
+        <translation>Parameter</translation>
+    </message>
+    <message>
+        <source>value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>95 % interval</source>
+        <translation>95-%-Intervall</translation>
+    </message>
+    <message>
+        <source>SI</source>
+        <translation>SI</translation>
+    </message>
+    <message>
+        <source>at a bound</source>
+        <translation>an einer Grenze</translation>
+    </message>
+    <message>
+        <source>A parameter at a bound may stand for more than it can express. Where no interval is given, the data do not bound it.</source>
+        <translation>Ein Parameter an einer Grenze kann für mehr stehen, als er ausdrücken kann. Wo kein Intervall steht, begrenzen ihn die Daten nicht.</translation>
+    </message>
+    <message>
+        <source>Nothing that the model lacks was fitted.</source>
+        <translation>Nichts wurde angepasst, was dem Modell fehlt.</translation>
+    </message>
+    <message>
+        <source>What corrects the model</source>
+        <translation>Was das Modell korrigiert</translation>
+    </message>
+    <message>
+        <source>parameters, SI</source>
+        <translation>Parameter, SI</translation>
+    </message>
+    <message>
+        <source>None.</source>
+        <translation>Keine.</translation>
+    </message>
+    <message>
+        <source>The reading as each rival, fitted to these records, predicts it.</source>
+        <translation>Der Messwert, wie ihn jeder Kandidat vorhersagt, angepasst an diese Aufzeichnungen.</translation>
+    </message>
+    <message>
+        <source>{tap} as each rival, fitted to these records, predicts it.</source>
+        <translation>{tap}, wie es jeder Kandidat vorhersagt, angepasst an diese Aufzeichnungen.</translation>
+    </message>
+    <message>
+        <source>No experiment is needed, or none was found that would tell more.</source>
+        <translation>Kein Experiment ist nötig, oder keines wurde gefunden, das mehr verriete.</translation>
+    </message>
+    <message>
+        <source>Robot {robot}; axes</source>
+        <translation>Roboter {robot}; Achsen</translation>
+    </message>
+    <message>
+        <source>Effects in the model before: {count}. Seed {seed}; RoTeMiNa {version}.</source>
+        <translation>Effekte, die schon im Modell waren: {count}. Seed {seed}; RoTeMiNa {version}.</translation>
+    </message>
+    <message>
+        <source>name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>rows</source>
+        <translation>Zeilen</translation>
+    </message>
+    <message>
+        <source>duration</source>
+        <translation>Dauer</translation>
+    </message>
+    <message>
+        <source>rate</source>
+        <translation>Rate</translation>
+    </message>
+    <message>
+        <source>channels</source>
+        <translation>Kanäle</translation>
+    </message>
+    <message>
+        <source>loop</source>
+        <translation>Regelkreis</translation>
+    </message>
+    <message>
+        <source>history</source>
+        <translation>Vorgeschichte</translation>
+    </message>
+    <message>
+        <source>fingerprint</source>
+        <translation>Fingerabdruck</translation>
+    </message>
+    <message>
+        <source>Metadata of record {number}</source>
+        <translation>Metadaten der Aufzeichnung {number}</translation>
+    </message>
+    <message>
+        <source>gap [{unit}]</source>
+        <translation>Abweichung [{unit}]</translation>
+    </message>
+    <message>
+        <source>real</source>
+        <translation>Maschine</translation>
+    </message>
+    <message>
+        <source>model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>record {number}</source>
+        <translation>Aufzeichnung {number}</translation>
+    </message>
+    <message>
+        <source>time [s]</source>
+        <translation>Zeit [s]</translation>
+    </message>
+    <message>
+        <source>command [{unit}]</source>
+        <translation>Sollwert [{unit}]</translation>
+    </message>
+    <message>
+        <source>Gap before and after over time, reading over command and gap over command, of the records {numbers} at {tap}</source>
+        <translation>Abweichung vorher und nachher über der Zeit, Messwert über dem Befehl und Abweichung über dem Befehl, der Aufzeichnungen {numbers} an {tap}</translation>
+    </message>
+    <message>
+        <source>phase [°]</source>
+        <translation>Phase [°]</translation>
+    </message>
+    <message>
+        <source>frequency [Hz]</source>
+        <translation>Frequenz [Hz]</translation>
+    </message>
+    <message>
+        <source>Frequency response from command to {tap}: real, model, corrected model</source>
+        <translation>Frequenzgang vom Befehl zu {tap}: real, Modell, korrigiertes Modell</translation>
+    </message>
+    <message>
+        <source>closed loop</source>
+        <translation>geschlossener Regelkreis</translation>
+    </message>
+    <message>
+        <source>open loop</source>
+        <translation>offener Regelkreis</translation>
+    </message>
+    <message>
+        <source>one row</source>
+        <translation>eine Zeile</translation>
+    </message>
+    <message>
+        <source>uneven, {rate} Hz on average</source>
+        <translation>ungleichmäßig, im Mittel {rate} Hz</translation>
+    </message>
+    <message>
+        <source>Of {all} records, the {drawn} with the largest gap are drawn.</source>
+        <translation>Von {all} Aufzeichnungen sind die {drawn} mit der größten Abweichung gezeichnet.</translation>
+    </message>
+    <message>
+        <source>No frequency response is drawn: {reason}.</source>
+        <translation>Kein Frequenzgang ist gezeichnet: {reason}.</translation>
+    </message>
+    <message>
+        <source>No heat map is drawn: no record is sampled evenly and long enough.</source>
+        <translation>Keine Karte nach Band und Bewegungsart: keine Aufzeichnung ist gleichmäßig und lange genug abgetastet.</translation>
+    </message>
+    <message>
+        <source>{name}: it holds measurements of {one_name} again ({channel}); give each record once, and parts of one record without overlap</source>
+        <translation>{name}: enthält noch einmal Messungen von {one_name} ({channel}); jede Aufzeichnung einmal angeben und Teile ohne Überschneidung</translation>
+    </message>
+    <message>
+        <source>pause = {pause_s} s: must be 0 s or more</source>
+        <translation>pause = {pause_s} s: muss 0 s oder mehr sein</translation>
+    </message>
+    <message>
+        <source>axis {missing} of the commands: the motion before has {names}; name a record of all axes that are commanded</source>
+        <translation>Achse {missing} der Befehle: die Bewegung davor hat {names}; eine Aufzeichnung aller bewegten Achsen nennen</translation>
+    </message>
+    <message>
+        <source>the motion before and the commands differ in mode; name a record of one</source>
+        <translation>die Bewegung davor und die Befehle unterscheiden sich in mode; eine Aufzeichnung mit demselben nennen</translation>
+    </message>
+    <message>
+        <source>axis {axis} of the commands: the diagnosed robot {name} has {names}</source>
+        <translation>Achse {axis} der Befehle: der diagnostizierte Roboter {name} hat {names}</translation>
+    </message>
+    <message>
+        <source>axis {axis} of the commands is in units of {units}, but the diagnosed robot {name} moves it in units of {unit}; correct the unit</source>
+        <translation>Achse {axis} der Befehle steht in Einheiten von {units}, der diagnostizierte Roboter {name} bewegt sie in Einheiten von {unit}; die Einheit berichtigen</translation>
+    </message>
+    <message>
+        <source>{name}: {axis}.{tap} does not follow {axis}.cmd but {other}.cmd (its gain is {gain} ± {deviation}): channels may be swapped; correct the columns</source>
+        <translation>{name}: {axis}.{tap} folgt nicht {axis}.cmd, sondern {other}.cmd (die Verstärkung ist {gain} ± {deviation}): vielleicht sind Kanäle vertauscht; die Spalten berichtigen</translation>
+    </message>
+    <message>
+        <source>{name}: {axis}.{tap} does not follow {axis}.cmd (its gain is {gain} ± {deviation}); switch the axis on, or leave its columns out</source>
+        <translation>{name}: {axis}.{tap} folgt {axis}.cmd nicht (die Verstärkung ist {gain} ± {deviation}); die Achse einschalten oder ihre Spalten weglassen</translation>
+    </message>
+    <message>
+        <source>name the JSON file of a diagnosis</source>
+        <translation>die JSON-Datei einer Diagnose nennen</translation>
+    </message>
+    <message>
+        <source>the document</source>
+        <translation>das Dokument</translation>
+    </message>
+    <message>
+        <source>{name}: format = {short}: must be {format}; name a file that &apos;rotemina gap diagnose --json&apos; wrote</source>
+        <translation>{name}: format = {short}: muss {format} sein; eine Datei nennen, die &apos;rotemina gap diagnose --json&apos; geschrieben hat</translation>
+    </message>
+    <message>
+        <source>{name}: model.effects = {short}: must be a list</source>
+        <translation>{name}: model.effects = {short}: muss eine Liste sein</translation>
+    </message>
+    <message>
+        <source>{name}: {key} = {short}: must be an object; name a file that &apos;rotemina gap diagnose --json&apos; wrote</source>
+        <translation>{name}: {key} = {short}: muss ein Objekt sein; eine Datei nennen, die &apos;rotemina gap diagnose --json&apos; geschrieben hat</translation>
+    </message>
+    <message>
+        <source>{name}: {key} = {short}: must be one of {names}</source>
+        <translation>{name}: {key} = {short}: muss eines von {names} sein</translation>
+    </message>
+    <message>
+        <source>{name}: offset.{short}: must be one of {names}</source>
+        <translation>{name}: offset.{short}: muss eines von {names} sein</translation>
+    </message>
+    <message>
+        <source>{name}: {where}: must be one of {names}</source>
+        <translation>{name}: {where}: muss eines von {names} sein</translation>
+    </message>
+    <message>
+        <source>{name}: {key} = {short}: must be a finite number</source>
+        <translation>{name}: {key} = {short}: muss eine endliche Zahl sein</translation>
+    </message>
+    <message>
+        <source>{where} = {short}: must be the text of a robot file</source>
+        <translation>{where} = {short}: muss der Text einer Roboterdatei sein</translation>
+    </message>
+    <message>
+        <source>{where} = {short}: must be an object</source>
+        <translation>{where} = {short}: muss ein Objekt sein</translation>
+    </message>
+    <message>
+        <source>{where}.axis = {short}: must be one of {names}</source>
+        <translation>{where}.axis = {short}: muss eine von {names} sein</translation>
+    </message>
+    <message>
+        <source>{where}.parameters = {short}: must be an object</source>
+        <translation>{where}.parameters = {short}: muss ein Objekt sein</translation>
+    </message>
+    <message>
+        <source>{where}.parameters.{clashing}: no parameter has this name</source>
+        <translation>{where}.parameters.{clashing}: kein Parameter heißt so</translation>
+    </message>
+    <message>
+        <source>{where}: {error}</source>
+        <translation>{where}: {error}</translation>
+    </message>
+    <message>
+        <source>no gap: the model explains the records up to their noise</source>
+        <translation>keine Abweichung: das Modell erklärt die Aufzeichnungen bis auf ihr Rauschen</translation>
+    </message>
+    <message>
+        <source>the gap is explained</source>
+        <translation>die Abweichung ist erklärt</translation>
+    </message>
+    <message>
+        <source>the gap is explained in part; what causes the rest is not known</source>
+        <translation>die Abweichung ist zum Teil erklärt; die Ursache des Rests ist nicht bekannt</translation>
+    </message>
+    <message>
+        <source>there is a gap that no known effect explains</source>
+        <translation>es gibt eine Abweichung, die kein bekannter Effekt erklärt</translation>
+    </message>
+    <message>
+        <source>the records cannot tell</source>
+        <translation>die Aufzeichnungen reichen nicht aus</translation>
+    </message>
+    <message>
+        <source>no gap of its own</source>
+        <translation>keine eigene Abweichung</translation>
+    </message>
+    <message>
+        <source>explained in part</source>
+        <translation>zum Teil erklärt</translation>
+    </message>
+    <message>
+        <source>unknown effect</source>
+        <translation>unbekannter Effekt</translation>
+    </message>
+    <message>
+        <source>insufficient excitation</source>
+        <translation>unzureichende Anregung</translation>
+    </message>
+    <message>
+        <source>where the gap lies</source>
+        <translation>wo die Abweichung liegt</translation>
+    </message>
+    <message>
+        <source>what causes it</source>
+        <translation>was sie verursacht</translation>
+    </message>
+    <message>
+        <source>how far it shrinks, rms on data that no fit saw</source>
+        <translation>wie weit sie schrumpft, rms auf Daten, die keine Anpassung sah</translation>
+    </message>
+    <message>
+        <source>what would tell more</source>
+        <translation>was mehr verriete</translation>
+    </message>
+    <message>
+        <source>experiment {number}, on {axis}: {why}</source>
+        <translation>Experiment {number}, an {axis}: {why}</translation>
+    </message>
+    <message>
+        <source>{name}: {what}</source>
+        <translation>{name}: {what}</translation>
+    </message>
+    <message>
+        <source>{share} of it</source>
+        <translation>{share} davon</translation>
+    </message>
+    <message>
+        <source>rms {rms}, noise floor {floor}</source>
+        <translation>rms {rms}, Rauschgrenze {floor}</translation>
+    </message>
+    <message>
+        <source>most between {low} and {high} Hz</source>
+        <translation>am meisten zwischen {low} und {high} Hz</translation>
+    </message>
+    <message>
+        <source>largest in: {regime}</source>
+        <translation>am größten bei: {regime}</translation>
+    </message>
+    <message>
+        <source>an unknown effect</source>
+        <translation>ein unbekannter Effekt</translation>
+    </message>
+    <message>
+        <source>{effect} ({stage})</source>
+        <translation>{effect} ({stage})</translation>
+    </message>
+    <message>
+        <source>{effect}, probability {probability}</source>
+        <translation>{effect}, Wahrscheinlichkeit {probability}</translation>
+    </message>
+    <message>
+        <source>closes {share}</source>
+        <translation>schließt {share}</translation>
+    </message>
+    <message>
+        <source>rms {before} without it, {after} with it</source>
+        <translation>rms {before} ohne ihn, {after} mit ihm</translation>
+    </message>
+    <message>
+        <source>rms {before}</source>
+        <translation>rms {before}</translation>
+    </message>
+    <message>
+        <source>cannot be told from: {names}</source>
+        <translation>nicht zu unterscheiden von: {names}</translation>
+    </message>
+    <message>
+        <source>{name} {value} ({interval})</source>
+        <translation>{name} {value} ({interval})</translation>
+    </message>
+    <message>
+        <source>{name} = {value}</source>
+        <translation>{name} = {value}</translation>
+    </message>
+    <message>
+        <source>at its {end} bound</source>
+        <translation>an seiner Grenze {end}</translation>
+    </message>
+    <message>
+        <source>as it is {rms}</source>
+        <translation>wie es ist {rms}</translation>
+    </message>
+    <message>
+        <source>re-tuned {rms}</source>
+        <translation>neu abgestimmt {rms}</translation>
+    </message>
+    <message>
+        <source>corrected {rms}</source>
+        <translation>korrigiert {rms}</translation>
+    </message>
+    <message>
+        <source>black box {rms}</source>
+        <translation>Black Box {rms}</translation>
+    </message>
+    <message>
+        <source>floor {rms}</source>
+        <translation>Rauschgrenze {rms}</translation>
+    </message>
+    <message>
+        <source>closed {share}</source>
+        <translation>geschlossen {share}</translation>
+    </message>
+    <message>
+        <source>{name}: it describes another robot than the one that was diagnosed, {robot_name}: they differ in {differences}; diagnose again with this file, or leave it out to write the diagnosed one</source>
+        <translation>{name}: beschreibt einen anderen Roboter als den diagnostizierten, {robot_name}: sie unterscheiden sich in {differences}; mit dieser Datei neu diagnostizieren oder sie weglassen, um den diagnostizierten zu schreiben</translation>
+    </message>
+    <message>
+        <source>{fspath}: it exists already; name another file</source>
+        <translation>{fspath}: gibt es schon; eine andere Datei nennen</translation>
+    </message>
 </context>
 <context>
     <name>panels</name>
     <message>
         <source>Gap diagnosis</source>
-        <translation>Lückendiagnose</translation>
+        <translation>Abweichungendiagnose</translation>
     </message>
 </context>
 </TS>

@@ -157,6 +157,7 @@
     </message>
     <message>
         <source>Amplitude of the excitation</source>
+        <extracomment>To be played as soon as it is in hand.</extracomment>
         <translation>Amplitude der Anregung</translation>
     </message>
     <message>
@@ -582,6 +583,10 @@
     <message>
         <source>Records (*.csv *.txt *.dat *.gz);;All files (*)</source>
         <translation>Aufzeichnungen (*.csv *.txt *.dat *.gz);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Figures</source>
+        <translation>Kennwerte</translation>
     </message>
     <message>
         <source>Reading {name} …</source>

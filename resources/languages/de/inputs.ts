@@ -373,7 +373,7 @@
     </message>
     <message>
         <source>{text!r} is no number; type one with a decimal point, {bounds}</source>
-        <translation>{text!r} ist keine Zahl; eine mit Dezimalpunkt eingeben, {bounds}</translation>
+        <translation>{text!r} ist keine Zahl; eine mit Dezimalkomma eingeben, {bounds}</translation>
     </message>
     <message>
         <source>{value} is refused: must be {bounds}</source>
@@ -405,11 +405,11 @@
         <translation>Profil</translation>
     </message>
     <message>
-        <source>Look for profiles again</source>
+        <source>Refresh the profiles</source>
         <translation>Profile neu suchen</translation>
     </message>
     <message>
-        <source>Look into the folder of profiles again</source>
+        <source>Refresh the folder of profiles</source>
         <translation>Erneut in den Profilordner sehen</translation>
     </message>
     <message>
@@ -447,14 +447,6 @@
     <message>
         <source>Overwrite</source>
         <translation>Überschreiben</translation>
-    </message>
-    <message>
-        <source>Put this profile in the place of the one of that name</source>
-        <translation>Das Profil dieses Namens durch dieses ersetzen</translation>
-    </message>
-    <message>
-        <source>Keep nothing</source>
-        <translation>Nichts speichern</translation>
     </message>
     <message>
         <source>There is a profile {name!r} already. Overwrite it?</source>
@@ -518,8 +510,8 @@
         <translation>Halt</translation>
     </message>
     <message>
-        <source>E-stop</source>
-        <translation>Not-Halt</translation>
+        <source>Stop and lock</source>
+        <translation>Halt und sperren</translation>
     </message>
     <message>
         <source>Dead-man</source>
@@ -657,94 +649,6 @@
     <message>
         <source>take_over</source>
         <translation>Übernehmen</translation>
-    </message>
-    <message>
-        <source>not yet seen at rest: let go of it</source>
-        <translation>noch nicht in Ruhe gesehen: loslassen</translation>
-    </message>
-    <message>
-        <source>has said nothing yet: move it, and let go of it</source>
-        <translation>hat noch nichts gemeldet: bewegen und loslassen</translation>
-    </message>
-    <message>
-        <source>jitters from end to end: its potentiometer or cable is bad</source>
-        <translation>springt von Ende zu Ende: Potentiometer oder Kabel schadhaft</translation>
-    </message>
-    <message>
-        <source>has stood at its end from the first moment: free it; if it rests there, calibrate it as one-sided</source>
-        <translation>steht von Anfang an am Ende: lösen; ruht sie dort, als einseitig kalibrieren</translation>
-    </message>
-    <message>
-        <source>{reason}: let go of it first</source>
-        <translation>{reason}: zuerst loslassen</translation>
-    </message>
-    <message>
-        <source>the trainer&apos;s device is not there: the trainee does not drive alone</source>
-        <translation>das Gerät des Trainers fehlt: der Trainee steuert nicht allein</translation>
-    </message>
-    <message>
-        <source>the trainee has taken over</source>
-        <translation>der Trainee hat übernommen</translation>
-    </message>
-    <message>
-        <source>the trainer has taken over</source>
-        <translation>der Trainer hat übernommen</translation>
-    </message>
-    <message>
-        <source>silent, though it streams: nothing has come from it; replug it, or look at its cable</source>
-        <translation>stumm, obwohl es laufend sendet: nichts kam an; neu anstecken oder Kabel prüfen</translation>
-    </message>
-    <message>
-        <source>no profile is chosen: the input devices do nothing</source>
-        <translation>kein Profil gewählt: die Eingabegeräte tun nichts</translation>
-    </message>
-    <message>
-        <source>says {raw}, which is not in −1 to 1: disconnect it and look at it</source>
-        <translation>meldet {raw}, nicht in −1 bis 1: abstecken und prüfen</translation>
-    </message>
-    <message>
-        <source>another device is gone ({why}): let go of it</source>
-        <translation>ein anderes Gerät ist weg ({why}): loslassen</translation>
-    </message>
-    <message>
-        <source>calibrated anew</source>
-        <translation>neu kalibriert</translation>
-    </message>
-    <message>
-        <source>a reading of {axes} axes and {buttons} buttons came from a device with {known} and {others}: replug it</source>
-        <translation>eine Meldung mit {axes} Achsen und {buttons} Tasten kam von einem Gerät mit {known} und {others}: neu anstecken</translation>
-    </message>
-    <message>
-        <source>{names} moved together; move one only</source>
-        <translation>{names} zugleich bewegt; nur eines bewegen</translation>
-    </message>
-    <message>
-        <source>profile {name} is for {gone}, not plugged in; plugged in: {present}. Plug it in, or choose or make a profile for what is there</source>
-        <translation>Profil {name} ist für {gone}, nicht angesteckt; angesteckt: {present}. Anstecken oder ein Profil für das Vorhandene wählen oder anlegen</translation>
-    </message>
-    <message>
-        <source>axis {axis} has said nothing at rest; move it once, let go, and begin again</source>
-        <translation>Achse {axis} hat in Ruhe nichts gemeldet; einmal bewegen, loslassen, neu beginnen</translation>
-    </message>
-    <message>
-        <source>axis {axis} hardly moved: {low} to {high} of −1 to 1, at least {least} is needed; move it to all its ends</source>
-        <translation>Achse {axis} kaum bewegt: {low} bis {high} von −1 bis 1, mindestens {least} nötig; an alle Enden bewegen</translation>
-    </message>
-    <message>
-        <source>axis {axis} does not rest at an end: {where}; calibrate it as a stick</source>
-        <translation>Achse {axis} ruht nicht am Ende: {where}; als Knüppel kalibrieren</translation>
-    </message>
-    <message>
-        <source>axis {axis} rests at an end: {where}; move it both ways, or declare it one-sided (a trigger)</source>
-        <translation>Achse {axis} ruht am Ende: {where}; in beide Richtungen bewegen oder als einseitig angeben (Abzug)</translation>
-    </message>
-    <message>
-        <source>rest {centre}, ends {low} and {high}</source>
-        <translation>Ruhelage {centre}, Enden {low} und {high}</translation>
-    </message>
-    <message>
-        <source>axis {axis} jitters at rest, or was moved: {low} to {high} asks for a dead zone of {zone}, at most {most} is good; leave it alone, and if it stays so have it repaired</source>
-        <translation>Achse {axis} zittert in Ruhe oder wurde bewegt: {low} bis {high} verlangt eine Totzone von {zone}, gut ist höchstens {most}; ruhen lassen, und wenn es so bleibt, reparieren lassen</translation>
     </message>
     <message>
         <source>Stick {name}</source>

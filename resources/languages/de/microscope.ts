@@ -6,7 +6,7 @@
     <message>
         <source>1. Bring the tip into the middle of the picture and into focus.
 2. Choose the objective under Camera: it has a calibration of its own.
-3. Calibrate the micro stage, then the nano stage: the tip goes small ways about where it is and comes back.</source>
+3. Calibrate the micro stage, then the nano stage: the tip makes small moves around its place and comes back.</source>
         <translation>1. Spitze in die Bildmitte und in den Fokus bringen.
 2. Objektiv unter Kamera wählen: jedes hat eine eigene Kalibrierung.
 3. Mikrotisch, dann Nanotisch kalibrieren: die Spitze fährt kleine Wege um ihren Ort und kommt zurück.</translation>
@@ -76,8 +76,8 @@
         <translation>Bildrate</translation>
     </message>
     <message>
-        <source>this camera does not let it be set</source>
-        <translation>bei dieser Kamera nicht einstellbar</translation>
+        <source>this camera cannot set it</source>
+        <translation>diese Kamera kann das nicht einstellen</translation>
     </message>
     <message>
         <source>{low:g} to {high:g} {unit}</source>
@@ -120,8 +120,8 @@
         <translation>Schließen</translation>
     </message>
     <message>
-        <source>Let go of the camera</source>
-        <translation>Kamera freigeben</translation>
+        <source>Close the camera</source>
+        <translation>Die Kamera schließen</translation>
     </message>
     <message>
         <source>Objective</source>
@@ -188,8 +188,8 @@
         <translation>Setzen</translation>
     </message>
     <message>
-        <source>Set the camera so; what it refuses is said below</source>
-        <translation>Kamera so einstellen; was sie ablehnt, steht unten</translation>
+        <source>Apply these settings; refusals appear below</source>
+        <translation>Diese Einstellungen anwenden; Ablehnungen stehen darunter</translation>
     </message>
     <message>
         <source>Use visible region</source>
@@ -232,84 +232,16 @@
         <translation>{whole}, oder erste Spalte, erste Zeile, Breite und Höhe der {width} × {height} px des Sensors</translation>
     </message>
     <message>
-        <source>closed</source>
-        <translation>geschlossen</translation>
-    </message>
-    <message>
-        <source>opening</source>
-        <translation>wird geöffnet</translation>
-    </message>
-    <message>
         <source>live</source>
         <translation>live</translation>
-    </message>
-    <message>
-        <source>waiting for a trigger</source>
-        <translation>wartet auf Auslöser</translation>
-    </message>
-    <message>
-        <source>stalled</source>
-        <translation>stockt</translation>
-    </message>
-    <message>
-        <source>frozen</source>
-        <translation>eingefroren</translation>
-    </message>
-    <message>
-        <source>black</source>
-        <translation>schwarz</translation>
-    </message>
-    <message>
-        <source>lost</source>
-        <translation>verloren</translation>
-    </message>
-    <message>
-        <source>none</source>
-        <translation>nichts</translation>
-    </message>
-    <message>
-        <source>calibration</source>
-        <translation>Kalibrierung</translation>
-    </message>
-    <message>
-        <source>click</source>
-        <translation>Klick</translation>
-    </message>
-    <message>
-        <source>visit of a target</source>
-        <translation>Zielfahrt</translation>
-    </message>
-    <message>
-        <source>autofocus</source>
-        <translation>Autofokus</translation>
     </message>
     <message>
         <source>off</source>
         <translation>aus</translation>
     </message>
     <message>
-        <source>searched</source>
-        <translation>gesucht</translation>
-    </message>
-    <message>
-        <source>tracked</source>
-        <translation>verfolgt</translation>
-    </message>
-    <message>
-        <source>under way</source>
-        <translation>unterwegs</translation>
-    </message>
-    <message>
-        <source>arrived</source>
-        <translation>erreicht</translation>
-    </message>
-    <message>
         <source>failed</source>
         <translation>gescheitert</translation>
-    </message>
-    <message>
-        <source>Simulated microscope</source>
-        <translation>Simuliertes Mikroskop</translation>
     </message>
     <message>
         <source>micro</source>
@@ -320,239 +252,12 @@
         <translation>Nano</translation>
     </message>
     <message>
-        <source>mono8</source>
-        <translation>mono8</translation>
-    </message>
-    <message>
-        <source>mono16</source>
-        <translation>mono16</translation>
-    </message>
-    <message>
-        <source>colour</source>
-        <translation>Farbe</translation>
-    </message>
-    <message>
-        <source>free-running</source>
-        <translation>frei laufend</translation>
-    </message>
-    <message>
-        <source>software</source>
-        <translation>Software</translation>
-    </message>
-    <message>
-        <source>grey</source>
-        <translation>grau</translation>
-    </message>
-    <message>
-        <source>grey, inverted</source>
-        <translation>grau, invertiert</translation>
-    </message>
-    <message>
-        <source>viridis</source>
-        <translation>viridis</translation>
-    </message>
-    <message>
-        <source>grey, saturated red</source>
-        <translation>grau, gesättigt rot</translation>
-    </message>
-    <message>
-        <source>crosshair</source>
-        <translation>Fadenkreuz</translation>
-    </message>
-    <message>
         <source>tip</source>
         <translation>Spitze</translation>
     </message>
     <message>
-        <source>targets</source>
-        <translation>Ziele</translation>
-    </message>
-    <message>
-        <source>path</source>
-        <translation>Bahn</translation>
-    </message>
-    <message>
-        <source>range of the nano stage</source>
-        <translation>Bereich des Nanotischs</translation>
-    </message>
-    <message>
-        <source>cell</source>
-        <translation>Zelle</translation>
-    </message>
-    <message>
-        <source>measure</source>
-        <translation>Messung</translation>
-    </message>
-    <message>
-        <source>pan</source>
-        <translation>Schieben</translation>
-    </message>
-    <message>
-        <source>move</source>
-        <translation>Fahren</translation>
-    </message>
-    <message>
-        <source>mark</source>
-        <translation>Ziel</translation>
-    </message>
-    <message>
-        <source>the picture is black; check lamp, shutter, lens cap and exposure</source>
-        <translation>das Bild ist schwarz; Lampe, Verschluss, Kappe und Belichtung prüfen</translation>
-    </message>
-    <message>
-        <source>there is no picture; open a camera and wait for the first one</source>
-        <translation>kein Bild; eine Kamera öffnen und das erste abwarten</translation>
-    </message>
-    <message>
-        <source>the calibration was stopped</source>
-        <translation>die Kalibrierung wurde angehalten</translation>
-    </message>
-    <message>
-        <source>it was stopped</source>
-        <translation>angehalten</translation>
-    </message>
-    <message>
-        <source>somebody stopped the machine; it stays where it is</source>
-        <translation>die Maschine wurde angehalten; sie bleibt, wo sie ist</translation>
-    </message>
-    <message>
-        <source>the camera is {state}: {reason}</source>
-        <translation>Kamera {state}: {reason}</translation>
-    </message>
-    <message>
-        <source>no picture for {seconds} s; check the camera and its cable, or open it again</source>
-        <translation>seit {seconds} s kein Bild; Kamera und Kabel prüfen oder neu öffnen</translation>
-    </message>
-    <message>
-        <source>every picture has been the same for more than {seconds} s; open it again, and do not trust what it shows</source>
-        <translation>seit über {seconds} s immer dasselbe Bild; neu öffnen und dem Gezeigten nicht trauen</translation>
-    </message>
-    <message>
-        <source>{trouble}; nothing is moved</source>
-        <translation>{trouble}; nichts wird bewegt</translation>
-    </message>
-    <message>
-        <source>the machine does not move any more: {reason}</source>
-        <translation>die Maschine bewegt sich nicht mehr: {reason}</translation>
-    </message>
-    <message>
-        <source>it is not connected</source>
-        <translation>sie ist nicht verbunden</translation>
-    </message>
-    <message>
-        <source>the picture drifted by {drift} px during the calibration, must be at most {most} px; let stage and camera settle, see to backlash, and begin again</source>
-        <translation>das Bild driftete während der Kalibrierung um {drift} px, höchstens {most} px; Tisch und Kamera ruhen lassen, Umkehrspiel prüfen, neu beginnen</translation>
-    </message>
-    <message>
-        <source>{reason}; it could not go back: {error}</source>
-        <translation>{reason}; Rückfahrt nicht möglich: {error}</translation>
-    </message>
-    <message>
-        <source>the tip is {distance} px from where it should be, must be at most {most} px after a move; the calibration does not hold: calibrate anew</source>
-        <translation>die Spitze ist {distance} px von ihrem Sollort, nach einer Fahrt höchstens {most} px; die Kalibrierung stimmt nicht: neu kalibrieren</translation>
-    </message>
-    <message>
-        <source>the tip is still {distance} px off after {n} corrections, must be at most {most} px; the stage resolves no finer, or drifts</source>
-        <translation>die Spitze liegt nach {n} Korrekturen noch {distance} px daneben, höchstens {most} px; der Tisch löst nicht feiner auf oder driftet</translation>
-    </message>
-    <message>
-        <source>the tip is not seen near {column}, {row} px, where it should be; nothing more is moved: look at the picture</source>
-        <translation>die Spitze ist nahe {column}, {row} px, wo sie sein sollte, nicht zu sehen; nichts wird mehr bewegt: Bild prüfen</translation>
-    </message>
-    <message>
-        <source>pymmcore-plus is not installed: {install}</source>
-        <translation>pymmcore-plus ist nicht installiert: {install}</translation>
-    </message>
-    <message>
-        <source>pip install &apos;rotemina[micromanager]&apos;, then mmcore install</source>
-        <translation>pip install &apos;rotemina[micromanager]&apos;, dann mmcore install</translation>
-    </message>
-    <message>
-        <source>{camera} ({key}), the camera used last, is not there; plug it in, or choose another</source>
-        <translation>{camera} ({key}), die zuletzt benutzte Kamera, fehlt; anstecken oder eine andere wählen</translation>
-    </message>
-    <message>
-        <source>calibration: {n} moves, must be at least {least}; allow more of them</source>
-        <translation>Kalibrierung: {n} Bewegungen, mindestens {least}; mehr erlauben</translation>
-    </message>
-    <message>
-        <source>calibration: {bad} of {n} moves do not fit, must be at most {most} %; something else moved, or the tracking slipped: look at the picture and begin again</source>
-        <translation>Kalibrierung: {bad} von {n} Bewegungen passen nicht, höchstens {most} %; anderes bewegte sich oder die Verfolgung verrutschte: Bild prüfen, neu beginnen</translation>
-    </message>
-    <message>
-        <source>calibration: the moves do not span the plane: across their main direction they reach {part} % of the way along it, must be at least {least} %; move both axes</source>
-        <translation>Kalibrierung: die Bewegungen spannen die Ebene nicht auf: quer reichen sie {part} % des Wegs, mindestens {least} %; beide Achsen bewegen</translation>
-    </message>
-    <message>
-        <source>calibration: residuals of {rms} px rms (greatest at move {worst}), must be at most {most} px; backlash, drift or a loose tool: let the stage settle, home it, and begin again</source>
-        <translation>Kalibrierung: Restfehler {rms} px effektiv (größter bei Bewegung {worst}), höchstens {most} px; Umkehrspiel, Drift oder loses Werkzeug: Tisch ruhen lassen, Referenzfahrt, neu beginnen</translation>
-    </message>
-    <message>
-        <source>calibration: both axes move the picture in nearly the same direction ({angle}° apart, must be at least {least}°); one of them does not move, or moves along the view</source>
-        <translation>Kalibrierung: beide Achsen bewegen das Bild fast gleich gerichtet ({angle}° auseinander, mindestens {least}°); eine bewegt sich nicht oder entlang der Blickrichtung</translation>
-    </message>
-    <message>
-        <source>calibration: the pixel size is known within {known} %, must be {asked} %; make larger moves, or more of them</source>
-        <translation>Kalibrierung: die Pixelgröße ist auf {known} % bekannt, verlangt {asked} %; größere oder mehr Bewegungen machen</translation>
-    </message>
-    <message>
-        <source>cell: the line about {column}, {row} px takes {darker} % of the light, must be at least {least} %; focus on the membrane, or point into the cell</source>
-        <translation>Zelle: die Linie um {column}, {row} px nimmt {darker} % des Lichts, mindestens {least} %; auf die Membran fokussieren oder in die Zelle zeigen</translation>
-    </message>
-    <message>
-        <source>cell: its outline is {rms} px rms off an ellipse, must be at most {most} % of its radius; point into the middle of one cell</source>
-        <translation>Zelle: ihr Umriss weicht {rms} px effektiv von einer Ellipse ab, höchstens {most} % des Radius; in die Mitte einer Zelle zeigen</translation>
-    </message>
-    <message>
-        <source>drift: {most} of {count} parts of the picture agree on a shift, must be at least {least} and half of the {seen} that show enough; bring a background with detail into view and focus</source>
-        <translation>Drift: {most} von {count} Teilen des Bilds zeigen dieselbe Verschiebung, mindestens {least} und die Hälfte der {seen} mit genug Zeichnung; einen Hintergrund mit Zeichnung in Sicht und Fokus bringen</translation>
-    </message>
-    <message>
-        <source>focus: every look is as sharp as the others; bring detail into view</source>
-        <translation>Fokus: jeder Blick ist gleich scharf; Zeichnung in Sicht bringen</translation>
-    </message>
-    <message>
-        <source>focus: no peak of the sharpness stands out; bring detail into view, give more light, or search a larger range</source>
-        <translation>Fokus: kein Maximum der Schärfe hebt sich ab; Zeichnung in Sicht bringen, mehr Licht geben oder weiter suchen</translation>
-    </message>
-    <message>
-        <source>focus: it would be sharpest at {place} µm, outside the searched {low} to {high} µm; search there</source>
-        <translation>Fokus: am schärfsten wäre es bei {place} µm, außerhalb der abgesuchten {low} bis {high} µm; dort suchen</translation>
-    </message>
-    <message>
-        <source>tip: nothing looks like it (greatest likeness {likeness}); bring the tip into view and near focus, or correct its direction in the image</source>
-        <translation>Spitze: nichts sieht ihr ähnlich (größte Ähnlichkeit {likeness}); in Sicht und nahe an den Fokus bringen oder ihre Richtung im Bild berichtigen</translation>
-    </message>
-    <message>
-        <source>tip: nothing in the picture looks like a pipette, in whatever direction; bring the tip into view and near focus</source>
-        <translation>Spitze: nichts im Bild gleicht einer Pipette, in keiner Richtung; die Spitze in Sicht und nahe an den Fokus bringen</translation>
-    </message>
-    <message>
-        <source>nothing like it where it should be</source>
-        <translation>nichts Ähnliches, wo sie sein sollte</translation>
-    </message>
-    <message>
-        <source>only {part} % of its surroundings look as they should</source>
-        <translation>nur {part} % ihrer Umgebung sehen aus wie erwartet</translation>
-    </message>
-    <message>
-        <source>its place is uncertain by {doubt} px</source>
-        <translation>ihr Ort ist auf {doubt} px unsicher</translation>
-    </message>
-    <message>
-        <source>what is there takes {part} % of the light</source>
-        <translation>was dort ist, nimmt {part} % des Lichts</translation>
-    </message>
-    <message>
-        <source>its contrast is {part} % of what it was</source>
-        <translation>ihr Kontrast ist {part} % des früheren</translation>
-    </message>
-    <message>
-        <source>registration: the picture moved by {right}, {down} px and hardly overlaps the one before; make the move smaller</source>
-        <translation>Registrierung: das Bild bewegte sich um {right}, {down} px und überlappt das vorige kaum; kleiner bewegen</translation>
-    </message>
-    <message>
         <source>there is no picture</source>
+        <extracomment>Whether a move is planned; a stop ends that at once, before it is told of.</extracomment>
         <translation>kein Bild</translation>
     </message>
     <message>
@@ -737,12 +442,12 @@
         <translation>die Spitze ist unterwegs zu einem Ziel</translation>
     </message>
     <message>
-        <source>Forget the chosen target</source>
-        <translation>Gewähltes Ziel verwerfen</translation>
+        <source>Delete the chosen target</source>
+        <translation>Das gewählte Ziel löschen</translation>
     </message>
     <message>
-        <source>Forget all targets</source>
-        <translation>Alle Ziele verwerfen</translation>
+        <source>Delete all targets</source>
+        <translation>Alle Ziele löschen</translation>
     </message>
     <message>
         <source>nano range</source>
@@ -785,8 +490,8 @@
         <translation>Kontrast</translation>
     </message>
     <message>
-        <source>levels by themselves</source>
-        <translation>Pegel automatisch</translation>
+        <source>automatic levels</source>
+        <translation>automatische Stufen</translation>
     </message>
     <message>
         <source>Black and white at 0.1 and 99.9 % of the pixels</source>
@@ -973,8 +678,8 @@
         <translation>Das ganze Bild zeigen (F)</translation>
     </message>
     <message>
-        <source>A pixel is one of the screen&apos;s (1)</source>
-        <translation>Ein Pixel ist eines des Bildschirms (1)</translation>
+        <source>One camera pixel per screen pixel (1)</source>
+        <translation>Ein Kamerapixel je Bildschirmpixel (1)</translation>
     </message>
     <message>
         <source>Tools beside the picture</source>
@@ -993,8 +698,8 @@
         <translation>Hintergrund aufnehmen</translation>
     </message>
     <message>
-        <source>Keep what lies beneath, with the tip out of the way</source>
-        <translation>Festhalten, was darunter liegt, ohne die Spitze</translation>
+        <source>Save the background, with the tip out of the way</source>
+        <translation>Den Hintergrund speichern, ohne die Spitze im Bild</translation>
     </message>
     <message>
         <source>watch the drift</source>
@@ -1031,8 +736,16 @@
         <translation>Zelle verwerfen</translation>
     </message>
     <message>
-        <source>Take the outline away</source>
-        <translation>Umriss entfernen</translation>
+        <source>Remove the outline</source>
+        <translation>Den Umriss entfernen</translation>
+    </message>
+    <message>
+        <source>Position of the focus drive, µm</source>
+        <translation>Position des Fokusantriebs, µm</translation>
+    </message>
+    <message>
+        <source>Target of the drive, µm, within its range</source>
+        <translation>Ziel des Antriebs, µm, innerhalb seines Bereichs</translation>
     </message>
     <message>
         <source>no cell is outlined</source>
@@ -1059,20 +772,12 @@
         <translation>Autofokus</translation>
     </message>
     <message>
-        <source>Look for the sharpest place, and stay there</source>
+        <source>Find the sharpest focus and stay there</source>
         <translation>Den schärfsten Ort suchen und dort bleiben</translation>
     </message>
     <message>
         <source>focus at, µm</source>
         <translation>Fokus, µm</translation>
-    </message>
-    <message>
-        <source>Place of the focus drive, µm</source>
-        <translation>Ort des Fokustriebs, µm</translation>
-    </message>
-    <message>
-        <source>Where the drive is to go, µm, within its own range</source>
-        <translation>Wohin der Trieb fährt, µm, in seinem Bereich</translation>
     </message>
     <message>
         <source>Move focus</source>
@@ -1083,8 +788,60 @@
         <translation>Den Fokustrieb des Mikroskops fahren</translation>
     </message>
     <message>
+        <source>Z-stack</source>
+        <translation>Z-Stapel</translation>
+    </message>
+    <message>
+        <source>What moves the focus</source>
+        <translation>Was den Fokus bewegt</translation>
+    </message>
+    <message>
+        <source>first, µm</source>
+        <translation>erster, µm</translation>
+    </message>
+    <message>
+        <source>last, µm</source>
+        <translation>letzter, µm</translation>
+    </message>
+    <message>
+        <source>First place, µm, within its range</source>
+        <translation>Erster Ort, µm, innerhalb seines Bereichs</translation>
+    </message>
+    <message>
+        <source>Last place, µm, within its range</source>
+        <translation>Letzter Ort, µm, innerhalb seines Bereichs</translation>
+    </message>
+    <message>
+        <source>step, µm</source>
+        <translation>Schritt, µm</translation>
+    </message>
+    <message>
+        <source>Step from picture to picture, above 0 µm</source>
+        <translation>Schritt von Bild zu Bild, über 0 µm</translation>
+    </message>
+    <message>
+        <source>Take stack</source>
+        <translation>Stapel aufnehmen</translation>
+    </message>
+    <message>
         <source>nothing can be focused with: open a camera, connect the machine</source>
         <translation>nichts zum Fokussieren: Kamera öffnen, Maschine verbinden</translation>
+    </message>
+    <message>
+        <source>Take a picture at each place, and go back</source>
+        <translation>An jedem Ort ein Bild aufnehmen und zurückfahren</translation>
+    </message>
+    <message>
+        <source>Writing a z-stack …</source>
+        <translation>Ein Z-Stapel wird geschrieben …</translation>
+    </message>
+    <message>
+        <source>Saved {path}, {count} pictures</source>
+        <translation>{path} gespeichert, {count} Bilder</translation>
+    </message>
+    <message>
+        <source>{done} of {total} pictures</source>
+        <translation>{done} von {total} Bildern</translation>
     </message>
     <message>
         <source>this camera has no focus drive</source>

@@ -55,8 +55,12 @@
         <translation>× Achse</translation>
     </message>
     <message>
-        <source>nobody knows where the axis is</source>
-        <translation>der Ort der Achse ist unbekannt</translation>
+        <source>the axis&apos; position is unknown</source>
+        <translation>die Position der Achse ist unbekannt</translation>
+    </message>
+    <message>
+        <source>Remove the simulated cell</source>
+        <translation>Die simulierte Zelle entfernen</translation>
     </message>
     <message>
         <source>Put a cell ahead of where the axis is now, or move it there</source>
@@ -65,10 +69,6 @@
     <message>
         <source>there is none</source>
         <translation>es gibt keine</translation>
-    </message>
-    <message>
-        <source>Let the tip meet nothing any more</source>
-        <translation>Die Spitze trifft auf nichts mehr</translation>
     </message>
     <message>
         <source>way to the cell</source>
@@ -80,7 +80,7 @@
     </message>
     <message>
         <source>{name}: {text!r}; type a number above 0, with a decimal point</source>
-        <translation>{name}: {text!r}; eine Zahl über 0 eingeben, mit Dezimalpunkt</translation>
+        <translation>{name}: {text!r}; eine Zahl über 0 eingeben, mit Dezimalkomma</translation>
     </message>
     <message>
         <source>a cell at {at} of {axis}: must be {least} to {most}; move the axis away from its end first</source>
@@ -104,200 +104,8 @@
         <translation>Es gibt keine Zelle.</translation>
     </message>
     <message>
-        <source>disarmed</source>
-        <translation>gesichert</translation>
-    </message>
-    <message>
-        <source>armed</source>
-        <translation>scharf</translation>
-    </message>
-    <message>
-        <source>approach</source>
-        <translation>Anfahrt</translation>
-    </message>
-    <message>
-        <source>contact</source>
-        <translation>Kontakt</translation>
-    </message>
-    <message>
-        <source>thrust</source>
-        <translation>Einstich</translation>
-    </message>
-    <message>
-        <source>hold</source>
-        <translation>Halten</translation>
-    </message>
-    <message>
-        <source>inject</source>
-        <translation>Injektion</translation>
-    </message>
-    <message>
-        <source>hold after</source>
-        <translation>Nachhalten</translation>
-    </message>
-    <message>
-        <source>retract</source>
-        <translation>Rückzug</translation>
-    </message>
-    <message>
-        <source>done</source>
-        <translation>fertig</translation>
-    </message>
-    <message>
-        <source>aborted</source>
-        <translation>abgebrochen</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>gescheitert</translation>
-    </message>
-    <message>
-        <source>held</source>
-        <translation>gehalten</translation>
-    </message>
-    <message>
-        <source>axis</source>
-        <translation>Achse</translation>
-    </message>
-    <message>
-        <source>direction</source>
-        <translation>Richtung</translation>
-    </message>
-    <message>
-        <source>shape</source>
-        <translation>Form</translation>
-    </message>
-    <message>
-        <source>shaping</source>
-        <translation>Impulsformung</translation>
-    </message>
-    <message>
         <source>table</source>
         <translation>Tabelle</translation>
-    </message>
-    <message>
-        <source>down</source>
-        <translation>abwärts</translation>
-    </message>
-    <message>
-        <source>up</source>
-        <translation>aufwärts</translation>
-    </message>
-    <message>
-        <source>off</source>
-        <translation>aus</translation>
-    </message>
-    <message>
-        <source>passed</source>
-        <translation>durchlaufen</translation>
-    </message>
-    <message>
-        <source>present</source>
-        <translation>aktiv</translation>
-    </message>
-    <message>
-        <source>axis {axis}: {left} of its range are left {direction}wards, {needed} are needed ({approach} to approach, {halt} to halt, {thrust} to thrust); move the axis back first, or shorten them</source>
-        <translation>Achse {axis}: {direction} sind {left} frei, {needed} nötig ({approach} Anfahrt, {halt} Anhalten, {thrust} Einstich); die Achse zurückfahren oder kürzen</translation>
-    </message>
-    <message>
-        <source>driver {driver} cannot run profiles by itself; a thrust needs that</source>
-        <translation>Treiber {driver} kann keine Profile selbst ausführen; ein Einstich braucht das</translation>
-    </message>
-    <message>
-        <source>driver {driver} cannot move at a speed; the approach needs that</source>
-        <translation>Treiber {driver} kann nicht mit einer Geschwindigkeit fahren; die Anfahrt braucht das</translation>
-    </message>
-    <message>
-        <source>driver {driver} has no tool that could inject; set inject_s to 0</source>
-        <translation>Treiber {driver} hat kein Werkzeug zum Injizieren; Injektion auf 0 setzen</translation>
-    </message>
-    <message>
-        <source>axis {axis} of {robot} turns; a penetration needs a way in m</source>
-        <translation>Achse {axis} von {robot} dreht; eine Penetration braucht einen Weg in m</translation>
-    </message>
-    <message>
-        <source>approach_speed = {speed}/s: axis {axis} goes at {most}/s at most</source>
-        <translation>Tempo der Anfahrt {speed}/s: Achse {axis} fährt höchstens {most}/s</translation>
-    </message>
-    <message>
-        <source>duration_s = {duration} s: input shaping {shaping} takes {taken} s of it; at least {least} s, or another shaping</source>
-        <translation>Dauer {duration} s: die Impulsformung {shaping} braucht davon {taken} s; mindestens {least} s oder eine andere Formung</translation>
-    </message>
-    <message>
-        <source>shaping = {shaping}: axis {axis} of {robot} has no resonance in its robot file; choose &apos;none&apos;</source>
-        <translation>Formung {shaping}: Achse {axis} von {robot} hat keine Resonanz in der Roboterdatei; „keine“ wählen</translation>
-    </message>
-    <message>
-        <source>a trajectory is playing and owns every axis; stop it first</source>
-        <translation>eine Trajektorie läuft und belegt alle Achsen; zuerst anhalten</translation>
-    </message>
-    <message>
-        <source>a penetration is {phase}; end it first</source>
-        <translation>eine Penetration ist in Phase {phase}; zuerst beenden</translation>
-    </message>
-    <message>
-        <source>nobody started it in time</source>
-        <translation>nicht rechtzeitig gestartet</translation>
-    </message>
-    <message>
-        <source>stopped by the button in {phase}</source>
-        <translation>per Taste angehalten, Phase {phase}</translation>
-    </message>
-    <message>
-        <source>the retraction was stopped by the button</source>
-        <translation>der Rückzug wurde per Taste angehalten</translation>
-    </message>
-    <message>
-        <source>retracted by the button; before: {reason}</source>
-        <translation>per Taste zurückgezogen; zuvor: {reason}</translation>
-    </message>
-    <message>
-        <source>the axis has moved since it was armed; arm it again</source>
-        <translation>die Achse hat sich seit dem Scharfstellen bewegt; erneut scharfstellen</translation>
-    </message>
-    <message>
-        <source>no contact</source>
-        <translation>kein Kontakt</translation>
-    </message>
-    <message>
-        <source>no contact within {distance}; start nearer to the cell</source>
-        <translation>kein Kontakt auf {distance}; näher an der Zelle beginnen</translation>
-    </message>
-    <message>
-        <source>the device sends too few samples</source>
-        <translation>das Gerät sendet zu wenige Messwerte</translation>
-    </message>
-    <message>
-        <source>the axis did not come to rest</source>
-        <translation>die Achse kam nicht zur Ruhe</translation>
-    </message>
-    <message>
-        <source>the axis did not come back</source>
-        <translation>die Achse kam nicht zurück</translation>
-    </message>
-    <message>
-        <source>the device did not run the thrust</source>
-        <translation>das Gerät führte den Einstich nicht aus</translation>
-    </message>
-    <message>
-        <source>too few samples of the thrust</source>
-        <translation>zu wenige Messwerte vom Einstich</translation>
-    </message>
-    <message>
-        <source>the thrust went {depth}: must be {asked} within {tolerance} %</source>
-        <translation>der Einstich ging {depth}: verlangt sind {asked} auf {tolerance} %</translation>
-    </message>
-    <message>
-        <source>overload: the axis is {load} from where it should be, {most} at most</source>
-        <translation>Überlast: die Achse ist {load} von ihrem Sollort entfernt, höchstens {most}</translation>
-    </message>
-    <message>
-        <source>a stop was asked for</source>
-        <translation>ein Halt wurde verlangt</translation>
-    </message>
-    <message>
-        <source>somebody took an axis over</source>
-        <translation>eine Achse wurde übernommen</translation>
     </message>
     <message>
         <source>S-curve</source>
@@ -346,10 +154,6 @@
     <message>
         <source>Write these parameters into a TOML file</source>
         <translation>Diese Parameter in eine TOML-Datei schreiben</translation>
-    </message>
-    <message>
-        <source>Not now: {why_not}</source>
-        <translation>Jetzt nicht: {why_not}</translation>
     </message>
     <message>
         <source>Take parameters from a TOML file in place of these</source>
@@ -480,12 +284,124 @@
         <translation>Nichts gespeichert: {reason}</translation>
     </message>
     <message>
+        <source>waiting</source>
+        <translation>wartet</translation>
+    </message>
+    <message>
+        <source>skipped</source>
+        <translation>ausgelassen</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>fertig</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>misslungen</translation>
+    </message>
+    <message>
+        <source>Tables (*.csv);;All files (*)</source>
+        <translation>Tabellen (*.csv);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Cell</source>
+        <translation>Zelle</translation>
+    </message>
+    <message>
+        <source>Outcome</source>
+        <translation>Ausgang</translation>
+    </message>
+    <message>
+        <source>Why</source>
+        <translation>Warum</translation>
+    </message>
+    <message>
+        <source>Cells</source>
+        <translation>Zellen</translation>
+    </message>
+    <message>
+        <source>Add here</source>
+        <translation>Hier hinzufügen</translation>
+    </message>
+    <message>
+        <source>Next</source>
+        <translation>Nächste</translation>
+    </message>
+    <message>
+        <source>Skip</source>
+        <translation>Auslassen</translation>
+    </message>
+    <message>
+        <source>Penetrate</source>
+        <translation>Penetrieren</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Export …</source>
+        <translation>Exportieren …</translation>
+    </message>
+    <message>
+        <source>a penetration is armed or runs</source>
+        <translation>eine Penetration ist scharf oder läuft</translation>
+    </message>
+    <message>
+        <source>it moves</source>
+        <translation>sie bewegt sich</translation>
+    </message>
+    <message>
+        <source>the list is empty</source>
+        <translation>die Liste ist leer</translation>
+    </message>
+    <message>
+        <source>go to a cell</source>
+        <translation>erst zu einer Zelle fahren</translation>
+    </message>
+    <message>
+        <source>no other cell waits</source>
+        <translation>keine andere Zelle wartet</translation>
+    </message>
+    <message>
+        <source>its place is not known</source>
+        <translation>ihr Ort ist nicht bekannt</translation>
+    </message>
+    <message>
+        <source>Add a cell where the machine is now, the tip above it</source>
+        <translation>Eine Zelle dort hinzufügen, wo die Maschine jetzt steht, die Spitze darüber</translation>
+    </message>
+    <message>
+        <source>Go to the next cell that waits: up, across, down</source>
+        <translation>Zur nächsten wartenden Zelle fahren: auf, hinüber, ab</translation>
+    </message>
+    <message>
+        <source>Leave this cell out</source>
+        <translation>Diese Zelle auslassen</translation>
+    </message>
+    <message>
+        <source>Arm for this cell; Start, above, then moves</source>
+        <translation>Für diese Zelle scharf machen; erst Start, oben, bewegt</translation>
+    </message>
+    <message>
+        <source>Remove the marked cell</source>
+        <translation>Die markierte Zelle entfernen</translation>
+    </message>
+    <message>
+        <source>Write the list as CSV</source>
+        <translation>Die Liste als CSV schreiben</translation>
+    </message>
+    <message>
         <source>Writing {name} …</source>
         <translation>{name} wird geschrieben …</translation>
     </message>
     <message>
         <source>Saved {path}</source>
         <translation>{path} gespeichert</translation>
+    </message>
+    <message>
+        <source>Export cells</source>
+        <translation>Zellen exportieren</translation>
     </message>
     <message>
         <source>Load parameters</source>
@@ -536,8 +452,8 @@
         <translation>Einstich über der Zeit</translation>
     </message>
     <message>
-        <source>Wanted: what the tip is to do. Commanded: what the device puts out. Measured: the latest run, its constant delay taken off.</source>
-        <translation>Wunsch: was die Spitze tun soll. Sollwert: was das Gerät ausgibt. Gemessen: der letzte Lauf ohne seine konstante Totzeit.</translation>
+        <source>Wanted: the planned motion of the tip. Commanded: the output of the device. Measured: the latest run, its constant delay removed.</source>
+        <translation>Gewünscht: die geplante Bewegung der Spitze. Befohlen: die Ausgabe des Geräts. Gemessen: der letzte Lauf ohne seine konstante Verzögerung.</translation>
     </message>
     <message>
         <source>What the plot shows</source>
@@ -585,7 +501,7 @@
     </message>
     <message>
         <source>{title}: {text!r} is no number; type one{unit}, with a decimal point</source>
-        <translation>{title}: {text!r} ist keine Zahl; eine{unit} eingeben, mit Dezimalpunkt</translation>
+        <translation>{title}: {text!r} ist keine Zahl; eine{unit} eingeben, mit Dezimalkomma</translation>
     </message>
     <message>
         <source>{title}: {value} is refused: must be {least} to {most}</source>
@@ -596,8 +512,8 @@
         <translation>Tempo</translation>
     </message>
     <message>
-        <source>How fast the tip comes near</source>
-        <translation>Wie schnell die Spitze sich nähert</translation>
+        <source>Speed of the approach</source>
+        <translation>Geschwindigkeit der Annäherung</translation>
     </message>
     <message>
         <source>At most</source>
@@ -692,8 +608,16 @@
         <translation>Tempo zurück</translation>
     </message>
     <message>
-        <source>How fast the tip goes back</source>
-        <translation>Wie schnell die Spitze zurückfährt</translation>
+        <source>Speed of the retraction</source>
+        <translation>Geschwindigkeit des Rückzugs</translation>
+    </message>
+    <message>
+        <source>Greatest deviation of the axis from its set-point; beyond it, the tip retracts at once</source>
+        <translation>Größte Abweichung der Achse vom Sollwert; darüber geht die Spitze sofort zurück</translation>
+    </message>
+    <message>
+        <source>After this time it disarms automatically</source>
+        <translation>Nach dieser Zeit entschärft sie sich selbst</translation>
     </message>
     <message>
         <source>Depth off by</source>
@@ -708,16 +632,8 @@
         <translation>Überlast</translation>
     </message>
     <message>
-        <source>How far the axis may be from where it should be; beyond, the tip goes back at once</source>
-        <translation>Wie weit die Achse von ihrem Sollort sein darf; darüber fährt die Spitze sofort zurück</translation>
-    </message>
-    <message>
         <source>Armed for</source>
         <translation>Scharf für</translation>
-    </message>
-    <message>
-        <source>Then it disarms by itself</source>
-        <translation>Danach sichert es sich selbst</translation>
     </message>
     <message>
         <source>Average speed</source>
@@ -792,8 +708,8 @@
         <translation>Last {value} von {most:.4g} µm</translation>
     </message>
     <message>
-        <source>How far the axis is from where it should be.</source>
-        <translation>Wie weit die Achse von ihrem Sollort ist.</translation>
+        <source>Deviation of the axis from its set-point.</source>
+        <translation>Abweichung der Achse vom Sollwert.</translation>
     </message>
     <message>
         <source>Beyond {most:.4g} µm the run has failed, and the tip goes back.</source>
@@ -832,6 +748,10 @@
         <translation>Scharfstellen</translation>
     </message>
     <message>
+        <source>Prepare</source>
+        <translation>Vorbereiten</translation>
+    </message>
+    <message>
         <source>Start</source>
         <translation>Start</translation>
     </message>
@@ -846,6 +766,10 @@
     <message>
         <source>it is in {phase}; stop it first</source>
         <translation>in Phase {phase}; zuerst anhalten</translation>
+    </message>
+    <message>
+        <source>Move Z nano back as far as the penetration needs; Z makes up for it, and the tip stays</source>
+        <translation>Z nano so weit zurückfahren, wie die Penetration braucht; Z gleicht es aus, die Spitze bleibt</translation>
     </message>
     <message>
         <source>Time</source>
@@ -878,10 +802,6 @@
     <message>
         <source>When the run was started</source>
         <translation>Wann der Lauf gestartet wurde</translation>
-    </message>
-    <message>
-        <source>Done, aborted by the button, failed, or held by a stop; the tip is back but when held</source>
-        <translation>Fertig, per Taste abgebrochen, gescheitert oder durch einen Halt gehalten; die Spitze ist zurück, außer wenn gehalten</translation>
     </message>
     <message>
         <source>Height of the tip where the contact was told; where the axis was, without a tip</source>
@@ -932,8 +852,12 @@
         <translation>Kontakt erkannt nach</translation>
     </message>
     <message>
-        <source>leant on it from the start</source>
-        <translation>lag von Anfang an auf</translation>
+        <source>Done, aborted by the button, failed, or held by a stop; the tip is retracted unless held</source>
+        <translation>Fertig, durch die Taste abgebrochen, fehlgeschlagen oder durch einen Halt gehalten; die Spitze ist zurückgezogen, außer wenn gehalten</translation>
+    </message>
+    <message>
+        <source>in contact from the start</source>
+        <translation>von Anfang an in Kontakt</translation>
     </message>
     <message>
         <source>noise, rms</source>
@@ -1025,11 +949,6 @@
         <translation>Tabelle, Zeile {number}: {name} {value:g}, erlaubt 0 bis 1</translation>
     </message>
     <message>
-        <source>The tip comes near and feels for the membrane.</source>
-        <extracomment>The phases of the strip, in their order. Phases in which the parameters are those of a run.</extracomment>
-        <translation>Die Spitze nähert sich und tastet nach der Membran.</translation>
-    </message>
-    <message>
         <source>Contact. The tip rests on the membrane; the thrust follows.</source>
         <translation>Kontakt. Die Spitze ruht auf der Membran; der Einstich folgt.</translation>
     </message>
@@ -1052,10 +971,6 @@
     <message>
         <source>The tip goes back to where it began.</source>
         <translation>Die Spitze fährt an den Anfang zurück.</translation>
-    </message>
-    <message>
-        <source>Halt the way back; the tip stays where it is then</source>
-        <translation>Den Rückweg anhalten; die Spitze bleibt dann, wo sie ist</translation>
     </message>
     <message>
         <source>Bring the tip back to where the run began</source>
@@ -1082,8 +997,17 @@
         <translation>Sichern</translation>
     </message>
     <message>
-        <source>Set the axes free; nothing has moved</source>
-        <translation>Die Achsen freigeben; nichts wurde bewegt</translation>
+        <source>The tip approaches until it touches the membrane.</source>
+        <extracomment>The phases of the strip, in their order. Phases in which the parameters are those of a run.</extracomment>
+        <translation>Die Spitze nähert sich, bis sie die Membran berührt.</translation>
+    </message>
+    <message>
+        <source>Stop the retraction; the tip stays where it is</source>
+        <translation>Den Rückzug anhalten; die Spitze bleibt, wo sie ist</translation>
+    </message>
+    <message>
+        <source>Release the axes; nothing has moved</source>
+        <translation>Die Achsen freigeben; nichts hat sich bewegt</translation>
     </message>
     <message>
         <source>Free the axes</source>

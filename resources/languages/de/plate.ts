@@ -55,8 +55,8 @@
         <translation>Maßstab der Verformung</translation>
     </message>
     <message>
-        <source>How high the deformation is drawn, 0 to 200 %; 100 is well visible</source>
-        <translation>Wie hoch die Verformung gezeichnet wird, 0 bis 200 %; 100 ist gut sichtbar</translation>
+        <source>Scale of the drawn deformation, 0 to 200 %; 100 % is well visible</source>
+        <translation>Maßstab der gezeichneten Verformung, 0 bis 200 %; 100 % sind gut sichtbar</translation>
     </message>
     <message>
         <source>Mesh lines</source>
@@ -107,8 +107,8 @@
         <translation>Die Platte der Roboterdatei berechnen; die Bewegung geht weiter</translation>
     </message>
     <message>
-        <source>Want no answer any more; motion goes on</source>
-        <translation>Die Rechnung abbrechen; die Bewegung geht weiter</translation>
+        <source>Cancel the computation; motion goes on</source>
+        <translation>Die Berechnung abbrechen; die Bewegung geht weiter</translation>
     </message>
     <message>
         <source>Save VTU …</source>

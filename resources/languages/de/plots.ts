@@ -47,12 +47,20 @@
         <translation>gemessen</translation>
     </message>
     <message>
+        <source>gap, last {n} s</source>
+        <translation>Abweichung, letzte {n} s</translation>
+    </message>
+    <message>
+        <source>noise floor</source>
+        <translation>Rauschgrenze</translation>
+    </message>
+    <message>
         <source>Position</source>
         <translation>Position</translation>
     </message>
     <message>
         <source>Gap: measured − model</source>
-        <translation>Lücke: gemessen − Modell</translation>
+        <translation>Abweichung: gemessen − Modell</translation>
     </message>
     <message>
         <source>Loop: over command</source>
@@ -103,12 +111,24 @@
         <translation>Letzter Lauf</translation>
     </message>
     <message>
-        <source>Keep this run: what is shown now stays, in green, beside what comes.</source>
-        <translation>Lauf merken: was jetzt gezeigt wird, bleibt in Grün neben dem Kommenden.</translation>
+        <source>Keep this run: what is shown now stays beside what comes.</source>
+        <translation>Diesen Lauf behalten: was jetzt zu sehen ist, bleibt neben dem, was kommt.</translation>
+    </message>
+    <message>
+        <source>nominal</source>
+        <translation>nominal</translation>
+    </message>
+    <message>
+        <source>Record …</source>
+        <translation>Aufzeichnung …</translation>
     </message>
     <message>
         <source>Run in hand: the record that was opened or played last.</source>
         <translation>Letzter Lauf: die zuletzt geöffnete oder abgespielte Aufzeichnung.</translation>
+    </message>
+    <message>
+        <source>Record …: one of the library.</source>
+        <translation>Aufzeichnung …: eine aus der Bibliothek.</translation>
     </message>
     <message>
         <source>Cursors</source>
@@ -123,8 +143,8 @@
         <translation>Pause</translation>
     </message>
     <message>
-        <source>Hold the picture still; motion, recording and replay go on</source>
-        <translation>Das Bild anhalten; Bewegung, Aufnahme und Wiedergabe laufen weiter</translation>
+        <source>Freeze the plots; motion, recording and replay go on</source>
+        <translation>Die Diagramme anhalten; Bewegung, Aufzeichnung und Wiedergabe gehen weiter</translation>
     </message>
     <message>
         <source>More</source>
@@ -163,16 +183,44 @@
         <translation>Es gibt keinen letzten Lauf: einen öffnen oder abspielen.</translation>
     </message>
     <message>
-        <source>nominal (dotted)</source>
-        <translation>nominal (gepunktet)</translation>
-    </message>
-    <message>
         <source>plots: no samples are shown, so there is no run to keep</source>
         <translation>Diagramme: keine Messwerte gezeigt, also kein Lauf zum Merken</translation>
     </message>
     <message>
         <source>plots: no samples are shown, so there is nothing to save</source>
         <translation>Diagramme: keine Messwerte gezeigt, also nichts zu speichern</translation>
+    </message>
+    <message>
+        <source>Gap of {axis}</source>
+        <translation>Abweichung von {axis}</translation>
+    </message>
+    <message>
+        <source>Gap of the {n} s before, while something moves; the scale is logarithmic</source>
+        <translation>Abweichung der {n} s davor, solange sich etwas bewegt; die Skala ist logarithmisch</translation>
+    </message>
+    <message>
+        <source>Band: noise floor of the sensor, {floor}</source>
+        <translation>Band: Rauschgrenze des Sensors, {floor}</translation>
+    </message>
+    <message>
+        <source>Amber: more than noise makes, {noise}</source>
+        <translation>Gelb: mehr, als Rauschen ausmacht, {noise}</translation>
+    </message>
+    <message>
+        <source>Red: beyond the following bound, {bound}</source>
+        <translation>Rot: über der Schleppgrenze, {bound}</translation>
+    </message>
+    <message>
+        <source>Reading {name} …</source>
+        <translation>{name} wird gelesen …</translation>
+    </message>
+    <message>
+        <source>The library has no records yet: play or record something.</source>
+        <translation>Die Bibliothek hat noch keine Aufzeichnungen: etwas abspielen oder aufnehmen.</translation>
+    </message>
+    <message>
+        <source>Record beside the present run</source>
+        <translation>Aufzeichnung neben dem jetzigen Lauf</translation>
     </message>
 </context>
 </TS>

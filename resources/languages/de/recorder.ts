@@ -111,16 +111,12 @@
         <translation>{folder}: nicht lesbar ({reason})</translation>
     </message>
     <message>
-        <source>damaged ({error})</source>
-        <translation>beschädigt ({error})</translation>
-    </message>
-    <message>
         <source>What is shown</source>
         <translation>Was gezeigt wird</translation>
     </message>
     <message>
-        <source>Recordings</source>
-        <translation>Aufnahmen</translation>
+        <source>Records</source>
+        <translation>Aufzeichnungen</translation>
     </message>
     <message>
         <source>Events</source>
@@ -211,7 +207,7 @@
         <translation>Enter schreibt sie mit dieser Zeit in die Aufnahme</translation>
     </message>
     <message>
-        <source>Put the remark into the recording, at this time</source>
+        <source>Add the remark to the recording at this time</source>
         <translation>Die Bemerkung mit dieser Zeit in die Aufnahme schreiben</translation>
     </message>
     <message>
@@ -239,10 +235,6 @@
         <translation>Aufgenommen: {path}</translation>
     </message>
     <message>
-        <source>choose a recording in the table</source>
-        <translation>eine Aufnahme in der Tabelle wählen</translation>
-    </message>
-    <message>
         <source>{target}: it is the recording itself; name another file</source>
         <translation>{target}: das ist die Aufnahme selbst; eine andere Datei nennen</translation>
     </message>
@@ -267,28 +259,20 @@
         <translation>Zeigen</translation>
     </message>
     <message>
-        <source>Other file …</source>
-        <translation>Andere Datei …</translation>
-    </message>
-    <message>
-        <source>Show a recording from another folder</source>
-        <translation>Eine Aufnahme aus einem anderen Ordner zeigen</translation>
-    </message>
-    <message>
         <source>Export …</source>
         <translation>Export …</translation>
     </message>
     <message>
         <source>To trajectory</source>
-        <translation>Zur Trajektorie</translation>
+        <translation>Trajektorie</translation>
     </message>
     <message>
         <source>Refresh</source>
         <translation>Neu suchen</translation>
     </message>
     <message>
-        <source>Look into the folder again</source>
-        <translation>Den Ordner neu durchsehen</translation>
+        <source>choose one record in the table</source>
+        <translation>eine Aufzeichnung in der Tabelle wählen</translation>
     </message>
     <message>
         <source>▏Here</source>
@@ -299,6 +283,30 @@
         <translation>Hier▕</translation>
     </message>
     <message>
+        <source>More</source>
+        <translation>Mehr</translation>
+    </message>
+    <message>
+        <source>Change name</source>
+        <translation>Name ändern</translation>
+    </message>
+    <message>
+        <source>Change note</source>
+        <translation>Notiz ändern</translation>
+    </message>
+    <message>
+        <source>Find file …</source>
+        <translation>Datei suchen …</translation>
+    </message>
+    <message>
+        <source>Replay other file …</source>
+        <translation>Andere Datei zeigen …</translation>
+    </message>
+    <message>
+        <source>Delete …</source>
+        <translation>Löschen …</translation>
+    </message>
+    <message>
         <source>From</source>
         <translation>Von</translation>
     </message>
@@ -307,8 +315,16 @@
         <translation>bis</translation>
     </message>
     <message>
+        <source>Compare</source>
+        <translation>Vergleichen</translation>
+    </message>
+    <message>
         <source>Show the recording in place of the machine</source>
         <translation>Die Aufnahme anstelle der Maschine zeigen</translation>
+    </message>
+    <message>
+        <source>Compare the record with the model in use</source>
+        <translation>Die Aufzeichnung mit dem benutzten Modell vergleichen</translation>
     </message>
     <message>
         <source>Write the stretch as an ASCII record, to be compared and diagnosed</source>
@@ -343,6 +359,30 @@
         <translation>Aufnahmen (*{suffix});;Alle Dateien (*)</translation>
     </message>
     <message>
+        <source>Where is {name}?</source>
+        <translation>Wo ist {name}?</translation>
+    </message>
+    <message>
+        <source>Delete {names}? This deletes {size} on the disk for good. Files in other folders stay; they only leave the list.</source>
+        <translation>{names} löschen? Dies löscht {size} endgültig vom Datenträger. Dateien in anderen Ordnern bleiben; sie verlassen nur die Liste.</translation>
+    </message>
+    <message>
+        <source>{names} and {n} more</source>
+        <translation>{names} und {n} weitere</translation>
+    </message>
+    <message>
+        <source>it is a record already; only a recording is exported</source>
+        <translation>es ist schon eine Aufzeichnung; nur eine Aufnahme wird exportiert</translation>
+    </message>
+    <message>
+        <source>Change name or note, find or open a file, delete</source>
+        <translation>Name oder Notiz ändern, eine Datei suchen oder öffnen, löschen</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>Löschen</translation>
+    </message>
+    <message>
         <source>{end} of the stretch in seconds</source>
         <translation>{end} des Abschnitts in Sekunden</translation>
     </message>
@@ -351,32 +391,12 @@
         <translation>Sekunden ab Beginn der Aufnahme; leer: ihr {end}</translation>
     </message>
     <message>
-        <source>Recordings, newest first</source>
-        <translation>Aufnahmen, neueste zuerst</translation>
-    </message>
-    <message>
         <source>begin</source>
         <translation>Beginn</translation>
     </message>
     <message>
         <source>end</source>
         <translation>Ende</translation>
-    </message>
-    <message>
-        <source>Recorded</source>
-        <translation>Aufgenommen</translation>
-    </message>
-    <message>
-        <source>Length</source>
-        <translation>Länge</translation>
-    </message>
-    <message>
-        <source>Robot</source>
-        <translation>Roboter</translation>
-    </message>
-    <message>
-        <source>cannot be opened</source>
-        <translation>nicht zu öffnen</translation>
     </message>
     <message>
         <source>unknown</source>
@@ -420,7 +440,23 @@
     </message>
     <message>
         <source>{text!r} is no {what}: type seconds from the begin of the recording, 0 or more, with a decimal point, or nothing</source>
-        <translation>{text!r} ist kein {what}: Sekunden ab Beginn der Aufnahme eingeben, 0 oder mehr, mit Dezimalpunkt, oder nichts</translation>
+        <translation>{text!r} ist kein {what}: Sekunden ab Beginn der Aufnahme eingeben, 0 oder mehr, mit Dezimalkomma, oder nichts</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>Lauf</translation>
+    </message>
+    <message>
+        <source>Operator</source>
+        <translation>Bediener</translation>
+    </message>
+    <message>
+        <source>Sample</source>
+        <translation>Probe</translation>
+    </message>
+    <message>
+        <source>Stands in every playback and recording from now on</source>
+        <translation>Steht von jetzt an in jeder Wiedergabe und Aufnahme</translation>
     </message>
 </context>
 </TS>

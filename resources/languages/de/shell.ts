@@ -2,6 +2,485 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de" sourcelanguage="en">
 <context>
+    <name>engine</name>
+    <message>
+        <source>position</source>
+        <translation>Position</translation>
+    </message>
+    <message>
+        <source>voltage</source>
+        <translation>Spannung</translation>
+    </message>
+    <message>
+        <source>speed</source>
+        <translation>Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>acceleration</source>
+        <translation>Beschleunigung</translation>
+    </message>
+    <message>
+        <source>predicted motion</source>
+        <translation>vorhergesagte Bewegung</translation>
+    </message>
+    <message>
+        <source>closing a loop</source>
+        <translation>Regelkreis schließen</translation>
+    </message>
+    <message>
+        <source>opening a loop</source>
+        <translation>Regelkreis öffnen</translation>
+    </message>
+    <message>
+        <source>putting an inverse on</source>
+        <translation>inverses Modell einschalten</translation>
+    </message>
+    <message>
+        <source>taking an inverse off</source>
+        <translation>inverses Modell abschalten</translation>
+    </message>
+    <message>
+        <source>teaching the floor</source>
+        <translation>Boden einlernen</translation>
+    </message>
+    <message>
+        <source>removing the floor</source>
+        <translation>Boden entfernen</translation>
+    </message>
+    <message>
+        <source>reserving the axes</source>
+        <translation>Achsen reservieren</translation>
+    </message>
+    <message>
+        <source>changing how an axis comes to its targets</source>
+        <translation>Ändern, wie eine Achse ihre Ziele anfährt</translation>
+    </message>
+    <message>
+        <source>narrowing a range</source>
+        <translation>Einengen eines Bereichs</translation>
+    </message>
+    <message>
+        <source>restoring a range</source>
+        <translation>Wiederherstellen eines Bereichs</translation>
+    </message>
+    <message>
+        <source>a profile</source>
+        <translation>Profil</translation>
+    </message>
+    <message>
+        <source>putting out a voltage</source>
+        <translation>Spannung ausgeben</translation>
+    </message>
+    <message>
+        <source>accept its parameters</source>
+        <translation>seine Parameter annehmen</translation>
+    </message>
+    <message>
+        <source>capture</source>
+        <translation>schnell aufzeichnen</translation>
+    </message>
+    <message>
+        <source>change a compensation</source>
+        <translation>eine Kompensation ändern</translation>
+    </message>
+    <message>
+        <source>change a loop</source>
+        <translation>einen Regelkreis ändern</translation>
+    </message>
+    <message>
+        <source>change its effects</source>
+        <translation>seine Effekte ändern</translation>
+    </message>
+    <message>
+        <source>clear a fault</source>
+        <translation>einen Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>home</source>
+        <translation>Referenzfahrt machen</translation>
+    </message>
+    <message>
+        <source>play</source>
+        <translation>abspielen</translation>
+    </message>
+    <message>
+        <source>put out a voltage</source>
+        <translation>eine Spannung ausgeben</translation>
+    </message>
+    <message>
+        <source>read</source>
+        <translation>lesen</translation>
+    </message>
+    <message>
+        <source>run a profile</source>
+        <translation>ein Profil ausführen</translation>
+    </message>
+    <message>
+        <source>show a text</source>
+        <translation>einen Text anzeigen</translation>
+    </message>
+    <message>
+        <source>switch the tool off</source>
+        <translation>das Werkzeug abschalten</translation>
+    </message>
+    <message>
+        <source>switch the tool on</source>
+        <translation>das Werkzeug einschalten</translation>
+    </message>
+    <message>
+        <source>take a profile</source>
+        <translation>ein Profil annehmen</translation>
+    </message>
+    <message>
+        <source>write its parameters</source>
+        <translation>seine Parameter schreiben</translation>
+    </message>
+    <message>
+        <source>go on with</source>
+        <translation>fortsetzen</translation>
+    </message>
+    <message>
+        <source>step through</source>
+        <translation>schrittweise abspielen</translation>
+    </message>
+    <message>
+        <source>operator</source>
+        <translation>Bediener</translation>
+    </message>
+    <message>
+        <source>playback</source>
+        <translation>Wiedergabe</translation>
+    </message>
+    <message>
+        <source>homing</source>
+        <translation>Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>joystick</source>
+        <translation>Joystick</translation>
+    </message>
+    <message>
+        <source>penetration</source>
+        <translation>Penetration</translation>
+    </message>
+    <message>
+        <source>closed</source>
+        <translation>geschlossen</translation>
+    </message>
+    <message>
+        <source>opening</source>
+        <translation>wird geöffnet</translation>
+    </message>
+    <message>
+        <source>live</source>
+        <translation>live</translation>
+    </message>
+    <message>
+        <source>stalled</source>
+        <translation>stockt</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>eingefroren</translation>
+    </message>
+    <message>
+        <source>black</source>
+        <translation>schwarz</translation>
+    </message>
+    <message>
+        <source>lost</source>
+        <translation>verloren</translation>
+    </message>
+    <message>
+        <source>calibration</source>
+        <translation>Kalibrierung</translation>
+    </message>
+    <message>
+        <source>click</source>
+        <translation>Klick</translation>
+    </message>
+    <message>
+        <source>visit of a target</source>
+        <translation>Zielfahrt</translation>
+    </message>
+    <message>
+        <source>autofocus</source>
+        <translation>Autofokus</translation>
+    </message>
+    <message>
+        <source>z-stack</source>
+        <translation>Z-Stapel</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>aus</translation>
+    </message>
+    <message>
+        <source>searched</source>
+        <translation>gesucht</translation>
+    </message>
+    <message>
+        <source>tracked</source>
+        <translation>verfolgt</translation>
+    </message>
+    <message>
+        <source>under way</source>
+        <translation>unterwegs</translation>
+    </message>
+    <message>
+        <source>arrived</source>
+        <translation>erreicht</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>gescheitert</translation>
+    </message>
+    <message>
+        <source>micro</source>
+        <translation>Mikro</translation>
+    </message>
+    <message>
+        <source>nano</source>
+        <translation>Nano</translation>
+    </message>
+    <message>
+        <source>mono8</source>
+        <translation>mono8</translation>
+    </message>
+    <message>
+        <source>mono16</source>
+        <translation>mono16</translation>
+    </message>
+    <message>
+        <source>colour</source>
+        <translation>Farbe</translation>
+    </message>
+    <message>
+        <source>free-running</source>
+        <translation>frei laufend</translation>
+    </message>
+    <message>
+        <source>software</source>
+        <translation>Software</translation>
+    </message>
+    <message>
+        <source>grey</source>
+        <translation>grau</translation>
+    </message>
+    <message>
+        <source>grey, inverted</source>
+        <translation>grau, invertiert</translation>
+    </message>
+    <message>
+        <source>viridis</source>
+        <translation>viridis</translation>
+    </message>
+    <message>
+        <source>grey, saturated red</source>
+        <translation>grau, gesättigt rot</translation>
+    </message>
+    <message>
+        <source>crosshair</source>
+        <translation>Fadenkreuz</translation>
+    </message>
+    <message>
+        <source>tip</source>
+        <translation>Spitze</translation>
+    </message>
+    <message>
+        <source>targets</source>
+        <translation>Ziele</translation>
+    </message>
+    <message>
+        <source>path</source>
+        <translation>Bahn</translation>
+    </message>
+    <message>
+        <source>range of the nano stage</source>
+        <translation>Bereich des Nanotischs</translation>
+    </message>
+    <message>
+        <source>cell</source>
+        <translation>Zelle</translation>
+    </message>
+    <message>
+        <source>measure</source>
+        <translation>Messung</translation>
+    </message>
+    <message>
+        <source>pan</source>
+        <translation>Schieben</translation>
+    </message>
+    <message>
+        <source>move</source>
+        <translation>Fahren</translation>
+    </message>
+    <message>
+        <source>mark</source>
+        <translation>Ziel</translation>
+    </message>
+    <message>
+        <source>disarmed</source>
+        <translation>gesichert</translation>
+    </message>
+    <message>
+        <source>armed</source>
+        <translation>scharf</translation>
+    </message>
+    <message>
+        <source>approach</source>
+        <translation>Anfahrt</translation>
+    </message>
+    <message>
+        <source>contact</source>
+        <translation>Kontakt</translation>
+    </message>
+    <message>
+        <source>thrust</source>
+        <translation>Einstich</translation>
+    </message>
+    <message>
+        <source>hold</source>
+        <translation>Halten</translation>
+    </message>
+    <message>
+        <source>inject</source>
+        <translation>Injektion</translation>
+    </message>
+    <message>
+        <source>hold after</source>
+        <translation>Nachhalten</translation>
+    </message>
+    <message>
+        <source>retract</source>
+        <translation>Rückzug</translation>
+    </message>
+    <message>
+        <source>aborted</source>
+        <translation>abgebrochen</translation>
+    </message>
+    <message>
+        <source>held</source>
+        <translation>gehalten</translation>
+    </message>
+    <message>
+        <source>no contact</source>
+        <translation>kein Kontakt</translation>
+    </message>
+    <message>
+        <source>axis</source>
+        <translation>Achse</translation>
+    </message>
+    <message>
+        <source>direction</source>
+        <translation>Richtung</translation>
+    </message>
+    <message>
+        <source>shape</source>
+        <translation>Form</translation>
+    </message>
+    <message>
+        <source>shaping</source>
+        <translation>Impulsformung</translation>
+    </message>
+    <message>
+        <source>table</source>
+        <translation>Tabelle</translation>
+    </message>
+    <message>
+        <source>down</source>
+        <translation>abwärts</translation>
+    </message>
+    <message>
+        <source>up</source>
+        <translation>aufwärts</translation>
+    </message>
+    <message>
+        <source>passed</source>
+        <translation>durchlaufen</translation>
+    </message>
+    <message>
+        <source>present</source>
+        <translation>aktiv</translation>
+    </message>
+    <message>
+        <source>fine</source>
+        <translation>fein</translation>
+    </message>
+    <message>
+        <source>coarse</source>
+        <translation>grob</translation>
+    </message>
+    <message>
+        <source>playing</source>
+        <translation>spielt ab</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>Automatisch</translation>
+    </message>
+    <message>
+        <source>move the axis now</source>
+        <translation>jetzt die Achse bewegen</translation>
+    </message>
+    <message>
+        <source>Permission denied</source>
+        <translation>keine Berechtigung</translation>
+    </message>
+    <message>
+        <source>No such file or directory</source>
+        <translation>diese Datei oder diesen Ordner gibt es nicht</translation>
+    </message>
+    <message>
+        <source>File exists</source>
+        <translation>gibt es schon</translation>
+    </message>
+    <message>
+        <source>Is a directory</source>
+        <translation>das ist ein Ordner</translation>
+    </message>
+    <message>
+        <source>Not a directory</source>
+        <translation>das ist kein Ordner</translation>
+    </message>
+    <message>
+        <source>No space left on device</source>
+        <translation>kein Platz mehr auf dem Datenträger</translation>
+    </message>
+    <message>
+        <source>Read-only file system</source>
+        <translation>der Datenträger ist nur lesbar</translation>
+    </message>
+    <message>
+        <source>Input/output error</source>
+        <translation>Ein-/Ausgabefehler</translation>
+    </message>
+    <message>
+        <source>Re-centring</source>
+        <translation>Zentrieren</translation>
+    </message>
+    <message>
+        <source>Preparing</source>
+        <translation>Vorbereiten</translation>
+    </message>
+    <message>
+        <source>or</source>
+        <translation>oder</translation>
+    </message>
+    <message>
+        <source>and</source>
+        <translation>und</translation>
+    </message>
+    <message>
+        <source>{output}: the folder cannot be made: {strerror}</source>
+        <translation>{output}: der Ordner lässt sich nicht anlegen: {strerror}</translation>
+    </message>
+    <message>
+        <source>{picture}: the picture cannot be written</source>
+        <translation>{picture}: das Bild lässt sich nicht schreiben</translation>
+    </message>
+</context>
+<context>
     <name>shell</name>
     <message>
         <source>The layout is not saved: {objection}.</source>
@@ -20,8 +499,8 @@
         <translation>ein Fehler des Programms: {name}: {error}</translation>
     </message>
     <message>
-        <source>Looking at {name} …</source>
-        <translation>{name} wird angesehen …</translation>
+        <source>Inspecting {name} …</source>
+        <translation>{name} wird untersucht …</translation>
     </message>
     <message>
         <source>Columns of {name}</source>
@@ -64,6 +543,14 @@
         <translation>Laden und am Modell prüfen</translation>
     </message>
     <message>
+        <source>Trajectory from &amp;record …</source>
+        <translation>Trajektorie aus Auf&amp;zeichnung …</translation>
+    </message>
+    <message>
+        <source>Take the commands of a record of the library in hand</source>
+        <translation>Die Sollwerte einer Aufzeichnung der Bibliothek laden</translation>
+    </message>
+    <message>
         <source>&amp;Open record …</source>
         <translation>Aufzeichnung &amp;öffnen …</translation>
     </message>
@@ -90,14 +577,6 @@
     <message>
         <source>there is no trajectory; load one first</source>
         <translation>es gibt keine Trajektorie; erst eine laden</translation>
-    </message>
-    <message>
-        <source>the emergency stop is not latched</source>
-        <translation>der Not-Halt ist nicht eingerastet</translation>
-    </message>
-    <message>
-        <source>there is no move to take back</source>
-        <translation>es gibt keine Bewegung zum Zurücknehmen</translation>
     </message>
     <message>
         <source>no device is connected</source>
@@ -132,16 +611,24 @@
         <translation>Alle Achsen anhalten und halten (Esc)</translation>
     </message>
     <message>
-        <source>&amp;Emergency stop</source>
-        <translation>&amp;Not-Halt</translation>
-    </message>
-    <message>
         <source>Latched (Shift+Esc)</source>
         <translation>Rastet ein (Umschalt+Esc)</translation>
     </message>
     <message>
-        <source>Re&amp;lease the emergency stop</source>
-        <translation>Not-Halt &amp;freigeben</translation>
+        <source>the machine is not locked</source>
+        <translation>die Maschine ist nicht gesperrt</translation>
+    </message>
+    <message>
+        <source>there is no move to undo</source>
+        <translation>keine Bewegung zum Zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Stop and loc&amp;k</source>
+        <translation>Halt und s&amp;perren</translation>
+    </message>
+    <message>
+        <source>Re&amp;lease the lock</source>
+        <translation>Sperre &amp;freigeben</translation>
     </message>
     <message>
         <source>Let axes move</source>
@@ -172,6 +659,14 @@
         <translation>Zur Kenntnis nehmen</translation>
     </message>
     <message>
+        <source>C&amp;onnect …</source>
+        <translation>&amp;Verbinden …</translation>
+    </message>
+    <message>
+        <source>Choose a machine or the simulator</source>
+        <translation>Eine Maschine oder den Simulator wählen</translation>
+    </message>
+    <message>
         <source>&amp;Reconnect</source>
         <translation>&amp;Wieder verbinden</translation>
     </message>
@@ -184,8 +679,24 @@
         <translation>&amp;Trennen</translation>
     </message>
     <message>
-        <source>Stop, and let go of it</source>
-        <translation>Anhalten und loslassen</translation>
+        <source>Stop and disconnect</source>
+        <translation>Anhalten und trennen</translation>
+    </message>
+    <message>
+        <source>Save it under a name</source>
+        <translation>Unter einem Namen speichern</translation>
+    </message>
+    <message>
+        <source>Put all docks back</source>
+        <translation>Alle Panels zurücksetzen</translation>
+    </message>
+    <message>
+        <source>The panel that has the focus</source>
+        <translation>Das Panel mit dem Fokus</translation>
+    </message>
+    <message>
+        <source>All messages of the program</source>
+        <translation>Alle Meldungen des Programms</translation>
     </message>
     <message>
         <source>&amp;View</source>
@@ -196,16 +707,8 @@
         <translation>Anordnung s&amp;peichern …</translation>
     </message>
     <message>
-        <source>Keep it under a name</source>
-        <translation>Unter einem Namen behalten</translation>
-    </message>
-    <message>
         <source>&amp;Restore the layout</source>
         <translation>Anordnung &amp;zurücksetzen</translation>
-    </message>
-    <message>
-        <source>All docks back</source>
-        <translation>Alle Panels zurück</translation>
     </message>
     <message>
         <source>Larger text</source>
@@ -244,10 +747,6 @@
         <translation>Hilfe zu diesem &amp;Panel</translation>
     </message>
     <message>
-        <source>The one with the focus</source>
-        <translation>Dem mit dem Fokus</translation>
-    </message>
-    <message>
         <source>&amp;All pages</source>
         <translation>&amp;Alle Seiten</translation>
     </message>
@@ -268,10 +767,6 @@
         <translation>Protoko&amp;ll</translation>
     </message>
     <message>
-        <source>All that the program told</source>
-        <translation>Alles, was das Programm gemeldet hat</translation>
-    </message>
-    <message>
         <source>&amp;Support bundle …</source>
         <translation>Support-Pa&amp;ket …</translation>
     </message>
@@ -280,128 +775,12 @@
         <translation>Protokoll, Einstellungen, Versionen und Aufzeichnung für Helfende</translation>
     </message>
     <message>
-        <source>Not now: {why_not}</source>
-        <translation>Nicht jetzt: {why_not}</translation>
+        <source>A&amp;bout RoTeMiNa</source>
+        <translation>&amp;Über RoTeMiNa</translation>
     </message>
     <message>
-        <source>not connected; connect first</source>
-        <translation>nicht verbunden; erst verbinden</translation>
-    </message>
-    <message>
-        <source>connecting; wait</source>
-        <translation>wird verbunden; warten</translation>
-    </message>
-    <message>
-        <source>the device failed ({fault}); reconnect, then check where it stands</source>
-        <translation>das Gerät ist ausgefallen ({fault}); wieder verbinden, dann prüfen, wo es steht</translation>
-    </message>
-    <message>
-        <source>the device reports a fault ({fault}); clear it first</source>
-        <translation>das Gerät meldet einen Fehler ({fault}); erst quittieren</translation>
-    </message>
-    <message>
-        <source>the device does not answer; wait until it does</source>
-        <translation>das Gerät antwortet nicht; warten, bis es antwortet</translation>
-    </message>
-    <message>
-        <source>the device&apos;s parameters are not those of the robot file ({difference}); write or accept them first</source>
-        <translation>die Parameter des Geräts sind nicht die der Roboterdatei ({difference}); erst schreiben oder übernehmen</translation>
-    </message>
-    <message>
-        <source>the position of {axes} is not known; home first</source>
-        <translation>die Position von {axes} ist unbekannt; erst Referenzfahrt</translation>
-    </message>
-    <message>
-        <source>the position is not known yet</source>
-        <translation>die Position ist noch nicht bekannt</translation>
-    </message>
-    <message>
-        <source>{reason}: the position may be wrong; home, or confirm it</source>
-        <translation>{reason}: die Position kann falsch sein; Referenzfahrt oder bestätigen</translation>
-    </message>
-    <message>
-        <source>the device has sent nothing for {seconds} s; wait, or reconnect</source>
-        <translation>das Gerät hat seit {seconds} s nichts gesendet; warten oder wieder verbinden</translation>
-    </message>
-    <message>
-        <source>{stop} is latched; release it first</source>
-        <translation>{stop} ist eingerastet; erst freigeben</translation>
-    </message>
-    <message>
-        <source>this is a replay; nothing moves</source>
-        <translation>dies ist eine Wiedergabe; nichts bewegt sich</translation>
-    </message>
-    <message>
-        <source>motion is locked: {reason}</source>
-        <translation>Bewegung ist gesperrt: {reason}</translation>
-    </message>
-    <message>
-        <source>operator</source>
-        <translation>Bediener</translation>
-    </message>
-    <message>
-        <source>playback</source>
-        <translation>Wiedergabe</translation>
-    </message>
-    <message>
-        <source>homing</source>
-        <translation>Referenzfahrt</translation>
-    </message>
-    <message>
-        <source>joystick</source>
-        <translation>Joystick</translation>
-    </message>
-    <message>
-        <source>penetration</source>
-        <translation>Penetration</translation>
-    </message>
-    <message>
-        <source>emergency stop</source>
-        <translation>Not-Halt</translation>
-    </message>
-    <message>
-        <source>the joystick&apos;s emergency stop</source>
-        <translation>Not-Halt des Joysticks</translation>
-    </message>
-    <message>
-        <source>the connection was lost</source>
-        <translation>die Verbindung ging verloren</translation>
-    </message>
-    <message>
-        <source>the joystick&apos;s stop</source>
-        <translation>das Stopp des Joysticks</translation>
-    </message>
-    <message>
-        <source>the window does not answer</source>
-        <translation>das Fenster antwortet nicht</translation>
-    </message>
-    <message>
-        <source>the device is let go of</source>
-        <translation>das Gerät wird losgelassen</translation>
-    </message>
-    <message>
-        <source>another device is connected</source>
-        <translation>ein anderes Gerät wird verbunden</translation>
-    </message>
-    <message>
-        <source>the input devices are let go of</source>
-        <translation>die Eingabegeräte werden losgelassen</translation>
-    </message>
-    <message>
-        <source>the playback is paused</source>
-        <translation>das Abspielen ist angehalten</translation>
-    </message>
-    <message>
-        <source>the playback is ended</source>
-        <translation>das Abspielen ist beendet</translation>
-    </message>
-    <message>
-        <source>the calibration is given up</source>
-        <translation>die Kalibrierung wird aufgegeben</translation>
-    </message>
-    <message>
-        <source>it was stopped</source>
-        <translation>es wurde angehalten</translation>
+        <source>Version, licence and folders</source>
+        <translation>Version, Lizenz und Ordner</translation>
     </message>
     <message>
         <source>Panel</source>
@@ -468,8 +847,8 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Alle Achsen anhalten und halten; ein Halt durch Software</translation>
     </message>
     <message>
-        <source>Emergency stop: latched until it is released; a stop by software</source>
-        <translation>Not-Halt: eingerastet, bis er freigegeben wird; ein Halt durch Software</translation>
+        <source>Stop and lock: nothing moves until it is released; a stop by software</source>
+        <translation>Halt und sperren: Nichts bewegt sich bis zur Freigabe; ein Halt durch Software</translation>
     </message>
     <message>
         <source>Keys</source>
@@ -504,8 +883,8 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>&amp;Bedienen</translation>
     </message>
     <message>
-        <source>Drive the machine: control, devices, trajectory, penetration, recorder</source>
-        <translation>Die Maschine fahren: Steuerung, Geräte, Trajektorie, Penetration, Rekorder</translation>
+        <source>Drive the machine: control, job, events, trajectory, penetration, recorder</source>
+        <translation>Die Maschine fahren: Steuerung, Auftrag, Ereignisse, Trajektorie, Penetration, Rekorder</translation>
     </message>
     <message>
         <source>T&amp;une</source>
@@ -521,7 +900,15 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>Find out why the machine departs from its model: gap, comparison, effects</source>
-        <translation>Herausfinden, warum die Maschine vom Modell abweicht: Lücke, Vergleich, Effekte</translation>
+        <translation>Herausfinden, warum die Maschine vom Modell abweicht: Abweichung, Vergleich, Effekte</translation>
+    </message>
+    <message>
+        <source>&amp;Set up</source>
+        <translation>&amp;Einrichten</translation>
+    </message>
+    <message>
+        <source>Prepare the machine: connection, devices, camera, calibration, holding plate</source>
+        <translation>Die Maschine vorbereiten: Verbindung, Geräte, Kamera, Kalibrierung, Halteplatte</translation>
     </message>
     <message>
         <source>write a name</source>
@@ -596,12 +983,12 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Welche Meldungen</translation>
     </message>
     <message>
-        <source>words to look for</source>
-        <translation>gesuchte Wörter</translation>
+        <source>search words</source>
+        <translation>Suchwörter</translation>
     </message>
     <message>
-        <source>Words to look for in messages</source>
-        <translation>In Meldungen gesuchte Wörter</translation>
+        <source>Words to search the messages for</source>
+        <translation>Wörter, nach denen die Meldungen durchsucht werden</translation>
     </message>
     <message>
         <source>Copy</source>
@@ -652,12 +1039,24 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Das Panel {name!r} fehlt: {reason}</translation>
     </message>
     <message>
+        <source>trajectory</source>
+        <translation>Trajektorie</translation>
+    </message>
+    <message>
+        <source>record</source>
+        <translation>Aufzeichnung</translation>
+    </message>
+    <message>
         <source>Load trajectory</source>
         <translation>Trajektorie laden</translation>
     </message>
     <message>
         <source>Open record</source>
         <translation>Aufzeichnung öffnen</translation>
+    </message>
+    <message>
+        <source>Trajectory from record</source>
+        <translation>Trajektorie aus Aufzeichnung</translation>
     </message>
     <message>
         <source>There is no record to save: play or open one.</source>
@@ -680,40 +1079,64 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Das Fenster schließt, sobald alles geschrieben ist. Nochmals schließen beendet sofort: Eine Aufnahme ist beim nächsten Start wiederherstellbar.</translation>
     </message>
     <message>
+        <source>A trajectory is playing. Quitting stops it; what was played is kept.</source>
+        <translation>Eine Trajektorie wird abgespielt. Beenden hält sie an; was abgespielt wurde, bleibt erhalten.</translation>
+    </message>
+    <message>
+        <source>The machine is moving. Quitting stops it.</source>
+        <translation>Die Maschine bewegt sich. Beenden hält sie an.</translation>
+    </message>
+    <message>
+        <source>Stop and quit</source>
+        <translation>Anhalten und beenden</translation>
+    </message>
+    <message>
+        <source>The last played record is in no file yet: quitting now loses it. Stay, and save it with Ctrl+S.</source>
+        <translation>Die zuletzt abgespielte Aufzeichnung ist noch in keiner Datei: Beenden verliert sie. Bleiben Sie, und speichern Sie sie mit Strg+S.</translation>
+    </message>
+    <message>
+        <source>Quit and lose it</source>
+        <translation>Beenden und verlieren</translation>
+    </message>
+    <message>
         <source>Quit</source>
         <translation>Beenden</translation>
     </message>
     <message>
-        <source>The last played record is not kept in any file yet. Quit and lose it?</source>
-        <translation>Die letzte abgespielte Aufzeichnung steht noch in keiner Datei. Beenden und verlieren?</translation>
+        <source>Stay</source>
+        <translation>Bleiben</translation>
     </message>
     <message>
         <source>This is a stop by software, not the machine&apos;s emergency switch.</source>
         <translation>Dies ist ein Halt durch Software, nicht der Not-Aus-Schalter der Maschine.</translation>
     </message>
     <message>
-        <source>E-STOP</source>
-        <translation>NOT-HALT</translation>
-    </message>
-    <message>
-        <source>Emergency stop</source>
-        <translation>Not-Halt</translation>
-    </message>
-    <message>
-        <source>Latched – release</source>
-        <translation>Eingerastet – freigeben</translation>
-    </message>
-    <message>
         <source>Stop all axes, and let nothing move until it is released (Shift+Esc).</source>
         <translation>Alle Achsen anhalten; nichts bewegt sich bis zur Freigabe (Umschalt+Esc).</translation>
     </message>
     <message>
-        <source>Latched: {latched}.</source>
-        <translation>Eingerastet: {latched}.</translation>
+        <source>Stop and lock</source>
+        <translation>Halt und sperren</translation>
+    </message>
+    <message>
+        <source>Locked – release</source>
+        <translation>Gesperrt – freigeben</translation>
+    </message>
+    <message>
+        <source>Locked: {latched}.</source>
+        <translation>Gesperrt: {latched}.</translation>
     </message>
     <message>
         <source>Press to release; nothing moves until it is told to.</source>
         <translation>Drücken gibt frei; ohne Befehl bewegt sich nichts.</translation>
+    </message>
+    <message>
+        <source>Warnings and errors since the log was opened (Ctrl+L)</source>
+        <translation>Warnungen und Fehler, seit das Protokoll geöffnet wurde (Strg+L)</translation>
+    </message>
+    <message>
+        <source>Events {n}</source>
+        <translation>Ereignisse {n}</translation>
     </message>
     <message>
         <source>Motion</source>
@@ -728,12 +1151,36 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Wieder mit dem Gerät verbinden</translation>
     </message>
     <message>
-        <source>STOP</source>
-        <translation>HALT</translation>
+        <source>Release</source>
+        <translation>Freigeben</translation>
     </message>
     <message>
-        <source>Stop all axes and hold (Esc).</source>
-        <translation>Alle Achsen anhalten und halten (Esc).</translation>
+        <source>Let the machine move again; nothing moves by itself</source>
+        <translation>Die Maschine darf sich wieder bewegen; von selbst bewegt sich nichts</translation>
+    </message>
+    <message>
+        <source>Clear fault</source>
+        <translation>Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>Acknowledge the fault; nothing moves by itself</source>
+        <translation>Den Fehler quittieren; von selbst bewegt sich nichts</translation>
+    </message>
+    <message>
+        <source>Home</source>
+        <translation>Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>Find the limit switches of all axes that have some: they move</source>
+        <translation>Die Endschalter aller Achsen suchen, die welche haben: sie bewegen sich</translation>
+    </message>
+    <message>
+        <source>STOP (Esc)</source>
+        <translation>HALT (Esc)</translation>
+    </message>
+    <message>
+        <source>Stop all axes and hold (Esc); a second press within 1 s locks.</source>
+        <translation>Alle Achsen anhalten und halten (Esc); ein zweiter Druck innerhalb von 1 s sperrt.</translation>
     </message>
     <message>
         <source>Close this notice</source>
@@ -748,24 +1195,28 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Hilfe zu dieser Meldung</translation>
     </message>
     <message>
+        <source>+{n} more</source>
+        <translation>+{n} weitere</translation>
+    </message>
+    <message>
         <source>Find a command</source>
         <translation>Befehl suchen</translation>
     </message>
     <message>
-        <source>a few letters of what to do</source>
-        <translation>ein paar Buchstaben des Befehls</translation>
+        <source>type part of a command</source>
+        <translation>Teil eines Befehls eingeben</translation>
     </message>
     <message>
-        <source>Letters of what to do</source>
-        <translation>Buchstaben des Befehls</translation>
+        <source>Part of a command&apos;s name</source>
+        <translation>Teil eines Befehlsnamens</translation>
     </message>
     <message>
-        <source>What can be done</source>
-        <translation>Was möglich ist</translation>
+        <source>Commands</source>
+        <translation>Befehle</translation>
     </message>
     <message>
-        <source>Nothing has these letters.</source>
-        <translation>Nichts hat diese Buchstaben.</translation>
+        <source>No command contains these letters.</source>
+        <translation>Kein Befehl enthält diese Buchstaben.</translation>
     </message>
     <message>
         <source>Not now: {reason}.</source>
@@ -820,12 +1271,24 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>gesperrt</translation>
     </message>
     <message>
-        <source>playing {share:.0f} %</source>
-        <translation>spielt ab: {share:.0f} %</translation>
+        <source>Playing {share:.0f} %</source>
+        <translation>Spielt ab, {share:.0f} %</translation>
     </message>
     <message>
-        <source>looks for its limit switches</source>
-        <translation>sucht die Endschalter</translation>
+        <source>Paused at row {row}</source>
+        <translation>Pause in Zeile {row}</translation>
+    </message>
+    <message>
+        <source>Link lost</source>
+        <translation>Verbindung verloren</translation>
+    </message>
+    <message>
+        <source>Stopped</source>
+        <translation>Angehalten</translation>
+    </message>
+    <message>
+        <source>searching for its limit switches</source>
+        <translation>sucht ihre Endschalter</translation>
     </message>
     <message>
         <source>Stopped by the operator at {time}</source>
@@ -841,23 +1304,24 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>time [s]</source>
+        <extracomment>What is drawn how, in every plot and theme: two lines that colour-blind eyes confuse differ in their dashes. Dense noise is slow to draw wider than 1 px or dashed: what is measured is neither.</extracomment>
         <translation>Zeit [s]</translation>
-    </message>
-    <message>
-        <source>{doing} Called off; nothing was changed.</source>
-        <translation>{doing} Abgebrochen; nichts wurde geändert.</translation>
-    </message>
-    <message>
-        <source>{doing} Is being called off.</source>
-        <translation>{doing} Wird abgebrochen.</translation>
     </message>
     <message>
         <source>{doing} About {left} left.</source>
         <translation>{doing} Noch etwa {left}.</translation>
     </message>
     <message>
-        <source>{doing} For {passed} now.</source>
-        <translation>{doing} Seit {passed}.</translation>
+        <source>{doing} Cancelled; nothing was changed.</source>
+        <translation>{doing} Abgebrochen; nichts wurde geändert.</translation>
+    </message>
+    <message>
+        <source>{doing} Being cancelled.</source>
+        <translation>{doing} Wird abgebrochen.</translation>
+    </message>
+    <message>
+        <source>{doing} Running for {passed}.</source>
+        <translation>{doing} Läuft seit {passed}.</translation>
     </message>
     <message>
         <source>Progress of long work</source>
@@ -868,7 +1332,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Abbrechen</translation>
     </message>
     <message>
-        <source>Call this work off</source>
+        <source>Cancel this work</source>
         <translation>Diese Arbeit abbrechen</translation>
     </message>
     <message>
@@ -880,16 +1344,20 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>● Keine Aufnahme: Datenträger</translation>
     </message>
     <message>
-        <source>● Recording {time}  {size}</source>
-        <translation>● Aufnahme {time}  {size}</translation>
+        <source>● {time}  {size}</source>
+        <translation>● {time}  {size}</translation>
+    </message>
+    <message>
+        <source>A recording runs: its time and size</source>
+        <translation>Eine Aufzeichnung läuft: ihre Dauer und Größe</translation>
     </message>
     <message>
         <source>Phase in the recording</source>
         <translation>Phase in der Aufnahme</translation>
     </message>
     <message>
-        <source>How the machine stood then; how it stands now is in the tool bar</source>
-        <translation>Wie die Maschine damals stand; wie sie jetzt steht, zeigt die Leiste</translation>
+        <source>The machine&apos;s state at that time; its present state is in the tool bar</source>
+        <translation>Damaliger Zustand der Maschine; der jetzige steht in der Werkzeugleiste</translation>
     </message>
     <message>
         <source>The machine moves now</source>
@@ -904,7 +1372,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Wieder die Maschine zeigen und bewegen lassen</translation>
     </message>
     <message>
-        <source>Go on with the replay, or hold it</source>
+        <source>Resume or pause the replay</source>
         <translation>Wiedergabe fortsetzen oder anhalten</translation>
     </message>
     <message>
@@ -924,16 +1392,60 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Pause</translation>
     </message>
     <message>
+        <source>Replay speed as a multiple of real time</source>
+        <translation>Wiedergabegeschwindigkeit als Vielfaches der Echtzeit</translation>
+    </message>
+    <message>
+        <source>Connect …</source>
+        <translation>Verbinden …</translation>
+    </message>
+    <message>
+        <source>Simulator</source>
+        <translation>Simulator</translation>
+    </message>
+    <message>
+        <source>Load example</source>
+        <translation>Beispiel</translation>
+    </message>
+    <message>
         <source>Play</source>
         <translation>Abspielen</translation>
     </message>
     <message>
-        <source>Speed of the replay</source>
-        <translation>Tempo der Wiedergabe</translation>
+        <source>Diagnose</source>
+        <translation>Diagnose</translation>
     </message>
     <message>
-        <source>How many times as fast as it happened</source>
-        <translation>Wievielmal so schnell wie geschehen</translation>
+        <source>Close this card permanently</source>
+        <translation>Diese Karte dauerhaft schließen</translation>
+    </message>
+    <message>
+        <source>Find out why model and machine differ</source>
+        <translation>Herausfinden, warum Modell und Maschine voneinander abweichen</translation>
+    </message>
+    <message>
+        <source>the axes still move</source>
+        <translation>die Achsen bewegen sich noch</translation>
+    </message>
+    <message>
+        <source>Nothing real moves with the simulator</source>
+        <translation>Mit dem Simulator bewegt sich nichts Wirkliches</translation>
+    </message>
+    <message>
+        <source>A trajectory for this robot, tried on the model first</source>
+        <translation>Eine Trajektorie für diesen Roboter, erst am Modell probiert</translation>
+    </message>
+    <message>
+        <source>Esc stops</source>
+        <translation>Esc hält an</translation>
+    </message>
+    <message>
+        <source>example</source>
+        <translation>Beispiel</translation>
+    </message>
+    <message>
+        <source>Speed of the replay</source>
+        <translation>Tempo der Wiedergabe</translation>
     </message>
     <message>
         <source>a replay of {name} is shown; go back to live first</source>
@@ -976,8 +1488,8 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>letzter Halt {ms:.1f} ms</translation>
     </message>
     <message>
-        <source>What the program told since it was started</source>
-        <translation>Was das Programm seit dem Start gemeldet hat</translation>
+        <source>Messages of the program since its start</source>
+        <translation>Meldungen des Programms seit dem Start</translation>
     </message>
     <message>
         <source>Preferences of the screen, and settings of drivers</source>
@@ -1036,11 +1548,11 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Gespeichert: {path}</translation>
     </message>
     <message>
-        <source>The support bundle is put together.</source>
+        <source>The support bundle is being assembled.</source>
         <translation>Das Support-Paket wird zusammengestellt.</translation>
     </message>
     <message>
-        <source>the bundle is still being put together</source>
+        <source>the bundle is still being assembled</source>
         <translation>das Paket wird noch zusammengestellt</translation>
     </message>
     <message>
@@ -1052,8 +1564,8 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Zeit der Wiedergabe</translation>
     </message>
     <message>
-        <source>Carrying the past on …</source>
-        <translation>Die Vorgeschichte wird übernommen …</translation>
+        <source>Carrying the history forward …</source>
+        <translation>Vorgeschichte wird fortgeführt …</translation>
     </message>
     <message>
         <source>There is no trajectory to play: load one first.</source>
@@ -1080,12 +1592,20 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>{name} wird geöffnet …</translation>
     </message>
     <message>
-        <source>The recording is put into one file.</source>
-        <translation>Die Aufnahme wird in eine Datei gebracht.</translation>
+        <source>The recording is being merged into one file.</source>
+        <translation>Die Aufzeichnung wird zu einer Datei zusammengefasst.</translation>
     </message>
     <message>
-        <source>Playback paused: {text}. Look at the machine; then go on, or end it.</source>
-        <translation>Wiedergabe pausiert: {text}. Die Maschine ansehen; dann fortsetzen oder beenden.</translation>
+        <source>Playback paused: {text}. Check the machine, then resume or end the playback.</source>
+        <translation>Abspielen angehalten: {text}. Die Maschine prüfen, dann fortsetzen oder beenden.</translation>
+    </message>
+    <message>
+        <source>Playbacks take {size}, more than {most} GB (preference {key}). None is deleted by itself: delete those that you do not need in the panel Recorder.</source>
+        <translation>Wiedergaben belegen {size}, mehr als {most} GB (Einstellung {key}). Keine wird von selbst gelöscht: Löschen Sie im Panel Rekorder, was Sie nicht brauchen.</translation>
+    </message>
+    <message>
+        <source>Only {free} are free where records are kept, of which playbacks take {size}. None is deleted by itself: delete those that you do not need in the panel Recorder.</source>
+        <translation>Nur {free} sind frei, wo Aufzeichnungen liegen; Wiedergaben belegen {size}. Keine wird von selbst gelöscht: Löschen Sie im Panel Rekorder, was Sie nicht brauchen.</translation>
     </message>
     <message>
         <source>{parent}: cannot be made: {strerror}</source>
@@ -1112,8 +1632,8 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Modell und Maschine werden verglichen …</translation>
     </message>
     <message>
-        <source>As the system speaks</source>
-        <translation>Wie das System</translation>
+        <source>System language</source>
+        <translation>Sprache des Systems</translation>
     </message>
     <message>
         <source>Language</source>
@@ -1125,11 +1645,12 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>RoTeMiNa has a fault: {error}. The log has more; save a support bundle.</source>
+        <extracomment>What a panel may raise in slots and timers before it is left out.</extracomment>
         <translation>RoTeMiNa hat einen Fehler: {error}. Mehr steht im Protokoll; speichern Sie ein Support-Paket.</translation>
     </message>
     <message>
-        <source>Panel {name!r} is left out: it fails to paint itself: {error}</source>
-        <translation>Das Panel {name!r} fehlt: Es kann sich nicht zeichnen: {error}</translation>
+        <source>Panel {name!r} is left out: it cannot be drawn: {error}</source>
+        <translation>Panel {name!r} wird ausgelassen: es lässt sich nicht zeichnen: {error}</translation>
     </message>
     <message>
         <source>Panel {name!r} is left out after {n} faults: {error}</source>
@@ -1138,6 +1659,10 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>Panel {name!r} has failed: {error}</source>
         <translation>Das Panel {name!r} hat einen Fehler gemeldet: {error}</translation>
+    </message>
+    <message>
+        <source>No range is narrowed: {error}. Narrow them again in Control, Axes.</source>
+        <translation>Kein Bereich ist eingeengt: {error}. Unter Steuerung, Achsen wieder einengen.</translation>
     </message>
     <message>
         <source>The preferences begin anew: {fault}. That file is kept as {path}.</source>
@@ -1190,6 +1715,226 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>Corrected: {effects}</source>
         <translation>Korrigiert: {effects}</translation>
+    </message>
+    <message>
+        <source>SIMULATOR</source>
+        <translation>SIMULATOR</translation>
+    </message>
+    <message>
+        <source>VIRTUAL BOARDS</source>
+        <translation>VIRTUELLE KARTEN</translation>
+    </message>
+    <message>
+        <source>MACHINE</source>
+        <translation>MASCHINE</translation>
+    </message>
+    <message>
+        <source>The built-in simulator: nothing real moves.</source>
+        <translation>Der eingebaute Simulator: nichts Wirkliches bewegt sich.</translation>
+    </message>
+    <message>
+        <source>Boards that this computer emulates, behind ports of its own: nothing real moves.</source>
+        <translation>Karten, die dieser Rechner an eigenen Anschlüssen nachbildet: nichts Wirkliches bewegt sich.</translation>
+    </message>
+    <message>
+        <source>A real machine moves when this window says so.</source>
+        <translation>Eine wirkliche Maschine bewegt sich, wenn dieses Fenster es sagt.</translation>
+    </message>
+    <message>
+        <source>About RoTeMiNa</source>
+        <translation>Über RoTeMiNa</translation>
+    </message>
+    <message>
+        <source>RoTeMiNa {version}
+The window of a hybrid robot of cell manipulation, with the diagnosis of its gap between model and machine.</source>
+        <translation>RoTeMiNa {version}
+Das Fenster eines hybriden Roboters zur Zellmanipulation, mit der Diagnose der Abweichung zwischen Modell und Maschine.</translation>
+    </message>
+    <message>
+        <source>Licence: MIT
+Robot: {robot}
+Driver: {driver}
+Python {python}, Qt {qt}
+Records: {records}
+Preferences: {settings}</source>
+        <translation>Lizenz: MIT
+Roboter: {robot}
+Treiber: {driver}
+Python {python}, Qt {qt}
+Aufzeichnungen: {records}
+Einstellungen: {settings}</translation>
+    </message>
+    <message>
+        <source>Recent &amp;files</source>
+        <translation>Zuletzt verwendete &amp;Dateien</translation>
+    </message>
+    <message>
+        <source>None yet</source>
+        <translation>Noch keine</translation>
+    </message>
+    <message>
+        <source>Who moves the machine</source>
+        <translation>Wer die Maschine bewegt</translation>
+    </message>
+    <message>
+        <source>Free</source>
+        <translation>Frei</translation>
+    </message>
+    <message>
+        <source>Who moves the machine: an axis that moves is one owner&apos;s</source>
+        <translation>Wer die Maschine bewegt: Eine Achse, die fährt, gehört nur einem</translation>
+    </message>
+    <message>
+        <source>Nobody does now.</source>
+        <translation>Zurzeit niemand.</translation>
+    </message>
+    <message>
+        <source>Open or close this panel</source>
+        <translation>Dieses Panel öffnen oder schließen</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Öffnen</translation>
+    </message>
+    <message>
+        <source>Other file …</source>
+        <translation>Andere Datei …</translation>
+    </message>
+    <message>
+        <source>choose a record in the table</source>
+        <translation>eine Aufzeichnung in der Tabelle wählen</translation>
+    </message>
+    <message>
+        <source>Use the chosen records</source>
+        <translation>Die gewählten Aufzeichnungen benutzen</translation>
+    </message>
+    <message>
+        <source>Gap from the model in use at that time, of the axis with most noise floors</source>
+        <translation>Abweichung vom damals benutzten Modell, von der Achse mit den meisten Rauschpegeln</translation>
+    </message>
+    <message>
+        <source>Search</source>
+        <translation>Suchen</translation>
+    </message>
+    <message>
+        <source>Search the records</source>
+        <translation>Die Aufzeichnungen durchsuchen</translation>
+    </message>
+    <message>
+        <source>Words of name, note, run, operator, sample, machine, model, effects, date or file</source>
+        <translation>Wörter aus Name, Notiz, Lauf, Bediener, Probe, Maschine, Modell, Effekten, Datum oder Datei</translation>
+    </message>
+    <message>
+        <source>Kind of the records</source>
+        <translation>Art der Aufzeichnungen</translation>
+    </message>
+    <message>
+        <source>Which kind of records is listed</source>
+        <translation>Welche Art von Aufzeichnungen aufgelistet wird</translation>
+    </message>
+    <message>
+        <source>All records</source>
+        <translation>Alle Aufzeichnungen</translation>
+    </message>
+    <message>
+        <source>Records, newest first</source>
+        <translation>Aufzeichnungen, neueste zuerst</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Recorded</source>
+        <translation>Aufgenommen</translation>
+    </message>
+    <message>
+        <source>Length</source>
+        <translation>Länge</translation>
+    </message>
+    <message>
+        <source>Gap</source>
+        <translation>Abweichung</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>Vermerk</translation>
+    </message>
+    <message>
+        <source>Sample</source>
+        <translation>Probe</translation>
+    </message>
+    <message>
+        <source>Operator</source>
+        <translation>Bediener</translation>
+    </message>
+    <message>
+        <source>Effects</source>
+        <translation>Effekte</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>Maschine</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>File</source>
+        <translation>Datei</translation>
+    </message>
+    <message>
+        <source>playback</source>
+        <translation>Wiedergabe</translation>
+    </message>
+    <message>
+        <source>Playbacks</source>
+        <translation>Wiedergaben</translation>
+    </message>
+    <message>
+        <source>recording</source>
+        <translation>Aufnahme</translation>
+    </message>
+    <message>
+        <source>Recordings</source>
+        <translation>Aufnahmen</translation>
+    </message>
+    <message>
+        <source>file</source>
+        <translation>Datei</translation>
+    </message>
+    <message>
+        <source>Files from elsewhere</source>
+        <translation>Andere Dateien</translation>
+    </message>
+    <message>
+        <source>The file is not there: delete the entry, or say where it is now</source>
+        <translation>Die Datei fehlt: den Eintrag löschen, oder sagen, wo sie jetzt ist</translation>
+    </message>
+    <message>
+        <source>cannot be opened: {problem}</source>
+        <translation>lässt sich nicht öffnen: {problem}</translation>
+    </message>
+    <message>
+        <source>The file has changed since it was listed</source>
+        <translation>Die Datei hat sich geändert, seit sie in der Liste ist</translation>
+    </message>
+    <message>
+        <source>Run: {run}</source>
+        <translation>Lauf: {run}</translation>
+    </message>
+    <message>
+        <source>Events: {n}</source>
+        <translation>Ereignisse: {n}</translation>
     </message>
 </context>
 </TS>

@@ -43,15 +43,15 @@
         <translation>{name} Referenz in {unit}</translation>
     </message>
     <message>
-        <source>Where the stick has led the reference, which the axes follow</source>
-        <translation>Wohin der Knüppel die Referenz geführt hat, der die Achsen folgen</translation>
+        <source>Reference that the stick commands and the axes follow</source>
+        <translation>Sollwert, den der Joystick vorgibt und dem die Achsen folgen</translation>
     </message>
     <message>
         <source>{name} deflection of the stick</source>
         <translation>{name} Auslenkung des Knüppels</translation>
     </message>
     <message>
-        <source>Deflection of the stick, −100 % to 100 %; dashed: none is trusted</source>
+        <source>Deflection of the stick, −100 % to 100 %; dashed: none is active</source>
         <translation>Auslenkung des Knüppels, −100 % bis 100 %; gestrichelt: keine verlässliche</translation>
     </message>
     <message>
@@ -107,112 +107,12 @@
         <translation>es sind die Vorgaben</translation>
     </message>
     <message>
-        <source>Put all scales of this mode back to their presets</source>
+        <source>Reset all scales of this mode to their presets</source>
         <translation>Alle Skalen dieses Modus auf die Vorgaben zurücksetzen</translation>
     </message>
     <message>
         <source>{title} of {name} {unit}</source>
         <translation>{title} von {name} {unit}</translation>
-    </message>
-    <message>
-        <source>fine</source>
-        <translation>fein</translation>
-    </message>
-    <message>
-        <source>coarse</source>
-        <translation>grob</translation>
-    </message>
-    <message>
-        <source>the machine is being stopped</source>
-        <translation>die Maschine wird angehalten</translation>
-    </message>
-    <message>
-        <source>{reason}: let go of it first</source>
-        <translation>{reason}: zuerst loslassen</translation>
-    </message>
-    <message>
-        <source>the machine is {activity}</source>
-        <translation>die Maschine {activity}</translation>
-    </message>
-    <message>
-        <source>playing</source>
-        <translation>spielt ab</translation>
-    </message>
-    <message>
-        <source>homing</source>
-        <translation>macht Referenzfahrt</translation>
-    </message>
-    <message>
-        <source>no stick is trusted: let go of it; hold its dead-man, if it has one</source>
-        <translation>kein verlässlicher Knüppel: loslassen; Zustimmtaster halten, falls vorhanden</translation>
-    </message>
-    <message>
-        <source>slowed: the tip is close to its bounds</source>
-        <translation>verlangsamt: die Spitze ist nahe an ihren Grenzen</translation>
-    </message>
-    <message>
-        <source>not yet seen at rest: let go of it</source>
-        <translation>noch nicht in Ruhe gesehen: loslassen</translation>
-    </message>
-    <message>
-        <source>has said nothing yet: move it, and let go of it</source>
-        <translation>hat noch nichts gemeldet: bewegen und loslassen</translation>
-    </message>
-    <message>
-        <source>jitters from end to end: its potentiometer or cable is bad</source>
-        <translation>springt von Ende zu Ende: Potentiometer oder Kabel schadhaft</translation>
-    </message>
-    <message>
-        <source>has stood at its end from the first moment: free it; if it rests there, calibrate it as one-sided</source>
-        <translation>steht von Anfang an am Ende: lösen; ruht sie dort, als einseitig kalibrieren</translation>
-    </message>
-    <message>
-        <source>silent, though it streams: nothing has come from it; replug it, or look at its cable</source>
-        <translation>stumm, obwohl es laufend sendet: nichts kam an; neu anstecken oder Kabel prüfen</translation>
-    </message>
-    <message>
-        <source>the trainer has taken over</source>
-        <translation>der Trainer hat übernommen</translation>
-    </message>
-    <message>
-        <source>the trainee has taken over</source>
-        <translation>der Trainee hat übernommen</translation>
-    </message>
-    <message>
-        <source>the trainer&apos;s device is not there: the trainee does not drive alone</source>
-        <translation>das Gerät des Trainers fehlt: der Trainee steuert nicht allein</translation>
-    </message>
-    <message>
-        <source>no profile is chosen: the input devices do nothing</source>
-        <translation>kein Profil gewählt: die Eingabegeräte tun nichts</translation>
-    </message>
-    <message>
-        <source>axes are moved by {owner}</source>
-        <translation>Achsen werden bewegt durch: {owner}</translation>
-    </message>
-    <message>
-        <source>driver {driver} cannot move at a speed</source>
-        <translation>Treiber {driver} kann nicht mit einer Geschwindigkeit fahren</translation>
-    </message>
-    <message>
-        <source>axis {axis} does not follow the stick</source>
-        <translation>Achse {axis} folgt dem Knüppel nicht</translation>
-    </message>
-    <message>
-        <source>says {raw}, which is not in −1 to 1: disconnect it and look at it</source>
-        <translation>meldet {raw}, nicht in −1 bis 1: abstecken und prüfen</translation>
-    </message>
-    <message>
-        <source>another device is gone ({why}): let go of it</source>
-        <translation>ein anderes Gerät ist weg ({why}): loslassen</translation>
-    </message>
-    <message>
-        <source>calibrated anew</source>
-        <translation>neu kalibriert</translation>
-    </message>
-    <message>
-        <source>profile {name} is for {gone}, not plugged in; plugged in: {present}. Plug it in, or choose or make a profile for what is there</source>
-        <translation>Profil {name} ist für {gone}, nicht angesteckt; angesteckt: {present}. Anstecken oder ein Profil für das Vorhandene wählen oder anlegen</translation>
     </message>
     <message>
         <source>How teleoperation stands</source>
@@ -223,12 +123,12 @@
         <translation>Gerät, das steuert</translation>
     </message>
     <message>
-        <source>Whether it is trusted</source>
+        <source>Whether the stick is active</source>
         <translation>Ob es verlässlich ist</translation>
     </message>
     <message>
-        <source>What was refused or slowed last</source>
-        <translation>Was zuletzt abgelehnt oder verlangsamt wurde</translation>
+        <source>Latest refusal or slowdown</source>
+        <translation>Letzte Ablehnung oder Verlangsamung</translation>
     </message>
     <message>
         <source>Why nothing moves</source>
@@ -239,8 +139,8 @@
         <translation>Zuletzt: {refused}</translation>
     </message>
     <message>
-        <source>Press and drag: the cross moves x and y, the slider z; both spring back when let go of.</source>
-        <translation>Drücken und ziehen: das Kreuz bewegt x und y, der Schieber z; beide federn beim Loslassen zurück.</translation>
+        <source>Press and drag: the cross moves x and y, the slider z; both spring back when released.</source>
+        <translation>Drücken und ziehen: das Kreuz bewegt x und y, der Schieber z; losgelassen kehren beide zurück.</translation>
     </message>
     <message>
         <source>With the keyboard on it: arrows x and y, page up and down z, shift coarse, ctrl fine, space clutch.</source>
@@ -359,8 +259,8 @@ Leer  Kupplung</translation>
         <translation>Beide Neigungen und zn {stays}; das dauert länger</translation>
     </message>
     <message>
-        <source>the machine is still moving; let go of the stick first</source>
-        <translation>die Maschine bewegt sich noch; zuerst den Knüppel loslassen</translation>
+        <source>the machine is still moving; release the stick first</source>
+        <translation>die Maschine bewegt sich noch; erst den Joystick loslassen</translation>
     </message>
     <message>
         <source>above {bound}</source>
@@ -440,7 +340,7 @@ Leer  Kupplung</translation>
     </message>
     <message>
         <source>{title}: {text!r} is no number; type one{unit} with a decimal point</source>
-        <translation>{title}: {text!r} ist keine Zahl; eine{unit} mit Dezimalpunkt eingeben</translation>
+        <translation>{title}: {text!r} ist keine Zahl; eine{unit} mit Dezimalkomma eingeben</translation>
     </message>
     <message>
         <source>{typed}: must be {bound}</source>
@@ -515,16 +415,16 @@ Leer  Kupplung</translation>
         <translation>Position</translation>
     </message>
     <message>
-        <source>The stick&apos;s place is the tip&apos;s place: let go, and it comes back.</source>
-        <translation>Der Ort des Knüppels ist der Ort der Spitze: losgelassen kehrt sie zurück.</translation>
-    </message>
-    <message>
         <source>Rate</source>
         <translation>Rate</translation>
     </message>
     <message>
-        <source>The stick&apos;s place is a speed: let go, and it rests.</source>
-        <translation>Der Ort des Knüppels ist eine Geschwindigkeit: losgelassen ruht sie.</translation>
+        <source>The stick&apos;s position sets the tip&apos;s position; when released, the tip returns.</source>
+        <translation>Die Stellung des Joysticks bestimmt die Position der Spitze; losgelassen kehrt sie zurück.</translation>
+    </message>
+    <message>
+        <source>The stick&apos;s position sets a speed; when released, the tip rests.</source>
+        <translation>Die Stellung des Joysticks bestimmt eine Geschwindigkeit; losgelassen ruht die Spitze.</translation>
     </message>
     <message>
         <source>Impedance</source>
@@ -555,12 +455,12 @@ Leer  Kupplung</translation>
         <translation>Eines anstecken oder ein passendes Profil wählen.</translation>
     </message>
     <message>
-        <source>Not trusted: {parts}</source>
+        <source>Not active: {parts}</source>
         <translation>Nicht verlässlich: {parts}</translation>
     </message>
     <message>
-        <source>Trusted</source>
-        <translation>Verlässlich</translation>
+        <source>Active</source>
+        <translation>Aktiv</translation>
     </message>
     <message>
         <source>no answer</source>
@@ -587,8 +487,12 @@ Leer  Kupplung</translation>
         <translation>bereit</translation>
     </message>
     <message>
-        <source>The loop of the input devices does not answer: stop, and start the program anew.</source>
-        <translation>Die Schleife der Eingabegeräte antwortet nicht: anhalten und das Programm neu starten.</translation>
+        <source>The loop of the input devices does not answer: stop the machine and restart the program.</source>
+        <translation>Die Schleife der Eingabegeräte antwortet nicht: die Maschine anhalten und das Programm neu starten.</translation>
+    </message>
+    <message>
+        <source>Release the stick to let the robot rest where it is.</source>
+        <translation>Den Joystick loslassen, damit der Roboter bleibt, wo er ist.</translation>
     </message>
     <message>
         <source>Nothing moves: {reason}.</source>
@@ -621,10 +525,6 @@ Leer  Kupplung</translation>
     <message>
         <source>Clutch held: the stick moves, the robot does not.</source>
         <translation>Gekuppelt: der Knüppel bewegt sich, der Roboter nicht.</translation>
-    </message>
-    <message>
-        <source>Let go of the stick, and the robot rests where it is.</source>
-        <translation>Knüppel loslassen, und der Roboter ruht, wo er ist.</translation>
     </message>
     <message>
         <source>Hold the clutch (space on the pad) to bring the stick back without the robot.</source>

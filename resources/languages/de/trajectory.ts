@@ -23,32 +23,68 @@
         <translation>Laden …</translation>
     </message>
     <message>
-        <source>Take a trajectory from a text file, and try it on the model (Ctrl+T)</source>
-        <translation>Trajektorie aus einer Textdatei laden und am Modell erproben (Strg+T)</translation>
-    </message>
-    <message>
         <source>Resample …</source>
         <translation>Rate …</translation>
-    </message>
-    <message>
-        <source>Another rate, in Hz, for the trajectory in hand</source>
-        <translation>Andere Rate, in Hz, für die geladene Trajektorie</translation>
     </message>
     <message>
         <source>{name} – {seconds:.3f} s, {rows} rows</source>
         <translation>{name} – {seconds:.3f} s, {rows} Zeilen</translation>
     </message>
     <message>
-        <source>Dry run: inside all limits of range, speed and acceleration. Play first moves the axes to the first row, within the same limits.</source>
-        <translation>Probelauf: innerhalb aller Grenzen von Bereich, Geschwindigkeit und Beschleunigung. Abspielen fährt zuerst zur ersten Zeile, in denselben Grenzen.</translation>
+        <source>Not playable from here: {why}</source>
+        <translation>Von hier aus nicht abspielbar: {why}</translation>
+    </message>
+    <message>
+        <source>Dry run: inside all limits of the axes and of the tip.</source>
+        <translation>Probelauf: innerhalb aller Grenzen der Achsen und der Spitze.</translation>
+    </message>
+    <message>
+        <source>from {begin:.6g} s</source>
+        <translation>ab {begin:.6g} s</translation>
     </message>
     <message>
         <source> (and {n} more)</source>
         <translation> (und {n} weitere)</translation>
     </message>
     <message>
+        <source>Load a trajectory from a text file and try it on the model (Ctrl+T)</source>
+        <translation>Eine Trajektorie aus einer Textdatei laden und am Modell erproben (Strg+T)</translation>
+    </message>
+    <message>
+        <source>Resample the loaded trajectory to another rate, in Hz</source>
+        <translation>Die geladene Trajektorie auf eine andere Rate abtasten, in Hz</translation>
+    </message>
+    <message>
+        <source>Teach</source>
+        <translation>Lernen</translation>
+    </message>
+    <message>
+        <source>Make a trajectory of points where the machine has been</source>
+        <translation>Eine Trajektorie aus Punkten machen, an denen die Maschine war</translation>
+    </message>
+    <message>
         <source>Not playable: {objection}{more}</source>
         <translation>Nicht abspielbar: {objection}{more}</translation>
+    </message>
+    <message>
+        <source>from </source>
+        <translation>ab </translation>
+    </message>
+    <message>
+        <source>Begin of the playback in seconds</source>
+        <translation>Beginn der Wiedergabe in Sekunden</translation>
+    </message>
+    <message>
+        <source>Passes</source>
+        <translation>Durchgänge</translation>
+    </message>
+    <message>
+        <source>How often it is played, 1 to {most}: it must end where it begins</source>
+        <translation>Wie oft abgespielt wird, 1 bis {most}: sie muss enden, wo sie beginnt</translation>
+    </message>
+    <message>
+        <source>Where the first pass begins, 0 to {last:.7g} s: before its last row</source>
+        <translation>Wo der erste Durchgang beginnt, 0 bis {last:.7g} s: vor der letzten Zeile</translation>
     </message>
     <message>
         <source>{name}, resampled</source>
@@ -96,15 +132,15 @@
     </message>
     <message>
         <source>lowest</source>
-        <translation>kleinster Wert</translation>
+        <translation>tiefster</translation>
     </message>
     <message>
         <source>highest</source>
-        <translation>größter Wert</translation>
+        <translation>höchster</translation>
     </message>
     <message>
         <source>speed</source>
-        <translation>Geschwindigkeit</translation>
+        <translation>Tempo</translation>
     </message>
     <message>
         <source>acceleration</source>
@@ -128,27 +164,27 @@
     </message>
     <message>
         <source>{text!r} is no bound: type a number above 0 in {unit}, with a decimal point, or nothing</source>
-        <translation>{text!r} ist keine Grenze: eine Zahl über 0 in {unit} mit Dezimalpunkt eingeben, oder nichts</translation>
+        <translation>{text!r} ist keine Grenze: eine Zahl über 0 in {unit} mit Dezimalkomma eingeben, oder nichts</translation>
     </message>
     <message>
         <source>no bound is declared in the robot file</source>
         <translation>in der Roboterdatei ist keine Grenze angegeben</translation>
     </message>
     <message>
-        <source>{share} of {bound:g} {unit}{per}</source>
-        <translation>{share} von {bound:g} {unit}{per}</translation>
+        <source>{share} of {bound}</source>
+        <translation>{share} von {bound}</translation>
+    </message>
+    <message>
+        <source>{rms} rms</source>
+        <translation>{rms} effektiv</translation>
+    </message>
+    <message>
+        <source>the model expects up to {peak} between command and position</source>
+        <translation>das Modell erwartet bis {peak} zwischen Sollwert und Position</translation>
     </message>
     <message>
         <source>the model gives no prediction for this trajectory</source>
         <translation>das Modell gibt keine Vorhersage für diese Trajektorie</translation>
-    </message>
-    <message>
-        <source>{rms:.3g} {unit} rms</source>
-        <translation>{rms:.3g} {unit} effektiv</translation>
-    </message>
-    <message>
-        <source>the model expects up to {peak:.3g} {unit} between command and position</source>
-        <translation>das Modell erwartet bis {peak:.3g} {unit} zwischen Sollwert und Position</translation>
     </message>
     <message>
         <source>no trajectory is loaded</source>
@@ -203,7 +239,7 @@
         <translation>Pause</translation>
     </message>
     <message>
-        <source>Go on</source>
+        <source>Resume</source>
         <translation>Weiter</translation>
     </message>
     <message>
@@ -211,16 +247,16 @@
         <translation>die Achsen bewegen sich noch</translation>
     </message>
     <message>
-        <source>Play, pause, go on (Ctrl+P)</source>
-        <translation>Abspielen, Pause, weiter (Strg+P)</translation>
+        <source>Play, pause or resume (Ctrl+P); the axes first go to the first row</source>
+        <translation>Abspielen, anhalten oder fortsetzen (Strg+P); die Achsen fahren zuerst zur ersten Zeile</translation>
     </message>
     <message>
-        <source>nothing plays</source>
+        <source>nothing is playing</source>
         <translation>nichts wird abgespielt</translation>
     </message>
     <message>
-        <source>Stop, and begin anew next</source>
-        <translation>Anhalten; danach von vorn</translation>
+        <source>Stop; the next playback starts from the beginning</source>
+        <translation>Anhalten; das nächste Abspielen beginnt von vorn</translation>
     </message>
     <message>
         <source>a trajectory is playing</source>
@@ -249,6 +285,122 @@
     <message>
         <source>{paused}{row}, {left_s:.1f} s left</source>
         <translation>{paused}{row}, noch {left_s:.1f} s</translation>
+    </message>
+    <message>
+        <source>Path of the tip</source>
+        <translation>Weg der Spitze</translation>
+    </message>
+    <message>
+        <source>The tip&apos;s path from above and from the side; dashed: the way to its first row. Red is forbidden: floor, objective, radius. The frame is what the axes can reach.</source>
+        <translation>Der Weg der Spitze von oben und von der Seite; gestrichelt: der Weg zur ersten Zeile. Rot ist verboten: Boden, Objektiv, Radius. Der Rahmen ist, was die Achsen erreichen.</translation>
+    </message>
+    <message>
+        <source>Click to see all of the reach, or the path alone.</source>
+        <translation>Klicken zeigt die ganze Reichweite oder den Weg allein.</translation>
+    </message>
+    <message>
+        <source>{share:.0f} % of the rows are forbidden</source>
+        <translation>{share:.0f} % der Zeilen sind verboten</translation>
+    </message>
+    <message>
+        <source>above: x, y</source>
+        <translation>von oben: x, y</translation>
+    </message>
+    <message>
+        <source>side: x, z</source>
+        <translation>Seite: x, z</translation>
+    </message>
+    <message>
+        <source>{n} points: a trajectory needs two or more; take another</source>
+        <translation>{n} Punkte: eine Trajektorie braucht zwei oder mehr; noch einen nehmen</translation>
+    </message>
+    <message>
+        <source>the points take more than {hours} h; shorten pauses, or go faster</source>
+        <translation>die Punkte dauern mehr als {hours} h; Pausen kürzen, oder schneller fahren</translation>
+    </message>
+    <message>
+        <source>point {number}: a speed of {speed} %: must be above 0 and at most 100</source>
+        <translation>Punkt {number}: ein Tempo von {speed} %: muss über 0 und höchstens 100 sein</translation>
+    </message>
+    <message>
+        <source>point {number}: a pause of {pause} s: must be 0 to {most} s</source>
+        <translation>Punkt {number}: eine Pause von {pause} s: muss 0 bis {most} s sein</translation>
+    </message>
+    <message>
+        <source>speed [%]</source>
+        <translation>Tempo [%]</translation>
+    </message>
+    <message>
+        <source>pause [s]</source>
+        <translation>Pause [s]</translation>
+    </message>
+    <message>
+        <source>Taught points</source>
+        <translation>Geteachte Punkte</translation>
+    </message>
+    <message>
+        <source>Take point</source>
+        <translation>Punkt nehmen</translation>
+    </message>
+    <message>
+        <source>Take anew</source>
+        <translation>Neu nehmen</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Make trajectory</source>
+        <translation>Trajektorie machen</translation>
+    </message>
+    <message>
+        <source>its place is not known</source>
+        <translation>ihr Ort ist nicht bekannt</translation>
+    </message>
+    <message>
+        <source>mark a point first</source>
+        <translation>erst einen Punkt markieren</translation>
+    </message>
+    <message>
+        <source>take two points or more</source>
+        <translation>zwei oder mehr Punkte nehmen</translation>
+    </message>
+    <message>
+        <source>Add where the machine is sent now, behind the marked point</source>
+        <translation>Hinzufügen, wohin die Maschine jetzt geschickt ist, hinter dem markierten Punkt</translation>
+    </message>
+    <message>
+        <source>Put the marked point where the machine is sent now</source>
+        <translation>Den markierten Punkt dorthin setzen, wohin die Maschine jetzt geschickt ist</translation>
+    </message>
+    <message>
+        <source>Remove the marked point</source>
+        <translation>Den markierten Punkt entfernen</translation>
+    </message>
+    <message>
+        <source>Make a trajectory of the points; the dry run tries it</source>
+        <translation>Eine Trajektorie aus den Punkten machen; der Trockenlauf probiert sie</translation>
+    </message>
+    <message>
+        <source>{n} taught points</source>
+        <translation>{n} geteachte Punkte</translation>
+    </message>
+    <message>
+        <source>must be {low} to {high}</source>
+        <translation>muss {low} bis {high} sein</translation>
+    </message>
+    <message>
+        <source>must be above 0 and at most 100 %</source>
+        <translation>muss über 0 und höchstens 100 % sein</translation>
+    </message>
+    <message>
+        <source>must be 0 to {most} s</source>
+        <translation>muss 0 bis {most} s sein</translation>
+    </message>
+    <message>
+        <source>Point {number}, {column}: {text!r}: {bound}</source>
+        <translation>Punkt {number}, {column}: {text!r}: {bound}</translation>
     </message>
 </context>
 </TS>

@@ -55,8 +55,8 @@
         <translation>sie ist hier nicht offen</translation>
     </message>
     <message>
-        <source>Take the view away</source>
-        <translation>Ansicht entfernen</translation>
+        <source>Close the view</source>
+        <translation>Die Ansicht schließen</translation>
     </message>
     <message>
         <source>open the view first</source>
@@ -119,8 +119,8 @@
         <translation>Iso</translation>
     </message>
     <message>
-        <source>The whole robot, from aside</source>
-        <translation>Der ganze Roboter, von der Seite</translation>
+        <source>The whole robot from the side</source>
+        <translation>Der ganze Roboter von der Seite</translation>
     </message>
     <message>
         <source>Cell</source>
@@ -191,12 +191,12 @@
         <translation>thx, thy, zn {factor:g}-fach vergrößert von der Mitte aus; die Spitze ist nicht, wo sie gezeichnet ist</translation>
     </message>
     <message>
-        <source>The program does not answer: what is drawn is old.</source>
-        <translation>Das Programm antwortet nicht: das Bild ist veraltet.</translation>
+        <source>The program does not answer: the drawing is out of date.</source>
+        <translation>Das Programm antwortet nicht: die Zeichnung ist veraltet.</translation>
     </message>
     <message>
-        <source>No news from the program: what is drawn is old.</source>
-        <translation>Nichts Neues vom Programm: das Bild ist veraltet.</translation>
+        <source>No news from the program: the drawing is out of date.</source>
+        <translation>Keine Nachricht vom Programm: die Zeichnung ist veraltet.</translation>
     </message>
 </context>
 </TS>

@@ -14,8 +14,9 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.decimation import envelope
 from rotemina.sim.gap.diagnosis import Experiment, Ranked, Shrinkage
 from rotemina.sim.gap.report.pictures import Role, legend, picture, short
-from rotemina.sim.gap.report.quantities import Scale, percent
-from rotemina.sim.gap.report.words import effect_title
+from rotemina.sim.gap.report.words import effect_title, named, said, shown
+from rotemina.sim.messages import marked
+from rotemina.sim.quantities import percent, rounded, scale_of
 from rotemina.sim.records.record import Tap
 
 _WIDTH = 10.0
@@ -27,14 +28,17 @@ _RIVALS = ((Role.CORRECTED, "-"), (Role.REAL, "--"), (Role.THIRD, "-."), (Role.F
 
 def waterfall(shrinkage: Shrinkage, unit: str) -> Markup:
     """Draw the gap as it was, re-tuned and after each effect, beside floor and ceiling."""
-    scale = Scale.of(unit, shrinkage.raw)
-    bars = [("model as it is", shrinkage.raw), ("re-tuned", shrinkage.retuned)]
+    scale = scale_of(unit, shrinkage.raw)
+    bars = [
+        (said(marked("gap", "model as it is")), shrinkage.raw),
+        (said(marked("gap", "re-tuned")), shrinkage.retuned),
+    ]
     bars += [(f"+ {short(effect_title(step.effect))}", step.rms) for step in shrinkage.steps]
-    bars.append(("corrected", shrinkage.corrected))
+    bars.append((said(marked("gap", "corrected")), shrinkage.corrected))
     bars = [(name, rms) for name, rms in bars if isfinite(rms)]
-    lines = [(shrinkage.floor, Role.FLOOR, "noise floor")]
+    lines = [(shrinkage.floor, Role.FLOOR, said(marked("gap", "noise floor")))]
     if shrinkage.ceiling is not None and isfinite(shrinkage.ceiling):
-        lines.append((shrinkage.ceiling, Role.CEILING, "black-box model"))
+        lines.append((shrinkage.ceiling, Role.CEILING, said(marked("gap", "black-box model"))))
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
@@ -46,18 +50,19 @@ def waterfall(shrinkage: Shrinkage, unit: str) -> Markup:
         axes.barh(rows, sizes - least, left=least, color=colours, height=0.62)
         for row, size in enumerate(sizes):
             axes.annotate(
-                f"{size:.4g}", (size, row), (4, 0), textcoords="offset points", va="center"
+                shown(rounded(size)), (size, row), (4, 0), textcoords="offset points", va="center"
             )
         for rms, role, name in lines:
             axes.axvline(rms * scale.per_si, color=role, linestyle="--", label=name)
         axes.set_yticks(rows, [name for name, _ in bars])
         axes.invert_yaxis()
         axes.grid(visible=False, axis="y")
-        axes.set_xlabel(f"gap, rms [{scale.symbol}]")
+        axes.set_xlabel(said(marked("gap", "gap, rms [{unit}]"), unit=scale.symbol))
         legend(figure, axes)
 
-    said = ", ".join(f"{name} {scale.text(rms)}" for name, rms in bars)
-    return picture(_WIDTH, 1.1 + 0.3 * len(bars), draw, f"Waterfall of the gap: {said}")
+    told = ", ".join(f"{name} {shown(scale.text(rms))}" for name, rms in bars)
+    about = said(marked("gap", "Waterfall of the gap: {bars}"), bars=told)
+    return picture(_WIDTH, 1.1 + 0.3 * len(bars), draw, about)
 
 
 def ranking(candidates: Sequence[Ranked]) -> Markup | None:
@@ -79,7 +84,7 @@ def ranking(candidates: Sequence[Ranked]) -> Markup | None:
         axes.plot(middle, rows, "o", color=Role.CORRECTED, markersize=5)
         for row, one in enumerate(ranked):
             axes.annotate(
-                percent(one.probability),
+                shown(percent(one.probability)),
                 (max(one.held_out_rms, one.held_out_interval[1]), row),
                 (6, 0),
                 textcoords="offset points",
@@ -88,9 +93,12 @@ def ranking(candidates: Sequence[Ranked]) -> Markup | None:
         axes.set_yticks(rows, [candidate_name(one) for one in ranked])
         axes.set_ylim(len(ranked) - 0.4, -0.6)
         _fit(axes, np.concatenate([middle, ends.ravel()]))
-        axes.set_xlabel("what is left on unseen data, rms [noise floors]; probability beside")
+        axes.set_xlabel(
+            said(marked("gap", "remainder on unseen data, rms [noise floors]; with probability"))
+        )
 
-    about = "Candidates, likeliest first: " + ", ".join(map(candidate_name, ranked))
+    names = ", ".join(map(candidate_name, ranked))
+    about = said(marked("gap", "Candidates, likeliest first: {names}"), names=names)
     return picture(_WIDTH, 0.9 + 0.27 * len(ranked), draw, about)
 
 
@@ -98,8 +106,8 @@ def candidate_name(one: Ranked) -> str:
     """Return a candidate's name, with what sets it apart from others of its effect."""
     name = short(effect_title(one.effect))
     if one.from_axis is not None:
-        name += f" from {short(one.from_axis)}"
-    return f"{name} ({short(one.formulation)})" if one.formulation else name
+        name = said(marked("gap", "{effect} from {axis}"), effect=name, axis=short(one.from_axis))
+    return f"{name} ({short(named(one.formulation))})" if one.formulation else name
 
 
 def forecast(experiment: Experiment, unit: str) -> Markup:
@@ -111,21 +119,30 @@ def forecast(experiment: Experiment, unit: str) -> Markup:
 
     def draw(figure: Figure) -> None:
         whole, apart = figure.subplots(2, 1, sharex=True)
-        scale = Scale.of(unit, float(np.abs(one).max()))
+        scale = scale_of(unit, float(np.abs(one).max()))
         if len(command) and experiment.tap is not Tap.U:
-            _line(whole, time_s, scale(command), Role.QUIET, "-", "command")
+            _line(whole, time_s, scale(command), Role.QUIET, "-", said(marked("gap", "command")))
         far = {name: answer - one for name, answer in answers.items()}
-        fine = Scale.of(unit, max(float(np.abs(each).max()) for each in far.values()))
+        fine = scale_of(unit, max(float(np.abs(each).max()) for each in far.values()))
         for (name, answer), (role, dashes) in zip(answers.items(), cycle(_RIVALS), strict=False):
             _line(whole, time_s, scale(answer), role, dashes, short(effect_title(name)))
             _line(apart, time_s, fine(far[name]), role, dashes, "")
         whole.set_ylabel(f"{experiment.tap} [{scale.symbol}]")
-        apart.set_ylabel(f"less that of\n{short(effect_title(first))} [{fine.symbol}]")
-        apart.set_xlabel("time [s]")
+        apart.set_ylabel(
+            said(
+                marked("gap", "minus that of\n{effect} [{unit}]"),
+                effect=short(effect_title(first)),
+                unit=fine.symbol,
+            )
+        )
+        apart.set_xlabel(said(marked("gap", "time [s]")))
         legend(figure, whole)
 
     rivals = ", ".join(effect_title(name) for name in answers)
-    return picture(_WIDTH, 4.2, draw, f"Predictions of {rivals} for the suggested experiment")
+    about = said(
+        marked("gap", "Predictions of {rivals} for the suggested experiment"), rivals=rivals
+    )
+    return picture(_WIDTH, 4.2, draw, about)
 
 
 def plain_logarithm(axes: Axes, side: str) -> None:
@@ -133,7 +150,7 @@ def plain_logarithm(axes: Axes, side: str) -> None:
     axes.set(**{f"{side}scale": "log"})
     line = axes.xaxis if side == "x" else axes.yaxis
     line.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=9))
-    line.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    line.set_major_formatter(FuncFormatter(lambda value, _: shown(rounded(value, 6))))
     line.set_minor_formatter(NullFormatter())
 
 

@@ -6,6 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.sim.gap.report.words import said, shown
+from rotemina.sim.messages import marked
+from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record
 
 _EVEN = 1e-3  # relative spread of sample intervals up to which a record counts as evenly sampled
@@ -38,10 +41,12 @@ def _facts(record: Record, name: str) -> RecordFacts:
     return RecordFacts(
         name=name,
         rows=len(record.time_s),
-        duration=f"{record.duration_s:.4g} s",
+        duration=f"{shown(rounded(record.duration_s))} s",
         rate=_rate(record),
         channels=", ".join(map(str, record.columns)),
-        loop="closed loop" if record.closed_loop else "open loop",
+        loop=said(
+            marked("gap", "closed loop") if record.closed_loop else marked("gap", "open loop")
+        ),
         history=record.history,
         fingerprint=_fingerprint(record),
         metadata=tuple(
@@ -54,10 +59,13 @@ def _facts(record: Record, name: str) -> RecordFacts:
 def _rate(record: Record) -> str:
     intervals = np.diff(record.time_s)
     if not len(intervals):
-        return "one row"
+        return said(marked("gap", "one row"))
     mean = float(intervals.mean())
     even = float(np.ptp(intervals)) <= _EVEN * mean
-    return f"{1.0 / mean:.5g} Hz" if even else f"uneven, {1.0 / mean:.5g} Hz on average"
+    rate = rounded(1.0 / mean, 5)
+    if even:
+        return f"{shown(rate)} Hz"
+    return said(marked("gap", "uneven, {rate} Hz on average"), rate=rate)
 
 
 def _fingerprint(record: Record) -> str:

@@ -11,12 +11,14 @@ from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 from rotemina.sim.decimation import envelope
 from rotemina.sim.gap.report.charts import plain_logarithm
 from rotemina.sim.gap.report.pictures import Role, legend, picture
-from rotemina.sim.gap.report.quantities import Scale
 from rotemina.sim.gap.report.traces import Trace
+from rotemina.sim.gap.report.words import said
 from rotemina.sim.identification.errors import TimeGridError
 from rotemina.sim.identification.frequency_response import FrequencyResponse
 from rotemina.sim.identification.signals import Signals, uniform_rate
 from rotemina.sim.identification.welch import welch_response
+from rotemina.sim.messages import marked
+from rotemina.sim.quantities import Scale, rounded, scale_of
 
 _WIDTH = 12.0
 _ROW = 2.1
@@ -27,7 +29,12 @@ _SEGMENTS = 6  # of a record, for its frequency response
 _LONGEST = 8192
 _EXCITED = 1e-3  # of the largest input amplitude, from which a line is drawn
 _COHERENT = 0.5  # share of the output that must answer the command, for a line to be drawn
-_ANSWERS = (("real", Role.REAL, 2.6), ("model", Role.RAW, 1.0), ("corrected", Role.CORRECTED, 1.0))
+_GAP = marked("gap", "gap [{unit}]")
+_ANSWERS = (
+    (marked("gap", "real"), Role.REAL, 2.6),
+    (marked("gap", "model"), Role.RAW, 1.0),
+    (marked("gap", "corrected"), Role.CORRECTED, 1.0),
+)
 
 
 def signals(traces: Sequence[Trace], buckets: int) -> Markup:
@@ -36,8 +43,8 @@ def signals(traces: Sequence[Trace], buckets: int) -> Markup:
     Each curve over time has ``buckets``, and each record ``POINTS`` points for each of them.
     """
     first = traces[0]
-    answer = Scale.of(first.unit, max(float(np.abs(trace.real).max()) for trace in traces))
-    gap = Scale.of(first.unit, max(float(np.abs(trace.before).max()) for trace in traces))
+    answer = scale_of(first.unit, max(float(np.abs(trace.real).max()) for trace in traces))
+    gap = scale_of(first.unit, max(float(np.abs(trace.before).max()) for trace in traces))
     command = _command_scale(traces)
 
     def draw(figure: Figure) -> None:
@@ -46,19 +53,24 @@ def signals(traces: Sequence[Trace], buckets: int) -> Markup:
             _draw_gap(time, trace, gap, buckets)
             _draw_loop(loop, trace, command, answer, PATH_POINTS * buckets)
             _draw_left(left, trace, command, gap, PATH_POINTS * buckets)
-            time.set_ylabel(f"gap [{gap.symbol}]")
-            time.set_title(f"record {trace.number + 1}")
+            time.set_ylabel(said(_GAP, unit=gap.symbol))
+            time.set_title(said(marked("gap", "record {number}"), number=trace.number + 1))
             loop.set_ylabel(f"{trace.tap} [{answer.symbol}]")
-            left.set_ylabel(f"gap [{gap.symbol}]")
-        grid[-1][0].set_xlabel("time [s]")
+            left.set_ylabel(said(_GAP, unit=gap.symbol))
+        grid[-1][0].set_xlabel(said(marked("gap", "time [s]")))
         for axes in grid[-1][1:]:
-            axes.set_xlabel(f"command [{command.symbol}]")
+            axes.set_xlabel(said(marked("gap", "command [{unit}]"), unit=command.symbol))
         legend(figure, grid[0][1])
 
     numbers = ", ".join(str(trace.number + 1) for trace in traces)
-    about = (
-        "Gap before and after over time, reading over command and gap over command, "
-        f"of the records {numbers} at {first.tap}"
+    about = said(
+        marked(
+            "gap",
+            "Gap before and after over time, reading over command and gap over command, of the "
+            "records {numbers} at {tap}",
+        ),
+        numbers=numbers,
+        tap=first.tap,
     )
     return picture(_WIDTH, 0.7 + _ROW * len(traces), draw, about)
 
@@ -87,12 +99,15 @@ def frequency_response(traces: Sequence[Trace]) -> Markup:
         _draw_uncertainty(size, found, sure)
         plain_logarithm(size, "x")
         plain_logarithm(size, "y")
-        size.set_ylabel(f"|{together[0].tap}/command|{ratio}")
-        phase.set_ylabel("phase [°]")
-        phase.set_xlabel("frequency [Hz]")
+        size.set_ylabel(f"|{together[0].tap}/{said(marked('gap', 'command'))}|{ratio}")
+        phase.set_ylabel(said(marked("gap", "phase [°]")))
+        phase.set_xlabel(said(marked("gap", "frequency [Hz]")))
         legend(figure, size)
 
-    about = f"Frequency response from command to {together[0].tap}: real, model, corrected model"
+    about = said(
+        marked("gap", "Frequency response from command to {tap}: real, model, corrected model"),
+        tap=together[0].tap,
+    )
     return picture(_WIDTH, 4.4, draw, about)
 
 
@@ -118,7 +133,7 @@ def _draw_gap(axes: Axes, trace: Trace, gap: Scale, buckets: int) -> None:
 def _draw_loop(axes: Axes, trace: Trace, command: Scale, answer: Scale, most: int) -> None:
     for values, (name, role, width) in _answers(trace):
         across, up = path(command(trace.command), answer(values), most)
-        axes.plot(across, up, color=role, linewidth=width, label=name)
+        axes.plot(across, up, color=role, linewidth=width, label=said(name))
 
 
 def _draw_left(axes: Axes, trace: Trace, command: Scale, gap: Scale, most: int) -> None:
@@ -135,7 +150,7 @@ def _draw_response(
     for column, (name, role, width) in enumerate(_ANSWERS[: found.response.shape[1]]):
         values = of(found.response[sure, column, 0])
         line = _torn(found.frequency_hz[sure], values)
-        axes.plot(*line, ".-", color=role, linewidth=width, markersize=3.0, label=name)
+        axes.plot(*line, ".-", color=role, linewidth=width, markersize=3.0, label=said(name))
 
 
 def _draw_uncertainty(axes: Axes, found: FrequencyResponse, sure: BoolArray) -> None:
@@ -178,7 +193,7 @@ def _cells(values: FloatArray) -> IntArray:
 
 def _command_scale(traces: Sequence[Trace]) -> Scale:
     unit = traces[0].record.units[traces[0].axis]
-    return Scale.of(unit, max(float(np.abs(trace.command).max()) for trace in traces))
+    return scale_of(unit, max(float(np.abs(trace.command).max()) for trace in traces))
 
 
 def _degrees(response: ComplexArray) -> FloatArray:
@@ -193,7 +208,7 @@ def _of_one_rate(traces: Sequence[Trace]) -> list[Trace]:
         except TimeGridError as error:
             uneven = error
             continue
-        by_rate.setdefault(f"{rate_hz:.4g}", []).append(trace)
+        by_rate.setdefault(rounded(rate_hz), []).append(trace)
     if not by_rate:
         raise uneven
     return max(by_rate.values(), key=lambda group: sum(len(trace.real) for trace in group))

@@ -4,7 +4,7 @@ Every text that comes from a file or a third party is escaped where it is put in
 and by the drawings for their own texts); the page's policy forbids scripts and outside resources.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import resources
 from importlib.metadata import version
 from os import PathLike
@@ -17,21 +17,31 @@ from rotemina.sim.gap.diagnosis import Diagnosis, Verdict
 from rotemina.sim.gap.document import ordered_causes, shares
 from rotemina.sim.gap.report.charts import forecast
 from rotemina.sim.gap.report.facts import record_facts
-from rotemina.sim.gap.report.quantities import amount, amounts, percent, percents, unit_of
+from rotemina.sim.gap.report.quantities import unit_of
 from rotemina.sim.gap.report.views import axis_views
 from rotemina.sim.gap.report.words import (
     AXIS_VERDICTS,
     VERDICTS,
     effect_title,
-    listed,
+    named,
     parameter_unit,
-    summary,
+    said,
+    shown,
+    worded,
 )
+from rotemina.sim.gap.wording import summary
+from rotemina.sim.messages import Wording, listed
+from rotemina.sim.quantities import Number, amount, amounts, percent, percents, rounded
 from rotemina.sim.records.record import Record
 from rotemina.sim.whole_files import replaced
 
 
-def report_text(diagnosis: Diagnosis, records: Sequence[Record], names: Sequence[str] = ()) -> str:
+def report_text(
+    diagnosis: Diagnosis,
+    records: Sequence[Record],
+    names: Sequence[str] = (),
+    wording: Wording | None = None,
+) -> str:
     """Return the page.
 
     Parameters
@@ -41,12 +51,19 @@ def report_text(diagnosis: Diagnosis, records: Sequence[Record], names: Sequence
         Those that were diagnosed, in the same order.
     names : sequence of str
         What the records are called, where that is known.
+    wording : Wording, optional
+        The language of the page; English unless given.
 
     Raises
     ------
     PlantError, EffectError
         If a record does not fit the robot, or the corrected model cannot be simulated.
     """
+    with worded(wording or Wording()):
+        return _page(diagnosis, records, names)
+
+
+def _page(diagnosis: Diagnosis, records: Sequence[Record], names: Sequence[str]) -> str:
     places = diagnosis.places
     return (
         _environment()
@@ -54,8 +71,8 @@ def report_text(diagnosis: Diagnosis, records: Sequence[Record], names: Sequence
         .render(
             style=Markup(_resource("page.css")),  # noqa: S704 (the program's own)
             diagnosis=diagnosis,
-            verdict=VERDICTS[diagnosis.verdict],
-            summary=summary(diagnosis, records),
+            verdict=said(VERDICTS[diagnosis.verdict]),
+            summary=list(map(shown, summary(diagnosis, records))),
             places=list(zip(places, shares(places), strict=True)),
             causes=ordered_causes(diagnosis),
             axes=axis_views(diagnosis, records),
@@ -100,18 +117,27 @@ def _environment() -> Environment:
         keep_trailing_newline=True,
     )
     environment.filters.update(
-        amount=amount,
-        amounts=amounts,
-        percent=percent,
-        percents=percents,
+        t=said,
+        shown=shown,
+        named=named,
         title=effect_title,
-        listed=listed,
-        axis_verdict=lambda verdict: AXIS_VERDICTS[Verdict(verdict)],
-        hertz=lambda edges: " … ".join(f"{edge:.3g}" for edge in edges) + " Hz",
+        amount=_shown(amount),
+        amounts=_shown(amounts),
+        percent=_shown(percent),
+        percents=_shown(percents),
+        rounded=_shown(rounded),
+        one_of=lambda names: listed(list(names), said("or")),
+        axis_verdict=lambda verdict: said(AXIS_VERDICTS[Verdict(verdict)]),
+        hertz=lambda edges: " … ".join(shown(rounded(edge, 3)) for edge in edges) + " Hz",
         few=_few,
         warmth=_warmth,
     )
     return environment
+
+
+def _shown(number: Callable[..., Number]) -> Callable[..., str]:
+    """Return what writes a number in the page's language."""
+    return lambda *value: shown(number(*value))
 
 
 def _resource(name: str) -> str:
@@ -120,7 +146,7 @@ def _resource(name: str) -> str:
 
 def _few(value: float) -> str:
     """Return a number above 0 in two digits."""
-    return "< 0.01" if 0.0 < value < 0.01 else f"{float(f'{value:.2g}'):g}"
+    return shown(Number("< 0.01") if 0.0 < value < 0.01 else rounded(value, 2))
 
 
 def _warmth(floors: float) -> str:

@@ -11,7 +11,9 @@ from rotemina.sim.gap.report.charts import ranking, waterfall
 from rotemina.sim.gap.report.heat import Heat, heat
 from rotemina.sim.gap.report.overlays import POINTS, frequency_response, signals
 from rotemina.sim.gap.report.traces import Trace, traces
+from rotemina.sim.gap.report.words import said
 from rotemina.sim.identification.errors import IdentificationError
+from rotemina.sim.messages import marked
 from rotemina.sim.records.record import Record, Tap
 
 _MOST_DRAWN = 4  # records of an axis; those with the largest gap
@@ -89,16 +91,26 @@ def _with_signals(
     largest = sorted(found, key=_floors, reverse=True)[:_MOST_DRAWN]
     if len(found) > len(largest):
         missing.append(
-            f"Of {len(found)} records, the {len(largest)} with the largest gap are drawn."
+            said(
+                marked("gap", "Of {all} records, the {drawn} with the largest gap are drawn."),
+                all=len(found),
+                drawn=len(largest),
+            )
         )
     response = None
     try:
         response = frequency_response(found)
     except IdentificationError as error:
-        missing.append(f"No frequency response is drawn: {error}.")
+        missing.append(
+            said(marked("gap", "No frequency response is drawn: {reason}."), reason=str(error))
+        )
     warm = heat(found)
     if warm is None:
-        missing.append("No heat map is drawn: no record is sampled evenly and long enough.")
+        missing.append(
+            said(
+                marked("gap", "No heat map is drawn: no record is sampled evenly and long enough.")
+            )
+        )
     return TapView(
         tap,
         shrinkage,

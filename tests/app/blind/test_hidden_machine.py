@@ -95,12 +95,12 @@ def test_it_can_be_played_and_tells_nothing_of_what_it_has(secret):
     (finished,) = [event for event in events if isinstance(event, PlaybackFinished)]
     record = finished.record
     assert record.metadata["driver"] == "hidden machine"
-    assert session.effects == ()
+    assert session.service.effects == ()
     said = " ".join([*record.metadata, *record.metadata.values()])
     assert not any(effect in said for _, effect in secret.causes)
     gap = record.signal("zn", Tap.MEAS) - record.signal("zn", Tap.CMD)
     assert np.abs(gap).max() < 1e-5  # it follows
-    session.set_effects([AxisEffect(axis="zn", id="creep")])
+    session.service.set_effects([AxisEffect(axis="zn", id="creep")])
     step()
     assert any(isinstance(e, CommandRefused) and "reveal it first" in e.message for e in events)
 

@@ -134,7 +134,7 @@ def test_files_that_are_none_are_named_and_left_out(store, robot):
 def test_words_and_json_hold_the_figures():
     calibration = made()
     text = summary(calibration)
-    for part in ("gain error", "2 %", "± 0.001 %", "0.5 µm before", "R, repeatability", "lost"):
+    for part in ("gain error", "2 %", "± 0.001 %", "500 nm before", "R, repeatability", "lost"):
         assert part in text
     answer = as_json(calibration)
     assert answer["figures"]["gain error"] == {"value": 0.02, "half_width": 1e-5, "unit": "1"}

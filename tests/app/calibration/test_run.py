@@ -36,7 +36,7 @@ class _Bench:
         self.session.subscribe(self.events.append)
         self.session.connect()
         self.step(3)
-        self.session.set_effects(
+        self.session.service.set_effects(
             [AxisEffect(axis="zn", id="sensor_gain", parameters={"error": GAIN})]
         )
         self.step(3)

@@ -51,6 +51,21 @@ def test_play_then_compare_finds_only_noise(in_tmp, tour, capsys):
     assert "thx.meas" in capsys.readouterr().out
 
 
+def test_two_runs_are_compared_as_a_run_and_a_model_are(in_tmp, capsys):
+    time_s = np.arange(2001) / 1000.0
+    for name, lag_s in (("one", 0.0), ("two", 0.02)):
+        at = 1e-5 * (1.0 - np.cos(2.0 * np.pi * (time_s - lag_s)))
+        signals = {("zn", Tap.CMD): at, ("zn", Tap.MEAS): at + 1e-8}
+        write_record(Record.from_signals(time_s + lag_s, signals, {"zn": "m"}), f"{name}.csv")
+    assert main(["compare", "two.csv", "--with", "one.csv", "--json", "out.json"]) == 0
+    (tap,) = json.loads(Path("out.json").read_text("utf-8"))["taps"]
+    assert tap["delay_s"] == pytest.approx(0.02, abs=1e-4)
+    assert tap["rms"] == pytest.approx(2e-5 * np.sin(0.02 * np.pi) / 2**0.5, rel=0.01)
+    assert "tip path: not all joints" in capsys.readouterr().out
+    assert main(["compare", "two.csv", "--with", "one.csv", "--fit", "gain"]) == 2
+    assert "--fit: it re-fits the model" in capsys.readouterr().err
+
+
 def write_trajectory(name, axis, time_s, command, unit="m"):
     record = Record.from_signals(time_s, {(axis, Tap.CMD): command}, {axis: unit}, {"name": name})
     write_record(record, f"{name}.csv")

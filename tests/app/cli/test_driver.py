@@ -64,7 +64,7 @@ def test_check_fails_with_status_1_and_says_what_was_seen(plugins, capsys):
     assert main(["driver", "check", "careless", "--only", "lease-expiry"]) == 1
     failed, demand, _ = capsys.readouterr().out.splitlines()
     assert failed.split()[:2] == ["FAILED", "lease-expiry"]
-    assert "expected: at most 0.24" in failed
+    assert "expected: at most 247 ms" in failed
     assert "without a fault" in demand
 
 

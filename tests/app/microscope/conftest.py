@@ -59,7 +59,7 @@ class Bench:
         self.session.connect()
         self.session.run_once()
         if effects:
-            self.session.set_effects(list(effects))
+            self.session.service.set_effects(list(effects))
             self.session.run_once()
         source = SimulatedMicroscope(
             lambda: self.driver,

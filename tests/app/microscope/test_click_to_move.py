@@ -114,11 +114,11 @@ def test_a_click_in_a_picture_of_another_resolution_is_refused(make_bench, click
 
 def test_the_keep_out_and_locks_hold_for_clicks(bench, clicks):
     move = clicks.plan(np.array([300.0, 250.0]))
-    height = bench.session.teach_floor()
-    bench.session._guard.teach_floor(height + 1e-6)
+    height = bench.session.bounds.teach_floor()
+    bench.session.bounds._guard.teach_floor(height + 1e-6)
     with pytest.raises(OutOfLimitsError, match="floor"):
         clicks.go(move)
-    bench.session.clear_floor()
+    bench.session.bounds.clear_floor()
     bench.session.bar("somebody works at the dish")
     with pytest.raises(RefusedError, match="works at the dish"):
         clicks.go(move)

@@ -29,7 +29,9 @@ def test_a_sensor_that_reads_wrong_is_told_from_a_machine_that_goes_wrong(tmp_pa
     work.look()
     work.calibrate_by_truth()
     work.tracking()
-    work.session.set_effects([AxisEffect(axis="x", id="sensor_gain", parameters={"error": 0.05})])
+    work.session.service.set_effects(
+        [AxisEffect(axis="x", id="sensor_gain", parameters={"error": 0.05})]
+    )
     work.step(2)
     recorder = SessionRecorder(work.session, tmp_path / "run.arrows", clock=work.clock)
     recorder.start(thread=False)
@@ -57,4 +59,4 @@ def test_a_sensor_that_reads_wrong_is_told_from_a_machine_that_goes_wrong(tmp_pa
     unseen = diagnose(work.robot, [of_x(record, Tap.CMD, Tap.MEAS)]).axes["x"]
     (gain,) = [one for one in unseen.causes if one.effect in ("gain_error", "sensor_gain")]
     assert {gain.effect, *gain.ambiguous_with} >= {"gain_error", "sensor_gain"}
-    assert any("No independent reference" in remark for remark in unseen.remarks)
+    assert any("No independent reference" in str(remark) for remark in unseen.remarks)

@@ -14,6 +14,7 @@ from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 
+TRIED_AGAIN = "tried again"  # as the summary of a run counts it
 TRIES = 4
 STARVED = (
     "a set-point came too late",
@@ -140,7 +141,7 @@ def board_process():
 
 
 @pytest.fixture
-def patiently():
+def patiently(request):
     """Do what needs boards in real time; once more, where this machine was too busy for that.
 
     A machine that lets the program or the boards wait for longer than they do for one another
@@ -156,6 +157,7 @@ def patiently():
             said = [str(error), *(event.message for event in events if isinstance(event, Faulted))]
             if tries == 1 or not any(sign in one for one in said for sign in STARVED):
                 raise
+            request.node.user_properties.append((TRIED_AGAIN, said[-1]))
         return patiently(work, tries - 1)
 
     return patiently

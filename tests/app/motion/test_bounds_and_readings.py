@@ -135,7 +135,7 @@ def test_homing_ends_the_doubt_about_the_axes_that_were_homed_and_no_others(misr
 
 def test_a_stop_withdraws_a_confirmation_of_the_position(misread, monkeypatch):
     stepped = doubted(misread, "x")
-    session, take = stepped.session, stepped.session._mailbox.take
+    session, take = stepped.session, stepped.session._link.mailbox.take
 
     def taken():
         posted = take()
@@ -143,7 +143,7 @@ def test_a_stop_withdraws_a_confirmation_of_the_position(misread, monkeypatch):
             session.stop()
         return posted
 
-    monkeypatch.setattr(session._mailbox, "take", taken)
+    monkeypatch.setattr(session._link.mailbox, "take", taken)
     session.confirm_position()
     assert "axis x reads" in stepped.step(times=3).locked
 
@@ -164,10 +164,10 @@ def test_a_single_outlier_neither_locks_nor_opens_nor_bars(misread):
 def test_removing_or_teaching_the_floor_leaves_the_objective(make_stepped):
     stepped = make_stepped(DISH, driver=Simulator)
     stepped.step()
-    stepped.session.clear_floor()
+    stepped.session.bounds.clear_floor()
     with pytest.raises(OutOfLimitsError, match="its floor is -30 mm, where the objective is"):
         stepped.session.go_to({"z": 0.005})
-    stepped.session.teach_floor(0.035)
+    stepped.session.bounds.teach_floor(0.035)
     with pytest.raises(OutOfLimitsError, match="where the objective is"):
         stepped.session.go_to({"z": 0.005})
 
@@ -176,17 +176,17 @@ def test_removing_or_teaching_the_floor_leaves_the_objective(make_stepped):
 def test_a_floor_that_is_none_is_refused(make_stepped, clearance):
     stepped = make_stepped(DISH, driver=Simulator)
     stepped.step()
-    before = stepped.session.keep_out
+    before = stepped.session.bounds.keep_out
     with pytest.raises(OutOfLimitsError, match="must be"):
-        stepped.session.teach_floor(clearance)
-    assert stepped.session.keep_out is before
+        stepped.session.bounds.teach_floor(clearance)
+    assert stepped.session.bounds.keep_out is before
 
 
 @pytest.mark.parametrize("request_", ["teach_floor", "clear_floor"])
 def test_the_floor_changes_only_at_rest(make_stepped, request_):
     stepped = make_stepped(DISH, driver=Simulator)
     stepped.step()
-    change = getattr(stepped.session, request_)
+    change = getattr(stepped.session.bounds, request_)
     stepped.session.go_to({"z": 0.035})
     for _ in range(3):  # queued; handed over, but not seen to move yet; in mid-move
         with pytest.raises(RefusedError, match="still moving"):

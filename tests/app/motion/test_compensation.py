@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.app.motion.compensation import CompensatedRequests, NamedInverse
+from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, PlaybackFinished
@@ -49,9 +49,9 @@ def machine(make_stepped):
     stepped.seen = []
     stepped.session.tap(lambda samples, _: stepped.seen.append(samples))
     stepped.step(0.05, 3)
-    stepped.session.compensate(NAMED)
+    stepped.session.inverses.apply(NAMED)
     stepped.step(0.05, 2)
-    assert set(stepped.session.compensated) == {"zn"}
+    assert set(stepped.session.inverses.applied) == {"zn"}
     return stepped
 
 
@@ -85,9 +85,9 @@ def test_nothing_jumps_when_it_is_put_on_and_taken_off(machine):
     settle(machine)
     assert machine.session.snapshot().command["zn"] == pytest.approx(now + 5e-6)
     before = columns(machine)[1][-1]
-    machine.session.uncompensate("zn")
+    machine.session.inverses.remove("zn")
     machine.step(0.05, 2)
-    assert machine.session.compensated == {}
+    assert machine.session.inverses.applied == {}
     command, sent = columns(machine)
     assert sent[-1] == pytest.approx(before, abs=1e-15)
     assert command[-1] == pytest.approx(before, abs=1e-15)
@@ -102,9 +102,9 @@ def test_moves_speeds_profiles_and_trajectories_go_through_it(machine):
     settle(machine)
     session.move_velocity({"zn": -1e-4}, 0.1)
     settle(machine)
-    session.upload_profile(Profile("zn", (ProfileSegment(0.05, 0.0, 0.0, -4e-6),)))
+    session.profiles.upload(Profile("zn", (ProfileSegment(0.05, 0.0, 0.0, -4e-6),)))
     machine.step()
-    session.trigger_profile()
+    session.profiles.trigger()
     settle(machine)
     session.play(trajectory())
     settle(machine)
@@ -126,41 +126,25 @@ def test_a_record_holds_what_was_wanted_what_was_sent_and_the_inverse(machine):
     assert record.metadata["compensation zn"] == "PI, zn.json"
 
 
-def test_a_device_without_the_ability_is_given_the_inverse_s_commands(make_stepped, monkeypatch):
-    monkeypatch.setattr(CompensatedRequests, "compensates_all", property(lambda _: False))
-    machine = make_stepped()
-    machine.step(0.05, 3)
-    machine.session.compensate(NAMED)
-    machine.session.play(trajectory())
-    settle(machine)
-    record = record_of(machine)
-    assert np.allclose(record.signal("zn", Tap.CMD), PATH, atol=1e-15)
-    sent = Inverse(MODEL, TICK_S, preview=True).run(PATH)
-    assert np.allclose(record.signal("zn", Tap.U) * ZN.gain, sent, rtol=0.0, atol=1e-12)
-    assert record.metadata["compensation zn"] == "PI, zn.json"
-    machine.session.uncompensate("zn")
-    assert machine.session.compensated == {}
-
-
 def test_beyond_what_it_saw_nothing_goes(machine):
     session = machine.session
     with pytest.raises(OutOfLimitsError, match="beyond 2 µm to 60 µm, which its inverse was"):
         session.go_to({"zn": 61e-6})
     with pytest.raises(OutOfLimitsError, match="beyond 2 µm to 60 µm"):
-        session.upload_profile(Profile("zn", (ProfileSegment(0.1, 0.0, 0.0, -35e-6),)))
+        session.profiles.upload(Profile("zn", (ProfileSegment(0.1, 0.0, 0.0, -35e-6),)))
     with pytest.raises(CompensationError, match="which the inverse was trained on"):
         session.play(trajectory(PATH + 16e-6))
     session.move_velocity({"zn": 1e-3}, 0.15)  # halts at the end
     settle(machine)
     assert session.snapshot().command["zn"] <= 60e-6
-    assert session.beyond_inverse("zn") == Exceedance(0)
+    assert session.inverses.exceedance("zn") == Exceedance(0)
 
 
 def test_what_the_inverse_asks_for_is_held_against_the_limits(machine):
     steep = replace(MODEL, consequents=np.array([[0.0, 1.2, 0.1]]))
-    machine.session.uncompensate("zn")
+    machine.session.inverses.remove("zn")
     machine.step(0.05, 2)
-    machine.session.compensate(NamedInverse(steep, ROBOT.name, "steep"))
+    machine.session.inverses.apply(NamedInverse(steep, ROBOT.name, "steep"))
     machine.step(0.05, 2)
     machine.seen.clear()
     with pytest.raises(InputError, match="all the machine can be told"):
@@ -178,28 +162,28 @@ def test_what_the_inverse_asks_for_is_held_against_the_limits(machine):
 )
 def test_a_foreign_inverse_is_refused(machine, inverse, message):
     with pytest.raises(CompensationError, match=message):
-        machine.session.compensate(inverse)
+        machine.session.inverses.apply(inverse)
 
 
 def test_it_changes_at_rest_alone(machine):
     machine.session.jog("zn", 5e-6)
     machine.step(0.002)
     with pytest.raises(RefusedError, match="still moving"):
-        machine.session.uncompensate("zn")
+        machine.session.inverses.remove("zn")
     settle(machine)
     with pytest.raises(RefusedError, match="axis thx has no inverse"):
-        machine.session.uncompensate("thx")
+        machine.session.inverses.remove("thx")
 
 
 def test_an_axis_where_the_inverse_does_not_reach_is_left_alone(make_stepped):
     machine = make_stepped()
     machine.step(0.05, 3)
     narrow = replace(MODEL, desired_range=(2e-6, 20e-6))
-    machine.session.compensate(replace(NAMED, model=narrow))
+    machine.session.inverses.apply(replace(NAMED, model=narrow))
     machine.step(0.05, 2)
     (refused,) = [one for one in machine.events if isinstance(one, CommandRefused)]
     assert "move the axis there first" in refused.message
-    assert machine.session.compensated == {}
+    assert machine.session.inverses.applied == {}
 
 
 def test_a_new_connection_ends_it_where_the_axis_stands(machine):
@@ -210,7 +194,7 @@ def test_a_new_connection_ends_it_where_the_axis_stands(machine):
     machine.step(0.05, 2)
     machine.session.reconnect()
     machine.step(0.05, 3)
-    assert machine.session.compensated == {}
+    assert machine.session.inverses.applied == {}
     assert machine.session.snapshot().command["zn"] == pytest.approx(sent, abs=1e-12)
 
 
@@ -224,16 +208,16 @@ def test_no_voltage_is_put_out_past_it(machine):
 def test_sessions_without_an_inverse_send_what_is_wanted(make_stepped):
     machine = make_stepped()
     assert isinstance(machine.session, MotionSession)
-    assert machine.session.compensated == {}
-    assert machine.session._sent(machine.session.driver.accept(trajectory())) == (None, {})
+    assert machine.session.inverses.applied == {}
+    assert machine.session.inverses.sent(machine.session.driver.accept(trajectory())) == (None, {})
 
 
 def test_while_a_stop_is_latched_none_is_put_on_or_taken_off(machine):
     machine.session.emergency_stop()
     for request in (
-        lambda: machine.session.compensate(NAMED),
-        lambda: machine.session.uncompensate("zn"),
+        lambda: machine.session.inverses.apply(NAMED),
+        lambda: machine.session.inverses.remove("zn"),
     ):
         with pytest.raises(RefusedError, match="latched"):
             request()
-    assert set(machine.session.compensated) == {"zn"}
+    assert set(machine.session.inverses.applied) == {"zn"}

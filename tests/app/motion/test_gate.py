@@ -38,13 +38,13 @@ def gate_alone(monkeypatch):
 
 def between_check_and_act(stepped, monkeypatch, action):
     """Do something at the very moment in which a request has passed all checks of the session."""
-    post = stepped.session._mailbox.post
+    post = stepped.session._link.mailbox.post
 
     def later(command, permit):
         action()
         post(command, permit)
 
-    monkeypatch.setattr(stepped.session._mailbox, "post", later)
+    monkeypatch.setattr(stepped.session._link.mailbox, "post", later)
 
 
 def stands(stepped, seconds=1.0):
@@ -72,13 +72,13 @@ def test_a_stop_between_the_checks_of_a_request_and_its_queue(
 def test_a_stop_between_the_queue_and_the_driver(stepped, monkeypatch, request_name, event):
     """The worker has taken the request already when the stop comes."""
     session = stepped.session
-    hand_over = session._worker._executor._hand_over
+    hand_over = session._link.worker._executor._hand_over
 
     def later(command, permit):
         getattr(session, event)()
         hand_over(command, permit)
 
-    monkeypatch.setattr(session._worker._executor, "_hand_over", later)
+    monkeypatch.setattr(session._link.worker._executor, "_hand_over", later)
     REQUESTS[request_name](session)
     assert stands(stepped)
 
@@ -156,7 +156,7 @@ def test_a_stop_does_not_wait_for_the_check_of_a_path(stepped, monkeypatch):
         checking.set()
         assert checked.wait(20.0)
 
-    monkeypatch.setattr(session._guard, "play", check)
+    monkeypatch.setattr(session.bounds._guard, "play", check)
     refusals = []
 
     def play():
@@ -184,7 +184,7 @@ def test_a_machine_that_moved_while_a_path_was_checked_does_not_play_it(stepped,
         stepped.until_idle()
         stepped.step(0.02, 5)
 
-    monkeypatch.setattr(session._guard, "play", meanwhile)
+    monkeypatch.setattr(session.bounds._guard, "play", meanwhile)
     with pytest.raises(RefusedError, match="have changed; play once more"):
         session.play(PATH)
     assert stands(stepped)
@@ -211,12 +211,12 @@ def test_faults_are_not_cleared_nor_anything_switched_on_while_a_stop_is_latched
     session = stepped.session
     session.emergency_stop()
     for request in (
-        lambda: session.switch_tool(True),
-        lambda: session.set_effects([]),
-        lambda: session.teach_floor(),
+        lambda: session.tool.switch(True),
+        lambda: session.service.set_effects([]),
+        lambda: session.bounds.teach_floor(),
     ):
         with pytest.raises(InputError, match="latched"):
             request()
-    session.switch_tool(False)
+    session.tool.switch(False)
     stepped.step()
-    assert session.tool_on is False
+    assert session.tool.on is False

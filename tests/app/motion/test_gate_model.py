@@ -96,16 +96,18 @@ class Way:
         for place, event in plan:
             self.plan[place].append(event)
         self.written = False
-        self.session._lock = threading.RLock()  # the others act on the thread of the request
+        self.session._admission.lock = (
+            threading.RLock()
+        )  # the others act on the thread of the request
         self._hook(monkeypatch)
 
     def _hook(self, monkeypatch):
         session = self.session
         before = [
-            (session, "_drawn", "draw"),
-            (session, "_refuse_if_locked", "check"),
-            (session._mailbox, "post", "pass"),
-            (session._mailbox, "take", "take"),
+            (session._admission, "drawn", "draw"),
+            (session._admission, "refuse_if_locked", "check"),
+            (session._link.mailbox, "post", "pass"),
+            (session._link.mailbox, "take", "take"),
             (Executor, "_hand_over", "hand over"),
             (type(self.stepped.driver), "_move_to", "write"),
         ]
@@ -122,7 +124,7 @@ class Way:
 
     def _after(self, place, inner):
         def hooked(*given, **named):
-            if place != "take" or len(self.session._mailbox):
+            if place != "take" or len(self.session._link.mailbox):
                 self.arrive(place)
             found = inner(*given, **named)
             self.written |= place == "write"
@@ -146,7 +148,7 @@ class Way:
             new = type(driver)(session.robot, clock=self.stepped.clock)
             session.use(new)
         elif event == "lose":
-            self.lose(session._worker.driver)
+            self.lose(session._link.worker.driver)
         else:
             getattr(session, event)()
 
@@ -166,7 +168,7 @@ class Way:
             self.arrive(place)
         self.session.run_once()
         self.stepped.step(0.05, 10)
-        driver = self.session._worker.driver
+        driver = self.session._link.worker.driver
         return self.written, driver.true_positions[0] > REST + 1e-3
 
 

@@ -79,7 +79,7 @@ class Stress:
                 if state.connection is Connection.FAILED:
                     session.reconnect()
                 elif state.fault is not None:
-                    session.clear_fault()
+                    session.service.clear_fault()
                 elif state.locked and "confirm" in state.locked:
                     session.confirm_position()
             return state.locked is None and self.rests()

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion import mailbox
+from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.mailbox import Mailbox
@@ -44,8 +45,8 @@ class Traced:
         self.other = self._made_other()
         self.begun, self.returned, self.before = set(), set(), None
         self.written, self.wrong = False, []
-        self.session._lock = Lock(self.steps)
-        self.session._worker.ownership._lock = Lock(self.steps)
+        self.session._admission.lock = Lock(self.steps)
+        self.session._link.worker.ownership._lock = Lock(self.steps)
         monkeypatch.setattr(Executor, "_halt_if_overtaken", lambda *_: None)
         self._hook(monkeypatch)
         for actor in (request_, *others):
@@ -71,7 +72,7 @@ class Traced:
         elif actor == "wait":
             self.stepped.clock.advance(2.0 * LEASE_S)
         elif actor == "lose":
-            self._lose(session._worker.driver)
+            self._lose(session._link.worker.driver)
         elif actor == "use":
             session.use(self.other)
         else:
@@ -138,7 +139,7 @@ class Traced:
 
     def _hook_those_who_ask(self):
         self._before(Gate, "permit", "draw", self._asks)
-        self._before(type(self.session), "_refuse_if_locked", "check", self._asks)
+        self._before(Admission, "refuse_if_locked", "check", self._asks)
         self._before(mailbox, "refuse_overtaken", "pass", self._asks)
         compare = mailbox.refuse_overtaken
 
@@ -167,7 +168,7 @@ class Traced:
         self._before(Worker, "stopped", "return")
 
     def _hook_the_worker(self):
-        box, driver = self.session._mailbox, type(self.first)
+        box, driver = self.session._link.mailbox, type(self.first)
         self._before(
             Mailbox,
             "take_connection_request",
@@ -204,7 +205,7 @@ class Traced:
         self.written = True
         if not self.returned <= self.before:
             self.wrong.append(f"written after the return of {self.returned - self.before}")
-        if self.session._gate.latched is not None:
+        if self.session._link.gate.latched is not None:
             self.wrong.append("written while a stop is latched")
 
     # --- the trace --------------------------------------------------------------------------------
@@ -225,7 +226,7 @@ class Traced:
 
     def moves(self):
         """Tell whether the machine that is connected goes anywhere from now on."""
-        driver = self.session._worker.driver
+        driver = self.session._link.worker.driver
         before = np.array(driver.true_positions)
         for _ in range(20):
             self.stepped.clock.advance(0.02)

@@ -46,10 +46,10 @@ axis, request = {
     "positional": ("x", lambda: session.go_to({"x": 0.05})),
     "playback": ("x", lambda: session.play(Record.from_signals(
         time_s, {("x", Tap.CMD): begin["x"] + 1e-3 * time_s}, {"x": "m"}))),
-    "profile": ("zn", lambda: session.trigger_profile()),
+    "profile": ("zn", lambda: session.profiles.trigger()),
 }[sys.argv[1]]
 if sys.argv[1] == "profile":
-    session.upload_profile(Profile("zn", (ProfileSegment(3.0, 0.0, -30e-6, 20e-6),)))
+    session.profiles.upload(Profile("zn", (ProfileSegment(3.0, 0.0, -30e-6, 20e-6),)))
     wait(lambda: session.at_rest)
 request()
 wait(lambda: abs(session.snapshot().command[axis] - begin[axis]) > 1e-6)

@@ -5,10 +5,10 @@ A method that is in no list fails here: whoever adds one says what holds for it.
 
 import pytest
 
+from rotemina.app.motion.backlash import Approach
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
@@ -29,23 +29,26 @@ REFUSED = {
     "home": lambda session: session.home(),
     "play": lambda session: session.play(PATH),
     "set_voltage": lambda session: session.set_voltage("zn", 70.0),
-    "upload_profile": lambda session: session.upload_profile(DOWN),
-    "trigger_profile": lambda session: session.trigger_profile(),
-    "set_effects": lambda session: session.set_effects([]),
-    "switch_tool": lambda session: session.switch_tool(True),
-    "reserve": lambda session: session.reserve("somebody"),
-    "check_reservable": lambda session: session.check_reservable("somebody"),
-    "teach_floor": lambda session: session.teach_floor(),
-    "clear_floor": lambda session: session.clear_floor(),
+    "profiles.upload": lambda session: session.profiles.upload(DOWN),
+    "profiles.trigger": lambda session: session.profiles.trigger(),
+    "service.set_effects": lambda session: session.service.set_effects([]),
+    "tool.switch": lambda session: session.tool.switch(True),
+    "reservations.reserve": lambda session: session.reservations.reserve("somebody"),
+    "reservations.check": lambda session: session.reservations.check("somebody"),
+    "bounds.teach_floor": lambda session: session.bounds.teach_floor(),
+    "bounds.clear_floor": lambda session: session.bounds.clear_floor(),
+    "backlash.use": lambda session: session.backlash.use("x", Approach(1e-5, rising=True)),
+    "ranges.narrow": lambda session: session.ranges.narrow("x", 0.01, 0.05),
+    "ranges.restore": lambda session: session.ranges.restore("x"),
 }
 #: Refused as well, tested where what they need is at hand.
 REFUSED_ELSEWHERE = {
-    "compensate",
-    "uncompensate",
-    "regulate",
-    "unregulate",
-    "write_parameters",
-    "clear_fault",
+    "inverses.apply",
+    "inverses.remove",
+    "loops.apply",
+    "loops.remove",
+    "service.write_parameters",
+    "service.clear_fault",
 }
 
 
@@ -68,50 +71,89 @@ def told(*_):
 
 #: They stop, let go, ask or tell: nothing moves by them, and they are never refused for a latch.
 HARMLESS = {
-    "abort_profile": lambda session: session.abort_profile(),
+    "profiles.abort": lambda session: session.profiles.abort(),
     "at_rest": lambda session: session.at_rest,
+    "check_play": lambda session: session.check_play(PATH),
+    "tip_path": lambda session: session.tip_path(PATH),
     "bar": lambda session: session.bar("a replay"),
-    "beyond_inverse": lambda session: session.beyond_inverse("zn"),
-    "capture": lambda session: session.capture(["zn"], 1000.0, 10),
-    "captured": lambda session: session.captured(),
-    "check_thrust": lambda session: session.check_thrust("zn", (30e-6, 20e-6), 1e-4),
-    "compensated": lambda session: session.compensated,
-    "compensates_all": lambda session: session.compensates_all,
+    "inverses.exceedance": lambda session: session.inverses.exceedance("zn"),
+    "captures.begin": lambda session: session.captures.begin(["zn"], 1000.0, 10),
+    "captures.collected": lambda session: session.captures.collected(),
+    "profiles.check_thrust": lambda session: session.profiles.check_thrust(
+        "zn", (30e-6, 20e-6), 1e-4
+    ),
+    "inverses.applied": lambda session: session.inverses.applied,
+    "backlash.applied": lambda session: session.backlash.applied,
+    "backlash.forget": lambda session: session.backlash.forget(),
+    "backlash.taken_up": lambda session: session.backlash.taken_up("x"),
+    "backlash.ways": lambda session: session.backlash.ways([{"x": 0.0}]),
+    "ranges.narrowed": lambda session: session.ranges.narrowed,
+    "ranges.of": lambda session: session.ranges.of("zn"),
+    "ranges.begin_with": lambda session: session.ranges.begin_with({}),
+    "inverses.ends": lambda session: session.inverses.ends,
+    "inverses.live": lambda session: session.inverses.live,
     "confirm_position": lambda session: session.confirm_position(),
     "connect": lambda session: session.connect(),
     "corrections": lambda session: session.corrections,
     "disconnect": let_go,
-    "effects": lambda session: session.effects,
+    "service.effects": lambda session: session.service.effects,
     "emergency_stop": lambda session: session.emergency_stop("once more"),
     "epoch": lambda session: session.epoch,
-    "has_reserved": lambda session: session.has_reserved("somebody"),
-    "keep_out": lambda session: session.keep_out,
+    "reservations.held_by": lambda session: session.reservations.held_by("somebody"),
+    "bounds.keep_out": lambda session: session.bounds.keep_out,
+    "bounds.tip": lambda session: session.bounds.tip(session.snapshot()),
+    "inverses.check": lambda session: session.inverses.check({"zn": 0.0}),
+    "inverses.forget": lambda session: session.inverses.forget(),
+    "inverses.sent": lambda session: session.inverses.sent(session.driver.accept(PATH)),
+    "labels": lambda session: session.labels,
+    "loops.forget": lambda session: session.loops.forget(),
     "memory": lambda session: session.memory,
     "model": lambda session: session.model,
-    "no_regulation": lambda session: session.no_regulation,
+    "loops.unavailable": lambda session: session.loops.unavailable,
     "note_contact": lambda session: session.note_contact("a cell"),
     "permit": lambda session: session.permit(),
     "reconnect": let_go,
-    "regulated": lambda session: session.regulated,
-    "regulation_limited": lambda session: session.regulation_limited,
+    "loops.applied": lambda session: session.loops.applied,
+    "loops.limited": lambda session: session.loops.limited,
     "run_once": lambda session: session.run_once(),
-    "set_free": lambda session: session.set_free("somebody"),
+    "reservations.set_free": lambda session: session.reservations.set_free("somebody"),
     "setpoint_period_s": lambda session: session.setpoint_period_s,
-    "show": lambda session: session.show(0, "latched"),
+    "service.show": lambda session: session.service.show(0, "latched"),
     "snapshot": lambda session: session.snapshot(),
+    "standing": lambda session: session.standing,
     "stop": lambda session: session.stop(),
     "stop_asked_s": lambda session: session.stop_asked_s,
     "subscribe": lambda session: session.subscribe(told),
-    "take_over": lambda session: session.take_over(["x"], "somebody"),
+    "reservations.take_over": lambda session: session.reservations.take_over(["x"], "somebody"),
     "tap": lambda session: session.tap(told),
-    "tool_on": lambda session: session.tool_on,
+    "tool.on": lambda session: session.tool.on,
     "undoable": lambda session: session.undoable,
     "use": exchanged,
     "use_model": lambda session: session.use_model(session.model),
 }
 #: Harmless as well, but not on a session that a test steps or on this device; the latch's end.
-HARMLESS_ELSEWHERE = {"accept_parameters", "close", "release", "start"}
-OPERATION_REFUSED = {"arm_penetration", "press_penetration", "recentre", "toggle_tool"}
+HARMLESS_ELSEWHERE = {"service.accept_parameters", "close", "release", "start"}
+#: No methods of the session's: the device, who shows it, and what was read.
+HELD = {"driver", "history", "pulse", "robot", "screen"}
+PARTS = {
+    "backlash",
+    "bounds",
+    "captures",
+    "inverses",
+    "loops",
+    "profiles",
+    "ranges",
+    "reservations",
+    "service",
+    "tool",
+}
+OPERATION_REFUSED = {
+    "arm_penetration",
+    "press_penetration",
+    "prepare_penetration",
+    "recentre",
+    "toggle_tool",
+}
 OPERATION_HARMLESS = {
     "close",
     "keep_penetration",
@@ -121,13 +163,12 @@ OPERATION_HARMLESS = {
     "start_recording",
     "step",
     "stop_recording",
-    "unfinished_recordings",
     "use_scales",
 }
 
 
-def public(kind):
-    return {name for name in dir(kind) if not name.startswith("_")}
+def public(thing):
+    return {name for name in dir(thing) if not name.startswith("_")}
 
 
 def stands(stepped):
@@ -136,8 +177,11 @@ def stands(stepped):
     return dict(stepped.session.snapshot().command) == before
 
 
-def test_every_public_method_is_in_a_list():
-    assert public(MotionSession) == REFUSED.keys() | (
+def test_every_public_method_of_session_and_parts_is_in_a_list(stepped):
+    session = stepped.session
+    own = public(session) - PARTS - HELD
+    of_parts = {f"{part}.{name}" for part in PARTS for name in public(getattr(session, part))}
+    assert own | of_parts == REFUSED.keys() | (
         REFUSED_ELSEWHERE | HARMLESS.keys() | HARMLESS_ELSEWHERE
     )
     assert public(Operation) == OPERATION_REFUSED | OPERATION_HARMLESS
@@ -164,7 +208,7 @@ def test_while_latched_it_is_not_refused_and_moves_and_switches_on_nothing(stepp
     stepped.step(0.02, 10)
     HARMLESS[name](session)
     assert stands(stepped)
-    assert session.tool_on is False
+    assert session.tool.on is False
     assert session.snapshot().latched
     with pytest.raises(InputError, match="latched"):
         session.go_to({"x": 0.03})
@@ -175,11 +219,11 @@ def test_a_fault_is_not_cleared_while_latched(stepped):
     stepped.step(0.02, 3)
     stepped.session.emergency_stop()
     with pytest.raises(RefusedError, match="latched"):
-        stepped.session.clear_fault()
+        stepped.session.service.clear_fault()
     stepped.step(0.02, 3)
     assert stepped.session.snapshot().activity is DeviceState.FAULT
     stepped.session.release()
-    stepped.session.clear_fault()
+    stepped.session.service.clear_fault()
     stepped.step(0.02, 3)
     assert stepped.session.snapshot().fault is None
 
@@ -203,7 +247,7 @@ def test_while_latched_the_operation_refuses_it(stepped, tmp_path, name):
     operation = Operation(stepped.session, tmp_path, tmp_path, clock=stepped.clock)
     stepped.session.emergency_stop()
     stepped.step(0.02, 3)
-    given = (PenetrationParameters(),) if name == "arm_penetration" else ()
+    given = (PenetrationParameters(),) if name in ("arm_penetration", "prepare_penetration") else ()
     with pytest.raises(InputError, match="latched" if name != "press_penetration" else "not armed"):
         getattr(operation, name)(*given)
     assert stands(stepped)

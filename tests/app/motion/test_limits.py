@@ -37,7 +37,7 @@ def free(make_stepped):
 
 def heights(stepped):
     window = stepped.session.history.tail()
-    return window.device_time_s, stepped.session.keep_out.tip(window.command)[:, 2]
+    return window.device_time_s, stepped.session.bounds.keep_out.tip(window.command)[:, 2]
 
 
 def test_a_move_below_the_floor_is_refused_with_the_reason(bounded):
@@ -109,14 +109,14 @@ def test_a_trajectory_below_the_floor_is_refused_and_one_above_plays(bounded):
 
 def test_the_floor_is_taught_where_the_tip_is(bounded):
     bounded.step()
-    floor = bounded.session.teach_floor(1e-4)
+    floor = bounded.session.bounds.teach_floor(1e-4)
     tip = bounded.session.snapshot().tip
     assert floor == pytest.approx(tip[2] - 1e-4, abs=1e-12)
     with pytest.raises(OutOfLimitsError, match="its floor"):
         bounded.session.jog("z", -2e-4)
     bounded.session.jog("z", 2e-4)
     bounded.until_idle()
-    bounded.session.clear_floor()
+    bounded.session.bounds.clear_floor()
     bounded.session.jog("z", -1e-2)
 
 
@@ -150,7 +150,7 @@ def test_an_axis_has_one_owner_until_it_rests(free):
     with pytest.raises(RefusedError, match="axis x is driven by joystick"):
         free.session.jog("x", 1e-3)
     free.session.jog("y", 1e-3)
-    free.session.take_over(["x"], "operator")
+    free.session.reservations.take_over(["x"], "operator")
     free.session.go_to({"x": 0.029})
     free.until_idle()
     assert free.step().owners == {}
@@ -162,7 +162,7 @@ def test_an_emergency_stop_stays_until_it_is_released(free):
     free.step(0.2)
     free.session.emergency_stop()
     state = free.until_idle()
-    assert "emergency stop is latched" in state.locked
+    assert "stop and lock is latched" in state.locked
     for request in (
         lambda: free.session.jog("x", 1e-3),
         lambda: free.session.move_velocity({"x": 1e-3}),
@@ -236,7 +236,7 @@ def test_undo_goes_back_by_a_safe_way(free):
     across = (x < there["x"] - 1e-4) & (x > begin["x"] + 1e-4)
     back = across & (np.arange(len(x)) > len(x) // 2)
     assert z[back].min() >= max(begin["z"], there["z"]) + 0.9e-3
-    with pytest.raises(RefusedError, match="no move to take back"):
+    with pytest.raises(RefusedError, match="no move to undo"):
         free.session.undo()
 
 
@@ -253,7 +253,7 @@ def test_whether_there_is_a_move_to_take_back_is_known_and_ends_with_the_device(
     free.session.use(Simulator(free.driver.robot, clock=free.clock))
     free.step(times=3)
     assert not free.session.undoable
-    with pytest.raises(RefusedError, match="no move to take back"):
+    with pytest.raises(RefusedError, match="no move to undo"):
         free.session.undo()
 
 
@@ -300,8 +300,8 @@ def test_no_sequence_of_requests_leaves_the_bounds(stepped_type, requests):
     for column, axis in enumerate(ROBOT.axes.values()):
         assert window.command[:, column].min() >= axis.range[0]
         assert window.command[:, column].max() <= axis.range[1]
-    tip = stepped.session.keep_out.tip(window.command)
-    middle = stepped.session.keep_out.tip(
+    tip = stepped.session.bounds.keep_out.tip(window.command)
+    middle = stepped.session.bounds.keep_out.tip(
         np.array([sum(axis.range) / 2 for axis in ROBOT.axes.values()])
     )
     assert tip[:, 2].min() >= FLOOR - 1e-9

@@ -66,7 +66,7 @@ def use(stepped, model):
 def worn(stepped):
     """A simulated machine with a loop that its nominal model lacks."""
     stepped.step(times=3)
-    stepped.session.set_effects([LOOP])
+    stepped.session.service.set_effects([LOOP])
     stepped.step(times=3)
     return stepped
 
@@ -137,6 +137,7 @@ def test_the_corrected_model_is_what_the_session_shows_at_once(worn):
     assert in_use < 3.0 * FLOOR
     assert finished.model is model
     assert finished.record.metadata["model"] == model.id
+    assert finished.record.metadata["effects"] == f"{LOOP.axis} {LOOP.id}"
     shown = worn.session.snapshot()
     assert abs(shown.measured["zn"] - shown.model["zn"]) < 6.0 * FLOOR
     assert abs(shown.measured["zn"] - shown.nominal["zn"]) > 20.0 * FLOOR
@@ -175,7 +176,7 @@ def test_a_motion_that_has_begun_meanwhile_keeps_the_model(worn):
     worn.session.jog("zn", 1e-5)
     prepared = PreparedModel.of(model, CommandMemory())
     # As if it had been asked for a moment before.
-    worn.session._ask(lambda _, __: worn.session._worker.use_model(prepared))
+    worn.session._link.ask(lambda _, __: worn.session._link.worker.use_model(prepared))
     worn.step()
     assert "still moving" in worn.told(CommandRefused)[0].message
     assert not worn.session.model.corrected
@@ -342,9 +343,9 @@ def test_a_corrected_model_does_not_loosen_stop_beyond(worn):
 
 def test_the_tip_is_judged_by_the_nominal_model_alone(worn):
     played(worn)
-    before = worn.step() and worn.session._worker.deviation.now[-1]
+    before = worn.step() and worn.session._link.worker.deviation.now[-1]
     use(worn, corrected(worn.driver))
-    after = worn.step(times=3) and worn.session._worker.deviation.now[-1]
+    after = worn.step(times=3) and worn.session._link.worker.deviation.now[-1]
     assert after == pytest.approx(before, abs=5.0 * FLOOR)
     assert abs(after) > 20.0 * FLOOR
 

@@ -138,7 +138,7 @@ def recover(session):
     if state.phase is Phase.DISCONNECTED:
         session.reconnect()
     elif state.fault is not None:
-        session.clear_fault()
+        session.service.clear_fault()
     elif state.unhomed:
         session.home()
     elif state.locked and "confirm" in state.locked:

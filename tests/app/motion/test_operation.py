@@ -1,12 +1,15 @@
 """An operator's side of a session: devices, teleoperation, penetration, recorder on one loop."""
 
 import threading
+from dataclasses import replace
 
 import pytest
 
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.operation import PENETRATION, SCALES, Operation
+from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.recording.merging import unfinished
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.teleoperation.intent import Action
@@ -102,11 +105,11 @@ def test_the_penetration_s_button_says_why_not_and_starts_when_armed(bench):
 
 def test_the_tool_is_switched_by_its_button(bench):
     bench.run(0.3)
-    assert bench.session.tool_on is False
+    assert bench.session.tool.on is False
     bench.press(Action.TOOL)
-    assert bench.session.tool_on is True
+    assert bench.session.tool.on is True
     bench.press(Action.TOOL)
-    assert bench.session.tool_on is False
+    assert bench.session.tool.on is False
 
 
 def test_recentring_brings_zn_to_mid_range_and_the_tip_stays(bench):
@@ -118,6 +121,25 @@ def test_recentring_brings_zn_to_mid_range_and_the_tip_stays(bench):
     assert state.command["zn"] == pytest.approx(32.5e-6, abs=2e-7)
     assert state.tip[2] == pytest.approx(tip[2], abs=2e-7)
     assert bench.told == []
+
+
+def test_preparing_makes_room_for_a_penetration_and_the_tip_stays(bench):
+    parameters = PenetrationParameters()
+    tip = bench.run(0.1).tip
+    with pytest.raises(PenetrationError, match=r"32.5 µm of its range are left"):
+        bench.operation.arm_penetration(parameters)
+    bench.run(0.1)
+    bench.operation.prepare_penetration(parameters)
+    bench.operation._planning.join()
+    assert bench.told == []
+    state = bench.run(4.0)
+    assert state.command["zn"] > 62e-6
+    assert state.tip[2] == pytest.approx(tip[2], abs=2e-7)
+    bench.operation.arm_penetration(parameters)
+    with pytest.raises(PenetrationError, match="its whole range is 65 µm"):
+        bench.operation.prepare_penetration(replace(parameters, depth=7e-5))
+    with pytest.raises(PenetrationError, match="only zn can be moved back"):
+        bench.operation.prepare_penetration(replace(parameters, axis="z"))
 
 
 def test_recentring_in_mid_move_is_refused(bench):
@@ -175,7 +197,7 @@ def test_parameters_of_the_penetration_are_kept_and_a_bad_file_is_told_at_the_st
     assert bad.told == []  # nobody could read it yet
     bad.operation.start()
     bad.operation.close()
-    assert "depth = 3 m: must be 1 µm to 0.1 mm; presets are used" in bad.told[0]
+    assert "depth = 3 m: must be 1 µm to 100 µm; presets are used" in bad.told[0]
 
 
 def test_its_threads_end(tmp_path):
@@ -185,4 +207,4 @@ def test_its_threads_end(tmp_path):
     bench.operation.close()
     names = {thread.name for thread in threading.enumerate()}
     assert not names & {"operation", "input devices", "recorder", "recorder sync", "re-centring"}
-    assert not bench.operation.unfinished_recordings
+    assert not unfinished(bench.operation.recordings)

@@ -155,7 +155,7 @@ def test_from_a_step_it_can_be_played_on(stepped, playback):
 
 def test_model_and_machine_parting_stops_the_motion(stepped, playback, told):
     effect = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.2})
-    stepped.session.set_effects((effect,))
+    stepped.session.service.set_effects((effect,))
     stepped.step()
     trajectory = swing(stepped.session.robot, 20e-6, axis="zn", start=30e-6)
     playback.play(trajectory, bounds={"zn": 8e-6})
@@ -231,7 +231,7 @@ def test_a_path_into_the_floor_is_refused_as_in_any_playback(stepped, playback):
     time_s = np.arange(3001) * PERIOD_S
     down = 0.04 - 0.002 * np.sin(np.pi * time_s / 6.0) ** 2
     dive = check(robot, Record.from_signals(time_s, {("z", Tap.CMD): down}, {"z": "m"}), PERIOD_S)
-    stepped.session.teach_floor(0.0005)
+    stepped.session.bounds.teach_floor(0.0005)
     with pytest.raises(OutOfLimitsError):
         playback.play(dive)
     assert playback.state.phase is PlaybackPhase.IDLE

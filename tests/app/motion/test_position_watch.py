@@ -76,7 +76,7 @@ def beyond_the_range(much):
 def test_a_reading_beyond_the_range_by_more_than_its_noise_alarms_once_until_it_is_back():
     much = np.full(600, 0.2e-6)
     much[300:400] = -0.1e-6
-    alarm = "axis zn reads 0.2 µm beyond its range"
+    alarm = "axis zn reads 200 nm beyond its range"
     assert beyond_the_range(much) == ([], [alarm, alarm])
     assert beyond_the_range(np.full(600, 5e-8)) == ([], [])  # 6 sigma and a step are 80 nm
 
@@ -168,7 +168,7 @@ def test_every_effect_is_tried():
 @pytest.mark.parametrize("effect", list(typical()), ids=lambda effect: effect.id)
 def test_no_effect_of_typical_size_locks_motion(make_stepped, effect):
     stepped = make_stepped()
-    stepped.session.set_effects([effect])
+    stepped.session.service.set_effects([effect])
     follow(stepped, 0.1)
     for share in (0.2, 0.8):
         targets = {name: axis.range[0] + share * axis.span for name, axis in ROBOT.axes.items()}

@@ -34,17 +34,17 @@ def ready(make_stepped):
 
 
 def run(stepped, profile, owner="operator"):
-    stepped.session.upload_profile(profile, owner)
+    stepped.session.profiles.upload(profile, owner)
     stepped.step()
-    stepped.session.trigger_profile(owner)
+    stepped.session.profiles.trigger(owner)
 
 
 def test_a_profile_is_uploaded_triggered_and_ends_where_it_says(ready):
     stepped = ready()
     begin = stepped.session.snapshot().command["zn"]
-    stepped.session.upload_profile(DOWN)
+    stepped.session.profiles.upload(DOWN)
     assert stepped.step(0.1).command["zn"] == begin
-    stepped.session.trigger_profile()
+    stepped.session.profiles.trigger()
     with pytest.raises(RefusedError, match="playing"):
         stepped.session.go_to({"x": 0.03})
     state = stepped.step(0.01, 8)
@@ -52,17 +52,17 @@ def test_a_profile_is_uploaded_triggered_and_ends_where_it_says(ready):
     assert state.command["zn"] == pytest.approx(begin - 20e-6, abs=1e-15)
     assert stepped.told(CommandRefused) == []
     with pytest.raises(RefusedError, match="no profile was uploaded"):
-        stepped.session.trigger_profile()
+        stepped.session.profiles.trigger()
 
 
 def test_a_profile_is_not_triggered_from_elsewhere(ready):
     stepped = ready()
-    stepped.session.upload_profile(DOWN)
+    stepped.session.profiles.upload(DOWN)
     stepped.step()
     stepped.session.jog("zn", 1e-6)
     stepped.until_idle()
     with pytest.raises(RefusedError, match="has moved since"):
-        stepped.session.trigger_profile()
+        stepped.session.profiles.trigger()
 
 
 def test_an_abort_halts_a_profile_without_a_fault(ready):
@@ -70,7 +70,7 @@ def test_an_abort_halts_a_profile_without_a_fault(ready):
     begin = stepped.session.snapshot().command["zn"]
     run(stepped, DOWN)
     stepped.step(0.001)
-    stepped.session.abort_profile()
+    stepped.session.profiles.abort()
     stepped.step(0.008)
     state = stepped.until_idle()
     assert begin - 19e-6 < state.command["zn"] < begin
@@ -89,60 +89,60 @@ def test_an_abort_halts_a_profile_without_a_fault(ready):
 def test_a_profile_beyond_the_axis_is_refused_at_once(ready, segment, message):
     stepped = ready()
     with pytest.raises(InputError, match=message):
-        stepped.session.upload_profile(Profile("zn", (segment,)))
+        stepped.session.profiles.upload(Profile("zn", (segment,)))
     assert stepped.step(0.05).command == stepped.session.snapshot().command
 
 
 def test_close_above_the_floor_only_who_reserved_all_axes_may_thrust(ready):
     stepped = ready(CLOSE)
     with pytest.raises(OutOfLimitsError, match="only an armed penetration"):
-        stepped.session.upload_profile(DOWN)
-    stepped.session.reserve("penetration")
+        stepped.session.profiles.upload(DOWN)
+    stepped.session.reservations.reserve("penetration")
     with pytest.raises(OutOfLimitsError, match="only an armed penetration"):
-        stepped.session.upload_profile(DOWN, "operator")
-    stepped.session.upload_profile(DOWN, "penetration")
+        stepped.session.profiles.upload(DOWN, "operator")
+    stepped.session.profiles.upload(DOWN, "penetration")
     stepped.step()
-    stepped.session.trigger_profile("penetration")
+    stepped.session.profiles.trigger("penetration")
     assert stepped.step(0.01, 10).activity is DeviceState.IDLE
 
 
 def test_nothing_lets_a_thrust_through_the_floor(ready):
     stepped = ready(replace(ROBOT, keep_out=KeepOut(floor=20e-6)))
-    stepped.session.reserve("penetration")
+    stepped.session.reservations.reserve("penetration")
     with pytest.raises(OutOfLimitsError, match="its floor is"):
-        stepped.session.upload_profile(DOWN, "penetration")
+        stepped.session.profiles.upload(DOWN, "penetration")
 
 
 def test_a_slow_profile_needs_no_permission(ready):
     stepped = ready(CLOSE)
     slow = Profile("zn", (ProfileSegment(0.1, 0.0, -60e-6, 40e-6),))
-    stepped.session.upload_profile(slow)
+    stepped.session.profiles.upload(slow)
 
 
 def test_reserved_axes_stay_their_owners_at_rest(ready):
     stepped = ready()
     session = stepped.session
-    session.reserve("penetration")
+    session.reservations.reserve("penetration")
     assert set(stepped.step(0.1, 5).owners.values()) == {"penetration"}
     for ask in (
         lambda: session.go_to({"x": 0.03}),
         lambda: session.move_velocity({"y": 1e-3}),
         lambda: session.home(["x"]),
         lambda: session.set_voltage("thx", 60.0),
-        lambda: session.reserve("another"),
+        lambda: session.reservations.reserve("another"),
     ):
         with pytest.raises(RefusedError, match="driven by penetration"):
             ask()
     session.stop()
     stepped.until_idle()
-    assert session.has_reserved("penetration")
-    session.take_over(["x"], "operator")
-    assert not session.has_reserved("penetration")
+    assert session.reservations.held_by("penetration")
+    session.reservations.take_over(["x"], "operator")
+    assert not session.reservations.held_by("penetration")
     session.go_to({"x": 0.028})
     stepped.until_idle()
     stepped.step(0.1)
     assert "x" not in session.snapshot().owners
-    session.set_free("penetration")
+    session.reservations.set_free("penetration")
     assert stepped.step(0.1).owners == {}
 
 
@@ -151,15 +151,15 @@ def test_axes_that_somebody_drives_cannot_be_reserved(ready):
     stepped.session.go_to({"x": 0.03})
     stepped.step()
     with pytest.raises(RefusedError, match="still moving"):
-        stepped.session.reserve("penetration")
+        stepped.session.reservations.reserve("penetration")
 
 
 def test_a_capture_comes_in_parts(ready):
     stepped = ready()
-    stepped.session.capture(("zn",), 500.0, 40)
+    stepped.session.captures.begin(("zn",), 500.0, 40)
     parts = []
     for _ in range(12):
-        parts += stepped.session.captured()
+        parts += stepped.session.captures.collected()
         stepped.step()
     assert sum(len(part.device_time_s) for part in parts) == 40
     assert [part.complete for part in parts] == [False] * (len(parts) - 1) + [True]
@@ -169,14 +169,14 @@ def test_a_capture_comes_in_parts(ready):
 
 def test_a_stop_that_drops_the_question_does_not_end_a_capture(ready):
     stepped = ready()
-    stepped.session.capture(("zn",), 500.0, 40)
+    stepped.session.captures.begin(("zn",), 500.0, 40)
     stepped.step()
-    stepped.session.captured()
+    stepped.session.captures.collected()
     stepped.session.stop()
     parts = []
     for _ in range(12):
         stepped.step()
-        parts += stepped.session.captured()
+        parts += stepped.session.captures.collected()
     assert sum(len(part.device_time_s) for part in parts) == 40
 
 
@@ -198,16 +198,16 @@ def test_a_voltage_moves_its_piezo_and_is_held_against_every_limit(ready):
 def test_the_tool_goes_off_at_a_stop_and_cannot_be_switched_on_while_motion_is_locked(ready):
     stepped = ready()
     session = stepped.session
-    assert session.tool_on is False
-    session.switch_tool(True)
+    assert session.tool.on is False
+    session.tool.switch(True)
     stepped.step()
-    assert session.tool_on is True
+    assert session.tool.on is True
     session.emergency_stop()
-    assert session.tool_on is False
+    assert session.tool.on is False
     stepped.step()
     with pytest.raises(RefusedError, match="latched"):
-        session.switch_tool(True)
-    session.switch_tool(False)
+        session.tool.switch(True)
+    session.tool.switch(False)
 
 
 def test_moves_go_no_faster_than_asked(ready):
@@ -224,16 +224,16 @@ def test_what_a_device_cannot_is_refused_with_its_name(ready, monkeypatch):
     stepped = ready()
     hooks = {name: lambda *_: None for name in Driver.__abstractmethods__}
     plain = type("Plain", (Driver,), {"name": "plain", **hooks})(ROBOT)
-    monkeypatch.setattr(stepped.session, "driver", plain)
+    monkeypatch.setattr(stepped.session._link, "driver", plain)
     session = stepped.session
-    assert session.tool_on is None
+    assert session.tool.on is None
     for ask in (
-        lambda: session.upload_profile(DOWN),
-        lambda: session.trigger_profile(),
-        lambda: session.abort_profile(),
-        lambda: session.capture(("zn",), 100.0, 10),
+        lambda: session.profiles.upload(DOWN),
+        lambda: session.profiles.trigger(),
+        lambda: session.profiles.abort(),
+        lambda: session.captures.begin(("zn",), 100.0, 10),
         lambda: session.set_voltage("zn", 1.0),
-        lambda: session.switch_tool(True),
+        lambda: session.tool.switch(True),
     ):
         with pytest.raises(RefusedError, match="'plain'"):
             ask()

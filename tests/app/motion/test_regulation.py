@@ -88,7 +88,7 @@ def settle(stepped):
 def machine(make_stepped):
     stepped = make_stepped()
     stepped.step(0.05, 3)
-    stepped.session.set_effects(WORN.effects)
+    stepped.session.service.set_effects(WORN.effects)
     stepped.session.go_to({"zn": 45e-6})
     settle(stepped)
     return stepped
@@ -97,9 +97,9 @@ def machine(make_stepped):
 def test_it_is_put_on_moves_and_is_taken_off(machine):
     session = machine.session
     before = session.snapshot().measured["zn"]
-    session.regulate(LOOP)
+    session.loops.apply(LOOP)
     machine.step(0.05, 4)
-    assert session.regulated["zn"].name == "zn.toml, point 0"
+    assert session.loops.applied["zn"].name == "zn.toml, point 0"
     assert session.snapshot().command["zn"] == pytest.approx(before, abs=1e-7)
     assert not session.undoable
     with pytest.raises(OutOfLimitsError):
@@ -107,14 +107,14 @@ def test_it_is_put_on_moves_and_is_taken_off(machine):
     session.go_to({"zn": 20e-6})
     machine.step(0.004)
     with pytest.raises(RefusedError, match="still moving"):
-        session.unregulate("zn")
+        session.loops.remove("zn")
     settle(machine)
     assert session.snapshot().measured["zn"] == pytest.approx(20e-6, abs=6e-8)
-    session.unregulate("zn")
+    session.loops.remove("zn")
     machine.step(0.05, 2)
-    assert session.regulated == {}
+    assert session.loops.applied == {}
     with pytest.raises(RefusedError, match="axis zn is under no loop"):
-        session.unregulate("zn")
+        session.loops.remove("zn")
     assert not [event for event in machine.events if isinstance(event, CommandRefused)]
 
 
@@ -122,7 +122,7 @@ def test_a_record_names_it_and_holds_a_smaller_error(machine):
     left = []
     for on in (False, True):
         if on:
-            machine.session.regulate(LOOP)
+            machine.session.loops.apply(LOOP)
             machine.step(0.05, 2)
         machine.events.clear()
         machine.session.play(trajectory())
@@ -138,25 +138,25 @@ def test_a_record_names_it_and_holds_a_smaller_error(machine):
 
 def test_a_stop_leaves_it_on_and_a_new_connection_ends_it(machine):
     session = machine.session
-    session.regulate(LOOP)
+    session.loops.apply(LOOP)
     machine.step(0.05)
     session.play(trajectory())
     machine.step(0.05, 12)
     session.stop()
     settle(machine)
-    assert set(session.regulated) == {"zn"}
+    assert set(session.loops.applied) == {"zn"}
     session.disconnect()
     machine.step(0.05, 2)
     session.reconnect()
     machine.step(0.05, 3)
-    assert session.regulated == {}
+    assert session.loops.applied == {}
 
 
 def test_a_device_that_closes_none_refuses(machine, monkeypatch):
     monkeypatch.setattr("rotemina.app.motion.regulation.Regulator", type("Other", (), {}))
-    assert machine.session.regulated == {}
+    assert machine.session.loops.applied == {}
     with pytest.raises(RefusedError, match="closes no loop: its samples come too seldom"):
-        machine.session.regulate(LOOP)
+        machine.session.loops.apply(LOOP)
 
 
 def test_what_does_not_fit_is_refused_before_anything_moves():
@@ -176,11 +176,11 @@ def test_what_does_not_fit_is_refused_before_anything_moves():
 
 def test_while_a_stop_is_latched_none_is_closed_or_opened(machine):
     session = machine.session
-    session.regulate(LOOP)
+    session.loops.apply(LOOP)
     machine.step(0.05, 2)
     session.emergency_stop()
-    for request in (lambda: session.regulate(LOOP), lambda: session.unregulate("zn")):
+    for request in (lambda: session.loops.apply(LOOP), lambda: session.loops.remove("zn")):
         with pytest.raises(RefusedError, match="latched"):
             request()
     machine.step(0.05, 2)
-    assert set(session.regulated) == {"zn"}
+    assert set(session.loops.applied) == {"zn"}

@@ -119,7 +119,7 @@ def test_the_last_leg_down_is_slow_close_above_the_floor(make_stepped):
     """Also where it ends higher than it began: the tip was lifted between the two."""
     stepped = make_stepped(driver=Simulator)
     stepped.step()
-    stepped.session.teach_floor(clearance=1e-4)
+    stepped.session.bounds.teach_floor(clearance=1e-4)
     begin = stepped.session.snapshot().command
     stepped.session.go_safely({**begin, "x": begin["x"] + 1e-3, "z": begin["z"] + 1e-4})
     stepped.until_idle()

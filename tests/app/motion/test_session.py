@@ -1,13 +1,15 @@
 """The session, stepped by hand: what it accepts, refuses, tells and survives."""
 
 import threading
-from datetime import datetime
+from datetime import datetime, timedelta
 
 import numpy as np
 import pytest
 
 from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.model_in_use import fingerprint
 from rotemina.app.motion.ownership import OPERATOR
+from rotemina.app.motion.run_labels import RunLabels
 from rotemina.app.motion.state import (
     CommandRefused,
     Connection,
@@ -128,6 +130,8 @@ def test_a_full_queue_refuses(make_stepped):
 
 def test_a_playback_gives_its_record(stepped):
     trajectory = there_and_back(trajectory="there and back", history="unknown")
+    stepped.session.labels = RunLabels("series 3", "A. Müller")
+    before = datetime.now().astimezone()
     stepped.session.play(trajectory)
     assert stepped.step().activity is DeviceState.PLAYING
     stepped.until_idle()
@@ -137,7 +141,10 @@ def test_a_playback_gives_its_record(stepped):
     np.testing.assert_allclose(record.time_s, trajectory.time_s - 2.0, rtol=0, atol=1e-9)
     np.testing.assert_array_equal(record.signal("x", Tap.CMD), trajectory.signal("x", Tap.CMD))
     assert [str(column) for column in record.columns] == ["x.cmd", "x.meas"]
-    assert dict(record.metadata) == {
+    said = dict(record.metadata)
+    began = datetime.fromisoformat(said.pop("began"))
+    assert timedelta(milliseconds=-1) <= began - before < timedelta(minutes=5)
+    assert said == {
         "mode": "open_loop",
         "history": "unknown",
         "robot": "RoTeMiNa",
@@ -147,6 +154,9 @@ def test_a_playback_gives_its_record(stepped):
         "trajectory_duration_s": "0.5",
         "trajectory_digest": check(stepped.session.robot, trajectory, 1e-3).digest,
         "model": stepped.session.model.id,
+        "robot_sha256": fingerprint(stepped.session.robot),
+        "run": "series 3",
+        "operator": "A. Müller",
     }
     assert stepped.session.snapshot().progress == 1.0
 
@@ -304,7 +314,7 @@ def test_a_failing_driver_locks_motion_until_reconnected(stepped, hook, error):
     assert stepped.driver.status().state is DeviceState.CLOSED
     stepped.driver.before.clear()
     assert stepped.step(0.1, 10).connection is Connection.FAILED
-    for request in (lambda: stepped.session.jog("x", 1e-4), stepped.session.clear_fault):
+    for request in (lambda: stepped.session.jog("x", 1e-4), stepped.session.service.clear_fault):
         with pytest.raises(RefusedError, match="reconnect"):
             request()
     stepped.session.reconnect()
@@ -436,7 +446,7 @@ def test_a_device_fault_locks_until_it_is_cleared(make_stepped):
     made.driver.answer = DeviceStatus(DeviceState.IDLE)
     assert "over-temperature" in made.step().locked
     made.driver.answer = DeviceStatus(DeviceState.FAULT, fault="over-temperature")
-    made.session.clear_fault()
+    made.session.service.clear_fault()
     assert made.step().locked is None
 
 
@@ -556,7 +566,7 @@ def test_a_stop_says_who_asked_for_it_why_and_when(make_stepped):
     assert [str(event.request) for event in stepped.told(Stopped)] == [
         "Stopped by the operator at 12:00:00",
         "Stopped by the program at 12:00:00: the window does not answer",
-        "Stopped by the operator at 12:00:00: emergency stop",
+        "Stopped by the operator at 12:00:00: stop and lock",
     ]
 
 

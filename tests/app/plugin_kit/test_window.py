@@ -186,10 +186,10 @@ def test_the_window_opens_and_names_what_it_leaves_out(place, tmp_path):
         "hangs": "its import did not end within 25 s",
         "dies": "its import ends the whole process",
         "raises": "RuntimeError: no licence",
-        "paints": "is left out: it fails to paint itself: ValueError: no colour",
+        "paints": "is left out: it cannot be drawn: ValueError: no colour",
         "ticks": "is left out after 3 faults: ZeroDivisionError",
         "leaves": "is left out after 3 faults: ExitRefusedError: it called exit(3)",
-        "paints_an_end": "it fails to paint itself: ExitRefusedError: it called exit(None)",
+        "paints_an_end": "it cannot be drawn: ExitRefusedError: it called exit(None)",
         "interrupts": "KeyboardInterrupt",
         "threads": "is left out after 3 faults: OSError: no such device",
     }.items():

@@ -1,11 +1,13 @@
 """Layouts, themes and sizes of text of the window."""
 
 import pytest
-from PySide6.QtCore import QByteArray
+from PySide6.QtCore import QByteArray, QPoint
 from PySide6.QtWidgets import QApplication, QTabBar
 
 from rotemina.app.panel import Area
+from rotemina.app.shell.folded_panels import FOLDED
 from rotemina.app.shell.layouts import BUILT_IN, DIAGNOSE, MOST_KEPT, OPERATE, KeptLayouts
+from rotemina.app.shell.main_window import LEAST_HEIGHT
 
 LONG_MS = 30_000
 
@@ -53,12 +55,20 @@ def layouts_can_be_taken_kept_and_brought_back(window):
     for layout in BUILT_IN:
         window.layout_row.buttons[layout.word].click()
         settle()
-        assert shown(window) == named(layout)
+        assert shown(window) == named(layout) - set(FOLDED)  # which fold away at 1280 px
+        assert window.folded.isVisible() == (layout is OPERATE)
         assert forgotten_tabs(window) == []
+        marked = [word for word, one in window.layout_row.buttons.items() if one.isChecked()]
+        assert marked == [layout.word]
         for area, names in layout.places.items():
-            if area is not Area.CENTRE:
+            if area is not Area.CENTRE and names[0] not in FOLDED:
                 assert not window.docks[names[0]].visibleRegion().isEmpty()
-    assert window.docks["gap"].height() > 0.4 * window.height()
+    looks.arrange(DIAGNOSE)
+    settle()
+    assert window.docks["gap"].height() > 0.6 * window.height()
+    assert window.centralWidget().height() == LEAST_HEIGHT
+    tops = {plot.mapTo(window, QPoint()).y() for plot in window.panels["plots"].plots.values()}
+    assert len(tops) == 1  # a strip of plots, side by side
     window.docks["faults"].setFloating(True)
     looks.keep("mine")
     assert "mine" in window.notices.notices()[0].text
@@ -77,6 +87,7 @@ def layouts_can_be_taken_kept_and_brought_back(window):
     assert window.docks["faults"].isFloating()
     assert forgotten_tabs(window) == []
     looks.arrange(OPERATE)
+    the_rail_opens_one_panel_and_a_wide_window_has_both(window)
     window.docks["plate"].toggleViewAction().trigger()  # one that the layout had closed
     settle()
     assert "plate" in shown(window)
@@ -84,6 +95,28 @@ def layouts_can_be_taken_kept_and_brought_back(window):
     settle()
     assert not window.docks["effects"].visibleRegion().isEmpty()
     assert not window.docks["effects"].isFloating()
+
+
+def the_rail_opens_one_panel_and_a_wide_window_has_both(window):
+    for name in FOLDED:
+        window.folded.buttons[name].click()
+        assert shown(window) & set(FOLDED) == {name}
+        assert window.layout_row.buttons["Operate"].isChecked()
+    window.resize(1920, 1080)
+    settle()
+    assert set(FOLDED) <= shown(window)
+    assert not window.folded.isVisible()
+    job, events = (window.docks[name].geometry() for name in FOLDED)
+    assert job.left() == events.left()
+    assert job.bottom() < events.top()
+    window.docks["trajectory"].close()  # by hand: it is that layout no more
+    settle()
+    assert not window.layout_row.buttons["Operate"].isChecked()
+    window.docks["trajectory"].show()
+    window.resize(1280, 800)
+    settle()
+    assert not shown(window) & set(FOLDED)
+    assert window.layout_row.buttons["Operate"].isChecked()
 
 
 def test_layouts_of_the_users_own_are_kept_within_bounds(settings):

@@ -35,7 +35,7 @@ class Check:
 @pytest.fixture
 def check(window, monkeypatch):
     made = Check()
-    monkeypatch.setattr(window.workbench.session._guard, "play", made)
+    monkeypatch.setattr(window.workbench.session.bounds._guard, "play", made)
     yield made
     made.may_end.set()
 
@@ -76,7 +76,7 @@ def test_a_playback_that_goes_on_is_checked_aside_too(qtbot, planned, monkeypatc
         timeout=LONG_MS,
     )
     check = Check()
-    monkeypatch.setattr(planned.session._guard, "play", check)
+    monkeypatch.setattr(planned.session.bounds._guard, "play", check)
     planned.toggle_playback()
     assert check.begun.wait(LONG_MS / 1e3)
     check.may_end.set()

@@ -10,6 +10,8 @@ from PySide6.QtCore import QObject
 from rotemina.app.shell.background import Background
 from rotemina.sim.errors import InputError
 
+PANELS = ()
+
 LONG_MS = 30_000
 
 

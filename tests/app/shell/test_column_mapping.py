@@ -6,6 +6,8 @@ from PySide6.QtWidgets import QDialogButtonBox
 from rotemina.app.shell.column_mapping import ColumnMappingDialog, ask_columns
 from rotemina.sim.records.preview import preview
 
+PANELS = ()
+
 ROWS = "0;20,0;500\n0,01;20,1;501\n0,02;20,2;502\n"
 NAMED = "t [s], x [mm], thx [urad]"
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from rotemina.app.shell.fuzzy import score
 
 TEXTS = [
-    "Motion: Emergency stop",
+    "Motion: Stop and lock",
     "Motion: Stop",
     "Motion: Home all axes",
     "View: Light theme",
@@ -29,7 +29,7 @@ def best(typed):
         ("light", "View: Light theme"),
         ("st", "Motion: Stop"),
         ("hc", "View: High contrast"),
-        ("emst", "Motion: Emergency stop"),
+        ("stlo", "Motion: Stop and lock"),
         ("home", "Motion: Home all axes"),
         ("plate", "Panel: Holding plate"),
         ("forw traj", "Trajectory: Step forward"),

@@ -25,14 +25,14 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.shell import entries, key_help
 from rotemina.app.shell import theme as themes
-from rotemina.app.shell.controls import allow
 from rotemina.app.shell.workbench import Level
+from rotemina.app.widgets.controls import allow
 
 LONG_MS = 30_000
 CONTROLS = (QAbstractButton, QAbstractSlider, QAbstractSpinBox, QComboBox, QLineEdit)
 PARTS_OF = (QAbstractSpinBox, QComboBox, QLineEdit, QTabBar)
 UNIT = re.compile(r"(?<=[ ,])(mm/s|µm/s|mm|µm|µrad|ms|Hz|1/h|s|%)$")
-LIMIT = re.compile(r"\d to [\d.]|above 0|at most \d|within its own range")
+LIMIT = re.compile(r"\d to [\d.]|above 0|at most \d|within its range")
 
 
 @pytest.fixture
@@ -113,10 +113,10 @@ def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
     window.toggle_palette()
     assert palette.field.text() == ""
     qtbot.keyClicks(palette.field, "back latest move")
-    assert palette.reason.text() == "Not now: there is no move to take back."
+    assert palette.reason.text() == "Not now: there is no move to undo."
     palette.field.setText("qqqqq")
     assert palette.list.count() == 0
-    assert "Nothing" in palette.reason.text()
+    assert "No command" in palette.reason.text()
     window.toggle_palette()
     assert palette.isHidden()
     session = bench.session
@@ -141,9 +141,10 @@ def every_control_says_what_it_does_with_unit_and_limits(window):
     silent, boundless = [], []
     for name, panel in dict(window.panels).items():
         window.bring_up(name)
-        for page in range(panel.bar.tools.count() if name == "microscope" else 1):
-            if name == "microscope":
-                panel.bar.tools.setCurrentIndex(page)
+        pages = {"microscope": lambda p: p.bar.tools, "control": lambda p: p.tabs}.get(name)
+        for page in range(pages(panel).count() if pages else 1):
+            if pages:
+                pages(panel).setCurrentIndex(page)
             window.workbench.refreshed.emit(state)
             window.workbench.shown.emit(state)
         for control in controls_of(panel):
@@ -180,7 +181,10 @@ def keys_are_those_of_the_actions_and_no_two_are_alike(window):
     rows = key_help.keys(window.findChildren(QAction))
     found = [key for key, _ in rows]
     assert len(found) == len(set(found))
-    assert ("Shift+Esc", "Emergency stop: latched until it is released; a stop by software") in rows
+    assert (
+        "Shift+Esc",
+        "Stop and lock: nothing moves until it is released; a stop by software",
+    ) in rows
     given = {command.shortcut for command in window.commands() if command.shortcut}
     assert given <= set(found)
     window.show_keys()
@@ -210,7 +214,7 @@ def the_log_page_filters_follows_and_copies(window):
     page.table.selectRow(1)
     page.copy.click()
     assert "second line" in QGuiApplication.clipboard().text()
-    assert "99" not in QGuiApplication.clipboard().text()
+    assert top not in QGuiApplication.clipboard().text()
     page.words.setText("nobody ever said that")
     assert not page.copy.isEnabled()
     page.close()
@@ -231,3 +235,28 @@ def the_support_bundle_is_shown_before_it_is_written(qtbot, window, tmp_path):
     with zipfile.ZipFile(target) as archive:
         assert set(archive.namelist()) == {item.name for item in page.items}
     QApplication.processEvents()
+
+
+def test_the_name_of_a_panel_finds_it_before_anything_in_it(window):
+    palette = window.palette_page
+    window.toggle_palette()
+    for dock in window.docks.values():
+        palette.field.setText(dock.windowTitle().lower())
+        assert palette._shown[0].text == f"Panel: {dock.windowTitle()}"
+    window.toggle_palette()
+
+
+def test_recent_files_are_offered_while_they_are_there(window, settings, tmp_path):
+    menu = window.recent_files
+    assert not menu.actions()[0].isEnabled()
+    paths = [tmp_path / f"{number}.csv" for number in range(11)]
+    for path in paths:
+        path.touch()
+        menu.add("record", path)
+    menu.add("record", paths[5])
+    paths[9].unlink()
+    menu.fill()
+    shown = [action.text()[4:] for action in menu.actions()]
+    assert shown == [f"record: {n}.csv" for n in (5, 10, 8, 7, 6, 4, 3, 2)]
+    settings.set("files.recent", "nonsense\nrecord\t\nother\tx.csv")
+    assert menu.listed == []

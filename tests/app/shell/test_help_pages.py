@@ -11,7 +11,7 @@ from rotemina.app.shell.help_page import HelpPage
 from rotemina.app.shell.host import GROUP
 from rotemina.drivers.registry import discover
 
-PANELS = ("faults", "microscope")
+PANELS = ("plots", "microscope", "faults")
 
 
 @pytest.fixture

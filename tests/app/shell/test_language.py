@@ -1,5 +1,6 @@
 """The window in German, and what happens where a language is unknown or its file is missing."""
 
+import re
 import subprocess
 from pathlib import Path
 from types import SimpleNamespace
@@ -9,10 +10,26 @@ import pytest
 from PySide6.QtCore import QCoreApplication, Qt
 from PySide6.QtWidgets import QDialog, QDialogButtonBox
 
+from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.teleoperation.profile import load_profile
 from rotemina.app.shell import language
-from rotemina.app.shell.engine_words import SAYINGS, spoken
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.help_topics import explained
 from rotemina.app.shell.language import SETTING, chosen, translate
 from rotemina.app.shell.workbench import Level
+from rotemina.drivers.errors import DriverError
+from rotemina.drivers.gcode.reports import Alarm
+from rotemina.drivers.registry import driver_named
+from rotemina.sim.errors import InputError
+from rotemina.sim.gap.intake import check as check_gap
+from rotemina.sim.gap.reading import read_document
+from rotemina.sim.messages import message
+from rotemina.sim.plate.mesh import make_mesh
+from rotemina.sim.records.reading import read_record
+from rotemina.sim.robot.file import load_robot, parse_robot
+from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
+from rotemina.sim.tuning.scenario import step_of
+from rotemina.sim.units import canonical
 
 PANELS = ("connection",)
 LONG_MS = 30_000
@@ -115,24 +132,97 @@ def test_a_plugin_brings_texts_of_its_own(application, tmp_path, monkeypatch):
     assert translate("panels", "Plots") == "Diagramme"
 
 
-def test_what_the_engine_says_for_long_is_translated_with_its_values(application):
-    for saying in SAYINGS:
-        assert spoken(saying) == saying
+def test_a_refusal_is_german_in_a_german_window_with_its_values_and_words(application):
+    robot = load_robot("rotemina")
+    with pytest.raises(OutOfLimitsError) as refused:
+        check_target(robot, "zn", 6.55e-5)
+    english = "axis zn: target 65.5 µm is outside its range 0 µm to 65 µm; choose a target inside"
+    assert str(refused.value) == english
+    assert explained(refused.value) == english.replace("zn", "Z nano")
     language.use(application, "de")
-    assert spoken("the position of x, thx is not known; home first") == (
-        "die Position von x, thx ist unbekannt; erst Referenzfahrt"
+    assert explained(refused.value) == (
+        "Achse Z nano: Ziel 65,5 µm liegt außerhalb ihres Bereichs 0 µm bis 65 µm; ein Ziel "
+        "innerhalb wählen"
     )
-    assert spoken("emergency stop is latched; release it first") == (
-        "Not-Halt ist eingerastet; erst freigeben"
+    assert str(refused.value) == english
+
+
+def refused(kind, call, *given, **named):
+    """Return the error that a call ends with."""
+    with pytest.raises(kind) as caught:
+        call(*given, **named)
+    return caught.value
+
+
+# Names, paths, and in brackets what the system or a library says.
+FOREIGN = re.compile(r"'[^']*'|/\S*|\([^)]*\)")
+
+
+def typical_refusals(folder):
+    """What each layer below the window refuses, as an operator meets it."""
+    robot = load_robot("rotemina")
+    record = folder / "record.csv"
+    record.write_text("t [s],x.cmd [mm]\n0,1\n0,2\n", "utf-8")
+    yield refused(InputError, read_record, folder / "missing.csv")
+    yield refused(InputError, read_record, record)
+    yield refused(InputError, parse_robot, "[robot]\nname = 'a'\naxes = 'x'\n", "a.toml")
+    yield refused(InputError, canonical, "furlong")
+    yield refused(DriverError, driver_named("mc68hc11")(robot, {"port": ""}).open)
+    yield refused(DriverError, driver_named("mc68hc11")(robot, {"port": "/dev/none"}).open)
+    yield refused(InputError, driver_named("gcode"), robot)
+    yield refused(InputError, PenetrationParameters.parsed, "velocity = 1")
+    profile = folder / "profile.toml"
+    profile.write_text("name = 3", "utf-8")
+    yield refused(InputError, load_profile, profile)
+    yield refused(InputError, make_mesh, robot.plate, divisions=3)
+    yield refused(InputError, step_of, robot.axes["zn"], 5000.0, distance=1.0)
+    yield refused(InputError, read_document, folder / "missing.json")
+    yield refused(InputError, check_gap, robot, [])
+
+
+def test_refusals_of_each_layer_are_german_in_a_german_window(application, tmp_path):
+    language.use(application, "de")
+    said = [str(error) for error in typical_refusals(tmp_path)]
+    shown = [spoken(text) for text in said]
+    assert [text for text, german in zip(said, shown, strict=True) if text == german] == []
+    english = re.compile(r"\b(the|is|must|there|it|not|choose|cannot|and|of)\b")
+    assert [text for text in shown if english.search(FOREIGN.sub("", text))] == []
+
+
+def test_a_boards_fault_is_german_with_all_that_stands_in_it(application):
+    language.use(application, "de")
+    board = message("engine", "board {address}: {words}")
+    met = message("engine", "limit switch met: {switches}").fill(switches="x")
+    assert spoken(board.fill(address=1, words=met)) == "Karte 1: Endschalter erreicht: x"
+    assert spoken(Alarm(1).text) == "ALARM:1, harte Grenze: ein Endschalter wurde erreicht"
+
+
+def test_words_in_the_fields_of_a_message_are_translated_and_other_texts_stay(application):
+    language.use(application, "de")
+    latched = message("engine", "{stop} is latched; release it first")
+    stop = message("engine", "stop and lock")
+    assert spoken(latched.fill(stop=stop)) == "Halt und sperren ist eingerastet; erst freigeben"
+    cannot = message("engine", "{name}: cannot {action} while closed; open it first")
+    assert spoken(cannot.fill(name="stage", action="play")) == (
+        "stage: geschlossen, kann nicht abspielen; erst öffnen"
     )
     assert spoken("something that nobody has heard of") == "something that nobody has heard of"
+
+
+def test_numbers_have_the_sign_of_the_language(application):
+    text = translate("shell", "stop latency {ms:.1f} ms (99.9 %)")
+    assert text.format(ms=0.9) == "stop latency 0.9 ms (99.9 %)"
+    language.use(application, "de")
+    german = translate("shell", "stop latency {ms:.1f} ms (99.9 %)").format(ms=0.9)
+    assert "0,9 ms" in german
+    assert "99,9 %" in german
 
 
 def test_the_window_is_german_and_all_of_its_commands_work(qtbot, german):
     menus = [action.text() for action in german.menuBar().actions()]
     assert menus == ["&Datei", "&Bewegung", "&Ansicht", "&Hilfe"]
     assert german.docks["control"].windowTitle() == "Steuerung"
-    assert german.stop_button.text() == "HALT"
+    assert german.stop_button.text() == "HALT (Esc)"
     _a_panels_notice_is_german(german)
     _the_palette_finds_and_does(qtbot, german)
     _every_command_works(german)
@@ -140,10 +230,10 @@ def test_the_window_is_german_and_all_of_its_commands_work(qtbot, german):
 
 def _a_panels_notice_is_german(window):
     row = window.panels["control"].rows["x"]
-    row.target.setText("1,5")
+    row.target.setText("1.500,0")
     row.go.click()
     assert "ist keine Position" in notices(window)[0]
-    assert "Dezimalpunkt" in notices(window)[0]
+    assert "Dezimalkomma" in notices(window)[0]
 
 
 def _the_palette_finds_and_does(qtbot, window):

@@ -13,6 +13,8 @@ from PySide6.QtWidgets import QApplication
 
 from rotemina.app.motion.recording.errors import RecordingError
 
+PANELS = ("faults",)
+
 LONG_MS = 30_000
 
 

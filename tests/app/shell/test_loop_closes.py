@@ -18,7 +18,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 
-PANELS = ("gap",)
+PANELS = ("plots", "comparison", "gap")
 LONG_MS = 30_000
 ROBOT = load_robot("rotemina")
 LOOP = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6})
@@ -53,7 +53,7 @@ def question(window):
 def bench(qtbot, window):
     bench = window.workbench
     qtbot.waitUntil(lambda: bench.session.snapshot().locked is None, timeout=LONG_MS)
-    bench.session.set_effects([LOOP])
+    bench.session.service.set_effects([LOOP])
     return bench
 
 
@@ -122,8 +122,8 @@ def test_the_gap_is_the_same_string_in_all_four_places(qtbot, window, bench, pan
     row = next(n for n in range(comparison.rowCount()) if "meas" in comparison.item(n, 0).text())
     assert comparison.item(row, heads.index("Gap, this run")).text() == size
     qtbot.waitUntil(lambda: panel.proof.proof and panel.proof.proof.name == "again")
-    assert panel.proof.title.text() == "again: Gap, this run"
-    assert panel.proof.table.texts()[0][2] == size
+    assert panel.proof.title.text() == "Gap, this run"
+    assert panel.proof.table.texts()[0][3] == size
     write_report(panel.answer.diagnosis, panel.answer.records, tmp_path / "page.html", ["a"], run)
     assert told in (tmp_path / "page.html").read_text("utf-8")
     assert any(told in line for line in run_lines(run))
@@ -155,7 +155,7 @@ def test_worse_on_a_motion_is_said_in_the_headline_and_asked_about(
     assert panel.headline.property("tone") == "worse"
     assert panel.verdict.text().startswith("Worse on elsewhere: Z nano ")
     assert "× larger" in panel.verdict.text()
-    assert "× larger" in panel.proof.table.texts()[0][3]
+    assert "× larger" in panel.proof.table.texts()[0][4]
     assert "diagnose them together" in panel.headline.remainder.text() or (
         "play the motion again" in panel.headline.remainder.text()
     )

@@ -8,6 +8,8 @@ import pytest
 from rotemina.app.shell.lateness import Latenesses
 from rotemina.app.shell.loop_watch import PERIOD_S, LoopWatch
 
+PANELS = ()
+
 
 class Clock:
     now_s = 10.0

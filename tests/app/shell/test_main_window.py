@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QLabel, QMessageBox
 
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import PlaybackFinished
 from rotemina.app.settings import Settings
 from rotemina.app.shell import main_window as module
 from rotemina.app.shell import window_run
@@ -22,8 +23,11 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
 
+PANELS = ("comparison",)
+
 LONG_MS = 30_000
-BUILT_IN = ["control", "plots", "trajectory", "microscope", "comparison", "connection"]
+BUILT_IN = ["job", "events", "control", "plots", "trajectory", "microscope", "comparison"]
+BUILT_IN += ["connection"]
 BUILT_IN += ["teleoperation", "inputs", "identification", "calibration"]
 BUILT_IN += ["compensation", "penetration"]
 BUILT_IN += ["effects", "gap", "faults", "recorder", "view3d", "plate"]
@@ -46,6 +50,7 @@ def load(qtbot, window, path):
         window.use_file(path, window.workbench.load_trajectory)
 
 
+@pytest.mark.every_panel
 def test_all_built_in_panels_are_there_and_nothing_is_broken(window):
     assert list(window.panels) == BUILT_IN
     assert notices(window) == []
@@ -53,6 +58,7 @@ def test_all_built_in_panels_are_there_and_nothing_is_broken(window):
     assert {name for name, one in window.panels.items() if not one.isVisibleTo(window)} == behind
 
 
+@pytest.mark.every_panel
 def test_panels_out_of_sight_are_made_by_and_by(qtbot, window):
     with qtbot.waitSignal(window.workbench.busy_changed, timeout=LONG_MS):
         window.workbench.work("any", "Reading …", lambda: None, lambda _: None)
@@ -214,8 +220,14 @@ def played(qtbot, window, path):
 @pytest.fixture
 def question(monkeypatch):
     """What the window asks, and what it is answered."""
-    asked, answers = [], [QMessageBox.StandardButton.No, QMessageBox.StandardButton.Yes]
-    monkeypatch.setattr(QMessageBox, "question", lambda *a: asked.append(a) or answers.pop(0))
+    asked = []
+
+    def answer(box):
+        """Stay the first time, leave the second."""
+        asked.append(box)
+        next(b for b in box.buttons() if (b is box.defaultButton()) == (len(asked) == 1)).click()
+
+    monkeypatch.setattr(QMessageBox, "exec", answer)
     return asked
 
 
@@ -253,24 +265,43 @@ def test_a_playback_that_could_not_be_kept_is_not_lost_without_asking(
     window.close()
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
     assert len(question) == 2
-    assert question[0][-1] == QMessageBox.StandardButton.No  # what Enter chooses
+    assert question[0].defaultButton().text() == "Stay"  # what Enter chooses
+    assert "in no file yet" in question[0].text()
 
 
-def test_quitting_during_a_playback_stops_first_and_then_asks(qtbot, window, tmp_path, monkeypatch):
+def test_quitting_during_a_playback_asks_first_and_keeps_what_was_played(
+    qtbot, window, tmp_path, question
+):
     load(qtbot, window, short_trajectory(tmp_path / "long.csv", seconds=20.0))
     session = window.workbench.session
     window.workbench.play()
     qtbot.waitUntil(lambda: session.snapshot().progress > 0.005, timeout=LONG_MS)
-    stopped_before_asking = []
-
-    def ask(*_):
-        stopped_before_asking.append(session.snapshot().stop is not None)
-        return QMessageBox.StandardButton.No
-
-    monkeypatch.setattr(QMessageBox, "question", ask)
     assert not window.close()
-    assert stopped_before_asking == [True]
-    qtbot.waitUntil(lambda: window.workbench.record is not None, timeout=LONG_MS)
+    assert session.snapshot().stop is None  # to stay changes nothing
+    assert "A trajectory is playing" in question[0].text()
+    assert not window.close()  # until it rests, and the record is in its file
+    assert session.snapshot().stop is not None
+    qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
+    assert len(question) == 2
+    assert len(list(window.workbench.played_folder.glob("*_long.csv.gz"))) == 1
+
+
+def test_the_window_stays_until_it_has_heard_of_what_was_played(qtbot, window, tmp_path):
+    bench, held = window.workbench, []
+    bench._happened.disconnect()
+    bench._happened.connect(held.append)
+    load(qtbot, window, short_trajectory(tmp_path / "long.csv", seconds=20.0))
+    bench.play()
+    qtbot.waitUntil(lambda: bench.session.snapshot().progress > 0.005, timeout=LONG_MS)
+    bench.stop()
+    qtbot.waitUntil(lambda: any(isinstance(e, PlaybackFinished) for e in held), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: bench.session.at_rest, timeout=LONG_MS)
+    assert bench.untold
+    assert not window.close()
+    for event in held:
+        bench._on_event(event)
+    qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
+    assert len(list(bench.played_folder.glob("*_long.csv.gz"))) == 1
 
 
 def test_a_record_whose_comparison_fails_is_kept_all_the_same(qtbot, window, tmp_path, monkeypatch):
@@ -323,6 +354,7 @@ class RaisingPanel(module.Panel):
         raise RuntimeError("cannot be made")
 
 
+@pytest.mark.every_panel
 def test_a_bad_panel_is_named_and_left_out(make_robot_window, monkeypatch):
     good = registry.entry_points(group=GROUP)
     here = f"{__name__}:RaisingPanel"
@@ -365,3 +397,20 @@ def test_preferences_that_cannot_be_read_are_told_of_with_the_place_of_the_file(
     window.workbench.close()
     assert f"{path}:1: not valid JSON" in told
     assert f"kept as {tmp_path / 'settings.damaged-1.json'}" in told
+
+
+def test_the_first_steps_are_four_clicks_and_gone_for_good(qtbot, window, tmp_path, monkeypatch):
+    card, bench = window.first_steps, window.workbench
+    assert card.isHidden()  # but on a first start
+    short = read_record(short_trajectory(tmp_path / "move.csv"))
+    monkeypatch.setattr("rotemina.app.shell.first_steps.example_for", lambda _: short)
+    card.offer()
+    qtbot.waitUntil(lambda: card._marks[0].text() == "1", timeout=LONG_MS)
+    assert not card.play.isEnabled()
+    assert "load one first" in card.play.toolTip()
+    for button in (card.stay, card.load, card.play, card.diagnose):
+        qtbot.waitUntil(button.isEnabled, timeout=LONG_MS)
+        qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bench.run is not None and card.isHidden(), timeout=LONG_MS)
+    card.offer()
+    assert card.isHidden()

@@ -1,13 +1,26 @@
 """Phase, emergency stop and reconnection in the tool bar, and the status line."""
 
+from dataclasses import replace
+
 import pytest
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox, QWidget
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QDockWidget, QFileDialog, QMessageBox, QWidget
 
 from rotemina.app.motion.ownership import OPERATOR
-from rotemina.app.shell.motion_bar import RELEASE_AFTER_S, EmergencyButton
+from rotemina.app.panel import Panel
+from rotemina.app.shell.at_rest import AtRest
+from rotemina.app.shell.motion_bar import LARGE, SMALL
+from rotemina.app.shell.requests import Requests
+from rotemina.app.shell.stops import RELEASE_AFTER_S, EmergencyButton
+from rotemina.app.shell.workbench import Level
+from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.robot.model import AxisEffect
+from rotemina.sim.trajectory.example import example_for
+
+PANELS = ("gap",)
 
 LONG_MS = 30_000
 
@@ -23,7 +36,8 @@ def button(qtbot, window):
             return self.now_s
 
     made = EmergencyButton(window.workbench, Set())
-    window._bar.addWidget(made)
+    made.setParent(window.centralWidget())
+    made.show()
     window.workbench.refreshed.connect(made.refresh)
     qtbot.waitUntil(made.isVisible, timeout=LONG_MS)
     return made
@@ -35,13 +49,15 @@ def click(qtbot, button):
 
 def test_the_phase_and_the_reason_are_shown(qtbot, window):
     bar, bench = window._bar, window.workbench
-    qtbot.waitUntil(lambda: bar.phase.text() == "ready", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: bar.phase.text() == "Ready", timeout=LONG_MS)
     bench.go_to({"x": 0.05})
-    qtbot.waitUntil(lambda: bar.phase.text() == "moving", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: bar.phase.text() == "Moving", timeout=LONG_MS)
     qtbot.waitUntil(lambda: bar.doing.text() == "X: operator", timeout=LONG_MS)
+    assert bar.owner.text() == "Operator"
     bench.emergency_stop()
-    qtbot.waitUntil(lambda: bar.doing.text().startswith("Emergency stop is"), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: bar.doing.text().startswith("Stop and lock is"), timeout=LONG_MS)
     assert bar.phase.property("tone") == "danger"
+    qtbot.waitUntil(lambda: bar.owner.text() == "Free", timeout=LONG_MS)
 
 
 def test_escape_with_shift_latches_and_without_does_not(qtbot, window):
@@ -53,12 +69,43 @@ def test_escape_with_shift_latches_and_without_does_not(qtbot, window):
     dialog = QMessageBox(window)
     dialog.open()
     qtbot.keyClick(dialog, Qt.Key.Key_Escape, Qt.KeyboardModifier.ShiftModifier)
-    assert session.snapshot().latched == "emergency stop"
+    assert session.snapshot().latched == "stop and lock"
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     window.workbench.jog("x", 1e-3)
     assert "latched" in window.notices.notices()[0].text
     qtbot.waitUntil(window.emergency_button.isChecked, timeout=LONG_MS)
     dialog.close()
+
+
+@pytest.mark.parametrize(("pause_s", "locked"), [(0.99, True), (1.01, False)])
+def test_a_second_escape_within_a_second_locks(window, monkeypatch, pause_s, locked):
+    now_s = [100.0]
+    monkeypatch.setattr(window._stop_watch._escape, "_clock", lambda: now_s[0])
+    session, screen = window.workbench.session, window.windowHandle()
+    QTest.keyClick(screen, Qt.Key.Key_Escape)  # which passes its window and widgets in turn
+    assert session.snapshot().latched is None
+    now_s[0] += pause_s
+    QTest.keyClick(screen, Qt.Key.Key_Escape)
+    assert (session.snapshot().latched is not None) == locked
+
+
+def test_escape_that_is_held_repeats_and_does_not_lock(window):
+    press = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier)
+    repeated = QKeyEvent(
+        QEvent.Type.KeyPress, Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier, "", True
+    )
+    for event in (press, repeated, repeated):
+        QApplication.sendEvent(window, event)
+    assert window.workbench.session.snapshot().latched is None
+    assert window.workbench.session.stop_asked_s is not None
+
+
+def test_a_second_press_of_stop_locks(qtbot, window):
+    session = window.workbench.session
+    click(qtbot, window.stop_button)
+    assert session.snapshot().latched is None
+    click(qtbot, window.stop_button)
+    assert session.snapshot().latched == "stop and lock"
 
 
 def test_escape_on_the_keypad_of_a_field_latches_too(window):
@@ -128,16 +175,169 @@ def test_escape_stops_under_a_modal_dialog_and_a_file_dialog(qtbot, window, tmp_
         dialog.close()
 
 
+class AsksFirst(Panel):
+    """A panel whose constructor asks something; meanwhile Esc is pressed in what it opened."""
+
+    title = "asks first"
+
+    def __init__(self, workbench):
+        super().__init__(workbench)
+        dialog = QMessageBox(self)
+        dialog.show()
+        QTest.qWaitForWindowActive(dialog)
+        QTest.keyClick(dialog.windowHandle(), Qt.Key.Key_Escape)
+        dialog.close()
+
+
+def test_escape_stops_in_a_window_that_a_panel_opens_while_it_is_made(qtbot, window):
+    panels, session = window.panels, window.workbench.session
+    qtbot.waitUntil(lambda: session.snapshot().position_known, timeout=LONG_MS)
+    for name in ("one", "another"):
+        session.go_to({"x": 0.05}, speeds={"x": 1e-4})
+        qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
+        panels.kinds[name] = AsksFirst
+        window.docks[name] = QDockWidget(window)
+        panels.make(name)
+        qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+        assert session.snapshot().stop.by == OPERATOR
+
+
+@pytest.mark.parametrize("name", ["gap", "no such panel"])
+def test_escape_stops_once_a_panel_was_made_or_could_not_be(qtbot, window, name):
+    session = window.workbench.session
+    qtbot.waitUntil(lambda: session.snapshot().position_known, timeout=LONG_MS)
+    window.panels.kinds["no such panel"] = Panel.__new__  # which is no way to make one
+    window.panels.make(name)
+    session.go_to({"x": 0.05}, speeds={"x": 1e-4})
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
+    qtbot.keyClick(window, Qt.Key.Key_Escape)  # to the widget: only the whole program's watch sees
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+
+
 def test_no_dialog_is_the_desktops_own(window):
     assert QApplication.testAttribute(Qt.ApplicationAttribute.AA_DontUseNativeDialogs)
 
 
 def test_who_stopped_is_shown_until_something_moves(qtbot, window):
     bar, session = window._bar, window.workbench.session
-    qtbot.waitUntil(lambda: bar.phase.text() == "ready", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: bar.phase.text() == "Ready", timeout=LONG_MS)
     window.workbench.stop()
     told = f"Stopped by the operator at {session.snapshot().stop.at:%H:%M:%S}"
     qtbot.waitUntil(lambda: bar.doing.text() == told, timeout=LONG_MS)
     session.stop("the window does not answer")
     qtbot.waitUntil(lambda: bar.doing.text().startswith("Stopped by the program"), timeout=LONG_MS)
     assert bar.doing.text().endswith(": the window does not answer")
+
+
+# --- the header -----------------------------------------------------------------------------------
+
+
+def test_a_stop_stands_beside_no_ready_and_a_released_lock_leaves_nothing(qtbot, window):
+    bar, bench = window._bar, window.workbench
+    qtbot.waitUntil(lambda: bar.phase.text() == "Ready", timeout=LONG_MS)
+    assert bar.doing.text() == ""
+    bench.stop()
+    qtbot.waitUntil(lambda: bar.phase.text() == "Stopped", timeout=LONG_MS)
+    assert bar.doing.text().startswith("Stopped by the operator at ")
+    bench.emergency_stop()
+    qtbot.waitUntil(lambda: bar.phase.text() == "Locked", timeout=LONG_MS)
+    assert bar.help.text() == "Release"
+    click(qtbot, bar.help)
+    qtbot.waitUntil(lambda: bar.phase.text() == "Ready", timeout=LONG_MS)
+    assert bar.doing.text() == ""
+    assert not bar.help.isVisible()
+
+
+def test_the_header_has_the_sizes_of_both_screens(window):
+    bar = window._bar
+    for width, height, sizes in ((1920, 1080, LARGE), (1280, 800, SMALL)):
+        window.resize(width, height)
+        QApplication.processEvents()
+        assert bar.height() == pytest.approx(sizes.height, abs=2)
+        parts = (bar.badge, bar.emergency, bar.stop)
+        for part, size in zip(parts, (sizes.badge, sizes.lock, sizes.stop), strict=True):
+            assert part.size() == size
+            assert part.fontMetrics().height() <= part.height()
+        assert bar.stop.width() * 2 == pytest.approx(bar.emergency.width() * 3, rel=0.01)
+        edges = [bar.badge, bar.state, bar.model, bar.events, bar.emergency, bar.stop]
+        places = [one.mapTo(window, QPoint()).x() for one in edges]
+        ends = [x + one.width() for x, one in zip(places, edges, strict=True)]
+        assert all(end <= start for end, start in zip(ends, places[1:], strict=False))
+        assert ends[-1] <= width
+
+
+def test_what_may_be_a_real_machine_is_shown_as_one(window, monkeypatch):
+    bar, session = window._bar, window.workbench.session
+    assert window.windowTitle().startswith("RoTeMiNa – SIMULATOR simulator – ")
+    for port, machine in (
+        ("/dev/pts/7", "VIRTUAL BOARDS"),
+        ("/dev/ttyUSB0", "MACHINE"),
+        ("socket://h:1", "MACHINE"),
+    ):
+        boards = MC68HC11(window.workbench.robot, {"port": port})
+        with monkeypatch.context() as other:
+            other.setattr(type(session), "driver", boards)
+            bar.refresh(session.snapshot())
+        assert window.windowTitle().startswith(f"RoTeMiNa – {machine} {port} – ")
+        assert window._top_line.isVisible() is (machine == "MACHINE")
+        assert window._top_line.geometry().getRect() == (0, 0, window.width(), 4)
+        assert not bar.badge.grab().toImage().isNull()
+
+
+def test_what_is_noticed_is_counted_until_the_log_is_opened(qtbot, window):
+    bar = window._bar
+    window.workbench.notify(Level.WARNING, "something")
+    window.workbench.notify(Level.INFO, "a word")
+    assert bar.events.text() == "Events 1"
+    click(qtbot, bar.events)
+    assert window.log_page.isVisible()
+    assert bar.events.text() == "Events 0"
+
+
+def test_play_waits_until_what_was_switched_has_settled(qtbot, window):
+    bench = window.workbench
+    with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
+        bench.plan_trajectory("example", example_for(bench.robot))
+    told = []
+    bench.noticed.connect(lambda _, text: told.append(text))
+    bench.session.service.set_effects(
+        [AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6})]
+    )
+    bench.play()  # before the machine has taken them
+    qtbot.waitUntil(
+        lambda: bench.session.snapshot().activity is DeviceState.PLAYING, timeout=LONG_MS
+    )
+    bench.stop()
+    assert not [text for text in told if "still moving" in text]
+
+
+class Moving(Requests):
+    """A machine that never comes to rest, and what is asked of it."""
+
+    def __init__(self, session):
+        super().__init__(session)
+        self.asked = []
+
+    def ask_aside(self, request, done=None, undone=None):
+        self.asked.append(request)
+
+
+def test_what_waits_for_rest_ends_with_a_stop_or_after_two_seconds(window, monkeypatch):
+    session = window.workbench.session
+    monkeypatch.setattr(type(session), "at_rest", False)
+    requests, now = Moving(session), [0.0]
+    waits = AtRest(requests, lambda: now[0])
+    state = replace(session.snapshot(), activity=DeviceState.MOVING, locked=None)
+    monkeypatch.setattr(session, "snapshot", lambda: state)
+    waits.do("first", session.permit())
+    assert waits.waiting
+    session.stop()
+    waits.look(state)
+    assert not waits.waiting
+    waits.do("second", session.permit())
+    now[0] = 1.9
+    waits.look(state)
+    assert requests.asked == []
+    now[0] = 2.0
+    waits.look(state)
+    assert requests.asked == ["second"]  # which is refused, with the reason

@@ -5,6 +5,8 @@ import numpy as np
 from rotemina.app.shell.offscreen_run import play
 from rotemina.sim.records.record import Record, Tap
 
+PANELS = ()
+
 LOOKS = 3  # of the window, while a request is still being handed over
 
 

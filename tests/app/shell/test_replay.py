@@ -10,6 +10,8 @@ from rotemina.app.shell.replaying import opened, remark
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.file import load_robot
 
+PANELS = ("plots",)
+
 LONG_MS = 30_000
 ROBOT = load_robot("rotemina")
 
@@ -46,15 +48,15 @@ def test_panels_show_the_replay_and_the_tool_bar_the_machine(qtbot, window, reco
     seek(qtbot, window, 0.25)  # in mid-move
     assert bar.phase.text() == "moving"
     assert bar.time.text() == "0:00.2 / 0:01.2"
-    assert window._bar.phase.text() == "locked"  # the machine's own
+    assert window._bar.phase.text() == "Locked"  # the machine's own
     assert window._bar.doing.text().startswith("A replay of run.arrows is shown")
     seek(qtbot, window, 1.1)
     row = window.panels["control"].rows["x"]
     assert row._readout.text().startswith("28.000")
     assert not row.plus.isEnabled()
-    _, drawn = window.panels["plots"].plots["x"].plot._curves["command"].getData()
-    assert drawn.min() == pytest.approx(27.5)
-    assert drawn.max() == pytest.approx(28.0)
+    curve = window.panels["plots"].plots["x"].plot._curves["command"]  # plots are drawn in turn
+    qtbot.waitUntil(lambda: curve.getData()[1].max() == pytest.approx(28.0), timeout=LONG_MS)
+    assert curve.getData()[1].min() == pytest.approx(27.5)
     # Neither a panel, nor a menu, nor a stick moves what nobody sees; a stop goes through.
     before = bench.session.stop_asked_s
     bench.jog("y", 1e-3)

@@ -10,21 +10,23 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.anonymiser import Anonymiser
 from rotemina.app.shell.message_log import Message
 from rotemina.app.shell.progress import CancelledError, Progress
-from rotemina.app.shell.scrubbing import Scrubber
 from rotemina.app.shell.support_bundle import gather, write_bundle
 from rotemina.app.shell.workbench import Level
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.whole_files import FileWriteError
 
-SCRUBBER = Scrubber(
+PANELS = ()
+
+ANONYMISER = Anonymiser(
     ["/home/ada.byron", r"C:\Users\Ada Byron"], ["ada.byron", "Ada Byron", "Byron", "x"], ["lab-7"]
 )
 
 
 @pytest.mark.parametrize(
-    ("text", "scrubbed"),
+    ("text", "anonymised"),
     [
         ("/home/ada.byron/data/r.csv", "<home>/data/r.csv"),
         (r"C:\Users\Ada Byron\r.csv", r"<home>\r.csv"),
@@ -38,20 +40,20 @@ SCRUBBER = Scrubber(
         ("the byronic robot at home, /homes/a", "the byronic robot at home, /homes/a"),
     ],
 )
-def test_names_and_homes_are_taken_out_and_nothing_else(text, scrubbed):
-    assert SCRUBBER.scrub(text) == scrubbed
+def test_names_and_homes_are_taken_out_and_nothing_else(text, anonymised):
+    assert ANONYMISER.anonymise(text) == anonymised
 
 
 def test_a_short_name_and_the_root_spoil_nothing():
-    assert Scrubber(["/"], ["x", "y"]).scrub("x: 1 /data/y") == "x: 1 /data/y"
+    assert Anonymiser(["/"], ["x", "y"]).anonymise("x: 1 /data/y") == "x: 1 /data/y"
 
 
 def test_this_user_is_known():
-    scrubber = Scrubber.of_this_user()
+    anonymiser = Anonymiser.of_this_user()
     path = str(Path.home() / "records" / "r.csv")
-    assert str(Path.home()) not in scrubber.scrub(f"{path} of {getpass.getuser()}")
+    assert str(Path.home()) not in anonymiser.anonymise(f"{path} of {getpass.getuser()}")
     if len(getpass.getuser()) > 2:
-        assert scrubber.scrub(f"of {getpass.getuser()}") == "of <user>"
+        assert anonymiser.anonymise(f"of {getpass.getuser()}") == "of <user>"
 
 
 @pytest.fixture
@@ -64,7 +66,7 @@ def items():
     )
     preferences = {"files.folder": "/home/ada.byron/data", "window.theme": "dark"}
     state = SessionState(fault="ada.byron pulled the plug")
-    return gather(messages, preferences, state, "simulator", "rotemina", record, SCRUBBER)
+    return gather(messages, preferences, state, "simulator", "rotemina", record, ANONYMISER)
 
 
 def test_a_bundle_holds_log_settings_versions_and_record_and_names_nobody(items, tmp_path):
@@ -113,5 +115,5 @@ def test_a_bundle_is_written_whole_or_not_at_all(items, tmp_path):
 
 
 def test_without_a_record_there_is_none_in_it():
-    items = gather([], {}, SessionState(), "simulator", "rotemina", None, SCRUBBER)
+    items = gather([], {}, SessionState(), "simulator", "rotemina", None, ANONYMISER)
     assert "record.csv" not in {item.name for item in items}

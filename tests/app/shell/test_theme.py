@@ -3,8 +3,10 @@
 import re
 from importlib import resources
 
+import numpy as np
 import pytest
 
+from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import (
     GROUNDS,
     HIGH_CONTRAST,
@@ -17,6 +19,49 @@ from rotemina.app.shell.theme import (
 )
 
 LEAST = 4.5  # WCAG 2.1, level AA
+TOLD_APART = 20.0  # ΔE*ab of two lines that have the same dashes
+#: How dichromats see linear sRGB (Machado, Oliveira, Fernandes 2009, severity 1).
+EYES = {
+    "usual": np.eye(3),
+    "protan": [
+        [0.152286, 1.052583, -0.204868],
+        [0.114503, 0.786281, 0.099216],
+        [-0.003882, -0.048116, 1.051998],
+    ],
+    "deutan": [
+        [0.367322, 0.860646, -0.227968],
+        [0.280085, 0.672501, 0.047413],
+        [-0.011820, 0.042940, 0.968881],
+    ],
+    "tritan": [
+        [1.255528, -0.076749, -0.178779],
+        [-0.078411, 0.930809, 0.147602],
+        [0.004733, 0.691367, 0.303900],
+    ],
+}
+#: CIE XYZ of linear sRGB, white at 1.
+XYZ = np.array([[0.4339, 0.3762, 0.1899], [0.2127, 0.7152, 0.0722], [0.0178, 0.1095, 0.8727]])
+
+
+def lab(colour, eye):
+    """Return a colour ``#rrggbb`` in CIE L*a*b* as an eye sees it."""
+    shares = np.array([int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)])
+    linear = np.where(shares <= 0.04045, shares / 12.92, ((shares + 0.055) / 1.055) ** 2.4)
+    seen = XYZ @ np.clip(np.asarray(eye) @ linear, 0.0, 1.0)
+    root = np.where(seen > 0.008856, np.cbrt(seen), 7.787 * seen + 16.0 / 116.0)
+    return np.array([116 * root[1] - 16, 500 * (root[0] - root[1]), 200 * (root[1] - root[2])])
+
+
+@pytest.mark.parametrize("eye", EYES.values(), ids=EYES)
+@pytest.mark.parametrize("theme", THEMES.values(), ids=THEMES)
+def test_lines_of_the_same_dashes_are_told_apart_by_every_eye(theme, eye):
+    lines = list({(line.role, line.style): line for line in LINES.values()}.values())
+    for number, one in enumerate(lines):
+        for other in lines[number + 1 :]:
+            if one.style == other.style:
+                roles = (one.role, other.role)
+                first, second = (lab(getattr(theme, role), eye) for role in roles)
+                assert np.linalg.norm(first - second) > TOLD_APART, roles
 
 
 def test_contrast_is_that_of_the_standard():

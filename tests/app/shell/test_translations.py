@@ -1,6 +1,7 @@
 """The German of the window: complete, current, and true to the templates of the English texts."""
 
 import ast
+import builtins
 import re
 import subprocess
 import xml.etree.ElementTree as ET
@@ -11,12 +12,16 @@ import PySide6
 import pytest
 from PySide6.QtCore import QTranslator
 
+from rotemina.sim.gap.report.texts import TEXTS
+
 ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / "resources" / "languages"
+WINDOW = ("app/shell/*.py", "app/widgets/*.py", "plugins/*/*.py")
 UPDATE = "; run `make languages`, and translate what it has added to resources/languages/de"
 # As `make languages` has them.
 OPTIONS = (
-    *("-silent", "-tr-function-alias", "QT_TRANSLATE_NOOP+=marked"),
+    *("-silent", "-tr-function-alias", "QT_TRANSLATE_NOOP+=marked,QT_TRANSLATE_NOOP+=message"),
+    *("-disable-heuristic", "sametext", "-disable-heuristic", "similartext"),
     *("-locations", "none", "-no-obsolete", "-source-language", "en", "-target-language", "de"),
 )
 # What puts a text on the screen, whatever class it is of.
@@ -27,6 +32,17 @@ SHOWN_BY = (
     *("addItem", "addAction", "addMenu", "addTab", "addRow", "setLabelText"),
     *("notify", "allow", "plain_tip", "show_text", "setHorizontalHeaderLabels", "setHtml"),
 )
+# What no operator sees: self-tests, a board's own program, what stands in for a window.
+FOREIGN = {*dir(builtins), "ArgumentTypeError"}  # errors of Python
+ENGLISH_ONLY = {
+    "bench",
+    "blind",
+    "blind_second",
+    "conformance",
+    "firmware",
+    "emulator.py",
+    "exits.py",
+}
 _WORDS = re.compile(r"[A-Za-z]{2,} [A-Za-z]{2,}|^[A-Z][a-z]{2,}|^[a-z]{4,}$")
 _TAG = re.compile(r"</?[a-z][^<>]*>")
 _MNEMONIC = re.compile(r"&(?=\w)")
@@ -54,7 +70,12 @@ def german():
 
 
 def test_every_text_of_the_window_is_translated(german, tmp_path):
-    sources = sorted({*(ROOT / "app" / "shell").glob("*.py"), *(ROOT / "plugins").glob("*/*.py")})
+    shown = {path for folder in WINDOW for path in ROOT.glob(folder)}
+    engine = {*(ROOT / "sim").rglob("*.py"), *(ROOT / "drivers").rglob("*.py")}
+    engine |= {*(ROOT / "app").glob("*.py")}
+    for folder in ("cli", "motion", "microscope", "cameras", "calibration", "records"):
+        engine |= {*(ROOT / "app" / folder).rglob("*.py")}
+    sources = sorted(shown | engine)
     found = tmp_path / "found.ts"
     program = Path(PySide6.__file__).parent / "lupdate"
     done = subprocess.run(
@@ -82,7 +103,7 @@ def literals(call):
 
 def test_no_text_is_shown_as_it_is_written():
     found = []
-    for path in (*(ROOT / "app" / "shell").glob("*.py"), *(ROOT / "plugins").glob("*/*.py")):
+    for path in (path for folder in WINDOW for path in ROOT.glob(folder)):
         for call in ast.walk(ast.parse(path.read_text("utf-8"))):
             if not isinstance(call, ast.Call):
                 continue
@@ -91,6 +112,35 @@ def test_no_text_is_shown_as_it_is_written():
                 texts = [text for text in literals(call) if _WORDS.search(text) and "<" not in text]
                 found += [f"{path.relative_to(ROOT)}:{call.lineno}: {text!r}" for text in texts]
     assert found == []
+
+
+def errors(path):
+    """(line, what it is raised with) of each error of this program that is made in a file."""
+    for call in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(call, ast.Call) and len(call.args) == 1:
+            name = getattr(call.func, "attr", getattr(call.func, "id", ""))
+            if name.endswith("Error") and name not in FOREIGN:
+                yield call.lineno, call.args[0]
+
+
+def test_no_error_says_what_has_no_translation():
+    found = []
+    for folder in ("app", "drivers", "sim"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            if not ENGLISH_ONLY & {*path.relative_to(ROOT).parts}:
+                for line, told in errors(path):
+                    text = isinstance(told, ast.Constant) and isinstance(told.value, str)
+                    if (text and told.value) or isinstance(told, ast.JoinedStr):
+                        found.append(f"{path.relative_to(ROOT)}:{line}: {ast.unparse(told)}")
+    assert found == []
+
+
+def test_the_report_says_nothing_that_has_no_translation(german):
+    page = (ROOT / "sim" / "gap" / "report" / "page.html").read_text("utf-8")
+    said = set(re.findall(r'"([^"]*)" \| t\b', page))
+    assert said == set(TEXTS)
+    bare = re.findall(r">([^<>{}]*[A-Za-z]{2}[^<>{}]*)<", page[page.index("</style>") :])
+    assert bare == []
 
 
 def test_the_file_that_the_window_reads_holds_them(german):

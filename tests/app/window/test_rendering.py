@@ -22,9 +22,9 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell import language
-from rotemina.app.shell.controls import ElidedLabel
 from rotemina.app.shell.layouts import BUILT_IN, OPERATE
 from rotemina.app.shell.theme import THEMES
+from rotemina.app.widgets.labels import ElidedLabel
 
 pytestmark = [pytest.mark.slow, pytest.mark.every_panel]
 SIZES = ((1280, 800), (1920, 1080))
@@ -75,9 +75,10 @@ def label(widget):
 def button(widget):
     """Tell of a button or a check box without room."""
     text = widget.text().replace("&", "")
-    needed = widget.fontMetrics().horizontalAdvance(text)
+    lines = text.split("\n")
+    needed = max(map(widget.fontMetrics().horizontalAdvance, lines))
     room = widget.width() if isinstance(widget, QToolButton) else room_of(widget)
-    high = widget.fontMetrics().height() > widget.height() + _SLACK
+    high = len(lines) * widget.fontMetrics().height() > widget.height() + _SLACK
     if text and (needed > room + _SLACK or high):
         return f"{type(widget).__name__} {text!r}: {needed} in {room}"
     return None

@@ -62,6 +62,6 @@ def test_a_fault_is_told_cleared_and_wants_homing(seat):
     seat.bench.stage.hit_limit()
     state = seat.run(0.5)
     assert "hard limit" in state.fault
-    session.clear_fault()
+    session.service.clear_fault()
     state = seat.run(0.5)
     assert (state.fault, state.phase) == (None, Phase.POSITION_UNKNOWN)

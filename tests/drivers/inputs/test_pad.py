@@ -128,6 +128,12 @@ def test_held_by_somebody_who_says_nothing_any_more_it_is_released(leased, clock
     assert device.read() == ()
 
 
+def test_held_at_its_centre_it_is_held_all_the_same(leased, clock):
+    leased.deflect("x", 0.0)
+    clock.advance(10.0)
+    assert leased.renew()
+
+
 def test_renewed_it_is_held_on(leased, clock):
     device = leased.open(leased.identity)
     leased.deflect("x", 1.0)

@@ -107,12 +107,14 @@ def test_playing_records_exactly_the_commands_asked(bench, axis, start, distance
     assert bench.driver.link_quality().repeated == 0
 
 
-def test_a_shared_bus_plays_too(robot, joined_bench):
-    bench = joined_bench(robot, ports=1)
+@pytest.mark.parametrize(
+    ("baud", "period_s", "round_s"), [(125_000, 0.02, 0.001), (9_600, 0.2, 0.01)]
+)
+def test_a_shared_bus_plays_too(robot, joined_bench, baud, period_s, round_s):
+    bench = joined_bench(robot, ports=1, baud=baud)
     bench.driver.open()
-    period_s = bench.driver.setpoint_period_s
-    assert period_s == 0.02  # set-points share the bus with telemetry
-    time_s = np.arange(41) * period_s
+    assert bench.driver.setpoint_period_s == period_s  # set-points share the bus with telemetry
+    time_s = np.arange(21) * period_s
     wave = 0.5 * (1 - np.cos(2 * np.pi * time_s / time_s[-1]))
     record = Record.from_signals(
         time_s,
@@ -120,9 +122,9 @@ def test_a_shared_bus_plays_too(robot, joined_bench):
         {"x": "m", "zn": "m"},
     )
     bench.driver.play(record)
-    samples = bench.run_until(IDLE, MOVING)
+    samples = bench.run_until(IDLE, MOVING, round_s=round_s)
     rows = samples.playback_row[samples.playback_row >= 0]
-    np.testing.assert_array_equal(rows, np.arange(41))
+    np.testing.assert_array_equal(rows, np.arange(21))
     assert bench.driver.status().fault is None
 
 
@@ -316,7 +318,10 @@ def test_other_parameters_are_refused_until_accepted_or_written(robot, joined_be
     with pytest.raises(StateError, match="accept_parameters or write_parameters"):
         bench.driver.move_to({"x": 0.03})
     bench.driver.write_parameters()
-    bench.run(0.3)
+    bench.run(0.03)
+    with pytest.raises(StateError, match="while its parameters are written"):
+        bench.driver.move_to({"x": 0.03})
+    bench.run(0.1)
     assert bench.driver.differences == ()
     bench.driver.move_to({"x": 0.028})
     bench.run_until(IDLE)
@@ -351,3 +356,22 @@ def test_a_second_port_of_one_board_is_refused(robot, joined_bench):
     one = joined_bench(load_robot("picma"), ports=1, settings={"second_port": "second"})
     with pytest.raises(DriverError, match="second_port"):
         one.driver.open()
+
+
+@pytest.mark.parametrize(("ports", "period_s"), [(2, 0.01), (1, 0.02)])
+def test_a_chip_of_half_the_clock_plays_every_row_at_half_the_rate(
+    robot, joined_bench, ports, period_s
+):
+    bench = joined_bench(robot, ports=ports, tick_s=1e-3)
+    bench.driver.open()
+    assert bench.driver.setpoint_period_s == period_s
+    assert bench.driver.capture_rates.of(1) == 1000.0
+    time_s = np.arange(61) * period_s
+    wave = 30e-6 + 2e-6 * np.sin(2 * np.pi * time_s)
+    path = Record.from_signals(time_s, {("zn", Tap.CMD): wave}, {"zn": "m"})
+    bench.driver.play(path)
+    samples = bench.run_until(IDLE)
+    assert bench.driver.status().fault is None
+    own = samples.playback_row >= 0
+    np.testing.assert_array_equal(samples.playback_row[own], np.arange(61))
+    np.testing.assert_allclose(samples.command[own, 5], wave, atol=5.1e-10)

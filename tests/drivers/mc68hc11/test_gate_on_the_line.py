@@ -9,6 +9,7 @@ from rotemina.drivers.mc68hc11.codes import Fault
 from rotemina.drivers.mc68hc11.framing import Decoder
 from rotemina.drivers.mc68hc11.requests import (
     ArmProfile,
+    BeginStream,
     ClearFault,
     Home,
     MoveTo,
@@ -25,6 +26,7 @@ MOVING = {
     one.TYPE
     for one in (
         ArmProfile,
+        BeginStream,
         ClearFault,
         Home,
         MoveTo,

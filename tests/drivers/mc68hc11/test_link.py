@@ -1,5 +1,7 @@
 """The parts of the link: requests, set-points, the board's clock, its sampling instants."""
 
+from itertools import count
+
 import numpy as np
 import pytest
 
@@ -13,9 +15,9 @@ from rotemina.drivers.mc68hc11.framing import RESYNC, STOP_BYTES, Decoder, Frame
 from rotemina.drivers.mc68hc11.grid import Grid
 from rotemina.drivers.mc68hc11.link import Link
 from rotemina.drivers.mc68hc11.messages import message_of
-from rotemina.drivers.mc68hc11.reports import Done, Inputs, Refused
+from rotemina.drivers.mc68hc11.reports import Done, Inputs, Refused, Telemetry
 from rotemina.drivers.mc68hc11.requests import MoveTo, Poll, SetPoint, Stop, Watch
-from rotemina.drivers.mc68hc11.setpoints import Due, SetpointWindow
+from rotemina.drivers.mc68hc11.setpoints import SetpointWindow
 from rotemina.drivers.mc68hc11.total_quality import total_quality
 
 TURN = 1 << 32
@@ -68,66 +70,88 @@ def test_queues_are_bounded():
 
 
 class BoardQueue:
-    """Takes set-points as a board does: in order only."""
+    """Takes segments as a board does: in order only; says nothing of those that it takes."""
 
     def __init__(self):
         self.taken = []
 
     def hear(self, data):
         for frame in Decoder().feed(data):
-            point = message_of(frame.type, frame.payload)
-            assert isinstance(point, SetPoint)
+            one = message_of(frame.type, frame.payload)
+            assert isinstance(one, SetPoint)
             expected = len(self.taken)
-            if point.index == expected % 256:
-                self.taken.append(point)
-                return Done(frame.number)
-            behind = (expected - point.index) % 256
-            if 0 < behind <= 16:
-                return Done(frame.number)
+            if one.index == expected % 256:
+                self.taken.append(one)
+                return None
+            if 0 < (expected - one.index) % 256 <= 16:
+                return None
             return Refused(frame.number, Refusal.OUT_OF_ORDER)
         raise AssertionError(data)
 
+    def telemetry(self):
+        return Telemetry.of(0, 0, 0, 0, len(self.taken) % 256, ())
+
+
+def window_of(count):
+    return SetpointWindow(
+        1,
+        count,
+        lambda one: SetPoint.of(one % 256, 10, [(one, -one)]),
+        lambda: 0.04,
+        Gate().permit(),
+    )
+
 
 @pytest.mark.parametrize("seed", range(5))
-def test_set_points_arrive_once_each_and_in_order_whatever_is_lost(seed):
+def test_segments_arrive_once_each_and_in_order_whatever_is_lost(seed):
     generator = np.random.default_rng(seed)
-    window = SetpointWindow(
-        1, 600, lambda one: Due(5000 * one, (one, -one, 0)), 0.02, Gate().permit()
-    )
+    window = window_of(600)
     board, now_s, number, answers = BoardQueue(), 0.0, 0, []
-    while window.taken < 600:
+    for turn in count():
         assert now_s < 60.0
         now_s += 0.002
         window.release(int(now_s / 0.004))
+        if turn % 5 == 0:
+            answers.append(board.telemetry())
         if answers and generator.random() < 0.7:
             answer = answers.pop(0)
             if generator.random() > 0.05:
                 window.receive(answer, now_s)
+        if window.taken == 600:
+            break
         if window.offer(now_s):
             number = (number + 1) % 256
             data = window.take(now_s, number, 0.002).data
-            if generator.random() > 0.05:
-                answers.append(board.hear(data))
-    assert [point.first for point in board.taken] == list(range(600))
-    assert [point.left for point in board.taken[-3:]] == [2, 1, 0]
-    assert board.taken[0].left == 255
+            if generator.random() > 0.05 and (said := board.hear(data)) is not None:
+                answers.append(said)
+    assert [one.differences()[0][0] for one in board.taken] == list(range(600))
+    assert window.repeated < 600
 
 
-def test_no_more_set_points_than_four_are_under_way_and_none_before_its_turn():
-    window = SetpointWindow(1, 100, lambda one: Due(one, (0, 0, 0)), 0.02, Gate().permit())
+def test_only_so_many_segments_are_under_way_and_none_before_its_turn():
+    window = window_of(100)
     assert not window.offer(0.0)
     window.release(50)
-    for number in range(4):
+    for number in range(8):
         assert window.offer(0.0)
         window.take(0.0, number, 0.0)
     assert not window.offer(0.0)
-    window.receive(Done(1), 0.001)
+    window.receive(Telemetry.of(0, 0, 0, 0, 2, ()), 0.001)
     assert window.taken == 2
     assert window.offer(0.001)
 
 
-def test_a_refused_set_point_ends_the_window():
-    window = SetpointWindow(1, 10, lambda one: Due(one, (0, 0, 0)), 0.02, Gate().permit())
+def test_telemetry_of_another_stream_acknowledges_nothing():
+    window = window_of(100)
+    window.release(50)
+    for number in range(3):
+        window.take(0.0, number, 0.0)
+    window.receive(Telemetry.of(0, 0, 0, 0, 40, ()), 0.001)
+    assert window.taken == 0
+
+
+def test_a_refused_segment_ends_the_window():
+    window = window_of(10)
     window.release(10)
     window.take(0.0, 3, 0.0)
     window.receive(Refused(3, Refusal.FAULTY), 0.001)

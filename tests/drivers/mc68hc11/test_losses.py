@@ -5,7 +5,7 @@ import pytest
 
 from rotemina.drivers.errors import ConnectionLostError, StateError
 from rotemina.drivers.mc68hc11.codes import Fault
-from rotemina.drivers.samples import DeviceState
+from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.drivers.virtual_board.clock import BoardClock
 from rotemina.sim.records.record import Record, Tap
 
@@ -71,9 +71,9 @@ def test_a_long_loss_raises_and_nothing_resumes(bench):
 
 def test_a_stream_that_starves_is_a_fault_and_both_boards_halt(bench):
     bench.driver.play(hold("zn", 30e-6))
-    bench.run(0.5)
+    bench.run(0.8)
     cut(bench)
-    bench.run(0.2)
+    bench.run(0.4)
     cut(bench, off=False)
     bench.run_until(FAULT)
     assert "set-point came too late" in bench.driver.status().fault
@@ -83,6 +83,19 @@ def test_a_stream_that_starves_is_a_fault_and_both_boards_halt(bench):
     bench.run_until(IDLE)
     bench.driver.move_to({"zn": 20e-6})
     assert bench.run_until(IDLE).command[-1, 5] == pytest.approx(20e-6, abs=1e-15)
+
+
+def test_a_computer_that_is_busy_for_300_ms_cuts_no_playback_off(bench):
+    bench.driver.play(hold("zn", 30e-6, rows=200))
+    bench.run(0.35)  # at rest at the first row; set-points have begun to go out
+    parts = []
+    for _ in range(3):
+        bench.clock.advance(0.3)
+        parts.append(bench.run(0.3))
+    samples = Samples.joined([*parts, bench.run_until(IDLE, MOVING, FAULT)], 6)
+    assert bench.driver.status().fault is None
+    rows = samples.playback_row[samples.playback_row >= 0]
+    np.testing.assert_array_equal(rows, np.arange(200))
 
 
 def test_a_board_that_is_reset_in_mid_move_ends_the_connection(bench):

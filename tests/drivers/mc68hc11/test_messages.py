@@ -62,11 +62,11 @@ def test_any_payload_is_a_message_or_refused(type_, payload):
 
 def test_numbers_are_packed_as_the_documentation_says():
     assert MoveVelocity(0, -1000, 150).packed().hex(" ") == "00 ff ff fc 18 00 96"
-    assert SetPoint(7, 255, 1, 2, 3, -1).packed().hex(" ", 4) == (
-        "07ff 00000001 00000002 00000003 ffffffff"
-    )
-    told = Telemetry.of(256, 1, 0, 3, [(-2, 1), (3, 2)])
-    assert told.packed().hex(" ") == "00 00 01 00 01 00 03 ff ff fe 00 03 00 00 03 ff ff"
+    segment = SetPoint.of(7, 20, [(1, -1), (-2, 256), (3, 0)])
+    assert segment.packed().hex(" ", 7) == ("070014 00000001ffffff fffffffe000100 00000003000000")
+    assert len(segment.packed()) == MAX_PAYLOAD
+    told = Telemetry.of(256, 1, 0, 3, 9, [(-2, 1), (3, 2)])
+    assert told.packed().hex(" ") == "00 00 01 00 01 00 03 09 ff ff fe 00 03 00 00 03 ff ff"
     assert Inputs.of(2, [0x123, 0x456, 0x789]).packed().hex() == "02" + "1234567890"
     assert len(Captured(0, bytes(22)).packed()) == MAX_PAYLOAD
     assert Stop.TYPE == STOP_TYPE
@@ -78,20 +78,38 @@ def test_numbers_are_packed_as_the_documentation_says():
     )
 )
 def test_telemetry_tells_readings_and_commands(axes):
-    told = Telemetry.of(1, 2, 3, 4, [(reading, reading + by) for reading, by in axes])
+    told = Telemetry.of(1, 2, 3, 4, 5, [(reading, reading + by) for reading, by in axes])
     back = message_of(Telemetry.TYPE, told.packed())
     assert back.samples() == tuple((reading, reading + by) for reading, by in axes)
 
 
 def test_telemetry_clips_a_deviation_and_refuses_a_reading_beyond_its_bits():
-    assert Telemetry.of(0, 0, 0, 0, [(0, 100_000), (0, -100_000)]).samples() == (
+    assert Telemetry.of(0, 0, 0, 0, 0, [(0, 100_000), (0, -100_000)]).samples() == (
         (0, 2**15 - 1),
         (0, -(2**15)),
     )
     with pytest.raises(ProtocolError, match="8388608"):
-        Telemetry.of(0, 0, 0, 0, [(2**23, 0)])
+        Telemetry.of(0, 0, 0, 0, 0, [(2**23, 0)])
     with pytest.raises(ProtocolError, match="7 bytes"):
-        Telemetry(0, 0, 0, 0, bytes(7)).samples()
+        Telemetry(0, 0, 0, 0, 0, bytes(7)).samples()
+
+
+@given(
+    st.lists(
+        st.tuples(st.integers(-(2**31), 2**31 - 1), st.integers(-(2**23), 2**23 - 1)), max_size=3
+    )
+)
+def test_a_segment_tells_its_differences(axes):
+    back = message_of(SetPoint.TYPE, SetPoint.of(1, 2, axes).packed())
+    assert back.differences() == tuple(axes)
+
+
+def test_differences_that_do_not_fit_are_refused():
+    for axes in ([(1 << 31, 0)], [(0, 1 << 23)]):
+        with pytest.raises(ProtocolError, match="32 and 24 bits"):
+            SetPoint.of(0, 1, axes)
+    with pytest.raises(ProtocolError, match="8 bytes"):
+        SetPoint(0, 1, bytes(8)).differences()
 
 
 @given(st.lists(st.integers(0, 4095), max_size=8), st.integers(0, 255))

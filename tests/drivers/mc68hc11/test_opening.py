@@ -48,7 +48,7 @@ def opened(robot, answer):
     return driver, port, clock
 
 
-def identity(version=1, axes=3):
+def identity(version=2, axes=3):
     message = Identity(version, 0xFFFF, axes, 125_000, 24, 0, b"other")
     return lambda frame: encoded(
         Frame(frame.address, 0, Identity.TYPE, message.packed(), from_board=True)
@@ -61,8 +61,8 @@ def identity(version=1, axes=3):
         (lambda _: b"", DriverTimeoutError, "nobody answers at 125000 baud.*9600"),
         (lambda _: b"\xf3\x81\x00\x9c\x1e\x00", ProtocolError, "no frame of a board.*baud"),
         (lambda _: b"ok\r\n\x00ok\r\n\x00", ProtocolError, "no MC68HC11 board"),
-        (identity(version=2), ProtocolError, "version 2 .* this program 1; update the program"),
-        (identity(version=0), ProtocolError, "update the board's program"),
+        (identity(version=3), ProtocolError, "version 3 .* this program 2; update the program"),
+        (identity(version=1), ProtocolError, "update the board's program"),
         (identity(axes=2), DriverError, "has 2 axes.*wants 3.*robot file"),
     ],
 )

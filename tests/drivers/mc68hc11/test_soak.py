@@ -121,7 +121,7 @@ class Soak:
                 self.ask(self.session.reconnect)
                 self.connections += 1
             elif state.fault is not None:
-                self.ask(self.session.clear_fault)
+                self.ask(self.session.service.clear_fault)
             elif state.unhomed:
                 self.ask(self.session.home)
                 self.until_idle(20.0)

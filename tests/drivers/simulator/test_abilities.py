@@ -73,6 +73,7 @@ def test_a_voltage_is_what_the_amplifier_puts_out():
     driver.set_voltage("zn", 20.0)
     clock.advance(1.0)
     samples = driver.read()
+    assert np.abs(np.diff(samples.inputs[:, 5])).max() <= 130.0 * 1e-3 * (1 + 1e-9)  # in 1 ms
     assert samples.inputs[-1, 5] == pytest.approx(20.0)
     assert samples.command[-1, 5] == pytest.approx(10e-6)
     assert np.abs(np.diff(samples.command[:, 5])).max() <= 5.0e-3 * 1e-3 * (1 + 1e-9)

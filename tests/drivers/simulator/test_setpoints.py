@@ -6,8 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotemina.drivers.simulator import setpoints
-from rotemina.drivers.simulator.setpoints import SetpointGenerator, SetpointLimits
+from rotemina.drivers.simulator.setpoints import SetpointGenerator
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 LOW, HIGH, SPEED, ACCELERATION = -1.0, 2.0, 0.7, 3.0
 LIMITS = SetpointLimits(*(np.array([bound]) for bound in (LOW, HIGH, SPEED, ACCELERATION)))

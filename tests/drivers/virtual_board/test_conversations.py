@@ -30,7 +30,7 @@ from rotemina.sim.errors import InputError
 
 def test_boards_say_who_they_are(host, robot):
     first, second = host.ask(Identify(1), 1), host.ask(Identify(9), 2)
-    assert (first.version, first.axes, first.parameters, first.baud) == (1, 3, 24, 125_000)
+    assert (first.version, first.axes, first.parameters, first.baud) == (2, 3, 24, 125_000)
     own = host.boards.boards[0].axes
     assert first.fingerprint == fingerprint(parameters_of(robot, own))
     assert first.abilities & Ability.HOMING
@@ -43,7 +43,7 @@ def test_boards_say_who_they_are(host, robot):
 def test_axes_and_rates(host, robot):
     for number, axis in enumerate(host.boards.boards[1].axes):
         assert host.ask(DescribeAxis(number), 2) == axis.described(robot)
-    assert host.ask(AskRates()) == reports.Rates(200, 50, 2000, 1000)
+    assert host.ask(AskRates()) == reports.Rates(200, 50, 2000, 500, 100, 2000)
 
 
 @pytest.mark.parametrize(
@@ -137,6 +137,20 @@ def test_parameters_are_kept_over_a_reset_and_their_limits_hold(host):
     assert host.ask(ReadParameter(1)) == reports.Parameter(1, 300_000)
 
 
+def test_parameters_hold_at_once_and_are_written_40_ms_each(host):
+    host.ask(WriteParameter(1, 300_000), within_s=0.005)
+    host.ask(WriteParameter(2, 90_000), within_s=0.005)
+    assert host.ask(ReadParameter(2)) == reports.Parameter(2, 90_000)
+    assert host.telemetry().state == State.WRITING
+    host.boards.boards[0].reset(Fault.RESET)  # after 50 ms: the first one is written
+    assert host.ask(ReadParameter(1)) == reports.Parameter(1, 300_000)
+    assert host.ask(ReadParameter(2)) == reports.Parameter(2, 100_000)
+    host.ask(WriteParameter(2, 90_000))
+    assert host.telemetry().state & State.WRITING
+    host.live(0.05)
+    assert not host.telemetry().state & State.WRITING
+
+
 def test_a_limit_that_is_written_behind_an_axis_lets_it_come_back_without_a_leap(host):
     assert host.ask(WriteParameter(1, 274_000)) == Done(host.number)
     assert host.commands()[0] == 275_000
@@ -167,7 +181,8 @@ def test_after_power_up_nothing_moves_but_homing(hosts):
     assert host.ask(ClearFault()) == Done(host.number)
     assert host.refusal(MoveTo(0, 1, 1000)) == Refusal.NOT_HOMED
     assert host.refusal(MoveVelocity(0, 1, 1000)) == Refusal.NOT_HOMED
-    # A board with piezos alone knows where they are.
+    # A board with piezos alone knows where they are, once their voltages have come down.
+    host.live(1.0)
     assert host.telemetry(2).state == State.FAULT
     assert host.ask(ClearFault(), 2) == Done(host.number)
     assert host.ask(MoveTo(0, 100, 1000), 2) == Done(host.number)

@@ -1,7 +1,6 @@
 """How boards move and halt their axes."""
 
 from binascii import crc_hqx
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,12 +14,14 @@ from rotemina.drivers.mc68hc11.requests import (
     AbortProfile,
     ArmProfile,
     BeginProfile,
+    BeginStream,
     Capture,
     ClearFault,
     Home,
     MoveTo,
     MoveVelocity,
-    Segment,
+    Quadratic,
+    Segments,
     SetPoint,
     SetTelemetry,
     SetVoltage,
@@ -28,6 +29,7 @@ from rotemina.drivers.mc68hc11.requests import (
     TriggerProfile,
     Watch,
 )
+from rotemina.drivers.mc68hc11.uploading import profile_of, segments_of
 from rotemina.drivers.virtual_board.faults import inject
 
 Z = 400_000  # where z stands at first
@@ -160,9 +162,8 @@ def test_a_limit_switch_ends_a_stream_too(host):
     inject(host.boards, "lose x 280400")
     host.ask(SetTelemetry(5, 0))
     host.live(0.4)
-    row = points(host, 12)
-    for index, point in enumerate(row):
-        host.say(replace(point, first=275_000 - 1000 * index))
+    for index, _ in enumerate(streamed(host, 12)):
+        host.say(SetPoint.of(index, 20, [(-1000 if index else 0, 0), (0, 0), (0, 0)]))
         host.live(0.01)
     host.live(0.1)
     assert host.telemetry().fault == Fault.LIMIT_SWITCH
@@ -195,100 +196,147 @@ def test_after_a_reset_piezos_go_to_zero_volts_no_faster_than_the_slew_limit(hos
     host.live(0.01)
     between = host.commands(2)[2]
     assert 0 < between < before
-    host.live(0.1)
+    host.live(0.5)
     assert host.commands(2) == [0, 0, 0]
 
 
-def test_a_code_of_the_converter_moves_the_piezo(host):
-    assert host.ask(SetVoltage(2, 65_535), 2) == Done(host.number)
-    host.live(0.2)
-    assert host.commands(2)[2] == 65_000
-    assert host.boards.machine.position[5] == pytest.approx(65e-6, rel=1e-3)
+@pytest.mark.parametrize(("axis", "end"), [(0, 58_177), (2, 65_000)])
+def test_a_code_of_the_converter_moves_the_piezo_and_hardly_rings(host, axis, end):
+    assert host.ask(SetVoltage(axis, 65_535), 2) == Done(host.number)
+    machine, farthest = host.boards.machine, 0.0
+    for _ in range(550):
+        host.live(1e-3)
+        machine.simulate()
+        farthest = max(farthest, float(machine.position[3 + axis]))
+    assert host.commands(2)[axis] == end
+    most = end * float(machine.step[3 + axis])
+    assert most < farthest < 1.001 * most
 
 
-def points(host, count, period_us=10_000, ahead_us=30_000):
+def streamed(host, count, hold=20, ahead_us=30_000):
+    """Begin a stream; return its segments, each a set-point of 10 steps more in x."""
     begin_us = (host.now_us() + ahead_us) // 5000 * 5000
-    return [
-        SetPoint(
-            index % 256,
-            min(count - 1 - index, 255),
-            (begin_us + index * period_us) & 0xFFFF_FFFF,
-            275_000 + 10 * index,
-            275_000,
-            Z,
-        )
-        for index in range(count)
-    ]
+    host.ask(BeginStream(begin_us & 0xFFFF_FFFF, count, hold, 0))
+    return [SetPoint.of(index % 256, hold, [(10, 0), (0, 0), (0, 0)]) for index in range(count)]
 
 
 def test_a_stream_is_played_as_it_is_timed(host):
     host.say(SetTelemetry(5, 0))
     host.live(0.02)
-    row = points(host, 120)
-    for point in row:
-        host.say(point)
+    row = streamed(host, 120)
+    begin_us = host.boards.boards[0].stream.starts_us
+    before = len(host.heard)
+    for segment in row:
+        host.say(segment)
         host.live(0.01)
     host.live(0.1)
     sampled = [m for who, m, _ in host.heard if isinstance(m, Telemetry) and who == 1]
     commands = {one.time_us: one.samples()[0][1] for one in sampled}
-    told = [commands[point.time_us] for point in row if point.time_us in commands]
-    wanted = [point.first for point in row if point.time_us in commands]
-    assert len(wanted) == 120
-    assert told == wanted
+    told = [commands[begin_us + 10_000 * index] for index in range(120)]
+    assert told == [275_010 + 10 * index for index in range(120)]
     assert host.boards.boards[0].fault is Fault.NONE
     assert not host.boards.boards[0].stream.playing
+    # What is there is told by telemetry alone.
+    assert not [m for who, m, _ in host.heard[before:] if isinstance(m, Done) and who == 1]
+    expected = [one.expected for one in sampled]
+    assert max(expected) == 120
+    assert expected[-1] == 0
 
 
-def test_set_points_are_taken_in_order_and_said_again_from_the_first_that_is_missing(host):
-    row = points(host, 6, ahead_us=300_000)
-    assert host.ask(row[0]) == Done(host.number)
+@pytest.mark.parametrize("fraction", [0, 16])
+def test_differences_are_added_up_as_the_chip_does(host, fraction):
+    """Every tick, with its fraction; whole steps are where half a step more is cut off."""
+    first, second = [(7 << fraction) + 1, -40 << fraction, 0], [-(1 << fraction >> 3), 1, -1]
+    host.ask(BeginStream(host.now_us() + 30_000 & 0xFFFF_FFFF, 2, 1, fraction))
+    host.say(SetPoint.of(0, 100, list(zip(first, second, strict=True))))
+    host.say(SetPoint.of(1, 50, [(0, 0), (0, 0), (1 << fraction, 0)]))
+    host.live(0.2)
+    place = [(at << fraction) + (1 << fraction >> 1) for at in (275_000, 275_000, Z)]
+    for _ in range(100):
+        first = [one + two for one, two in zip(first, second, strict=True)]
+        place = [one + two for one, two in zip(place, first, strict=True)]
+    place[2] += 50 << fraction
+    assert host.boards.boards[0].fault is Fault.NONE
+    assert host.commands() == [one >> fraction for one in place]
+
+
+def test_segments_are_taken_in_order_and_said_again_from_the_first_that_is_missing(host):
+    row = streamed(host, 6, ahead_us=300_000)
+    assert host.ask(row[0]) is None
     assert host.refusal(row[2]) == Refusal.OUT_OF_ORDER
     assert host.refusal(row[3]) == Refusal.OUT_OF_ORDER
-    assert host.ask(row[1]) == Done(host.number)
-    assert host.ask(row[0]) == Done(host.number)  # had already
-    for point in row[2:]:
-        assert host.ask(point) == Done(host.number)
+    assert host.ask(row[1]) is None
+    assert host.ask(row[0]) is None  # had already
+    assert host.telemetry().expected == 2
+    for segment in row[2:]:
+        assert host.ask(segment) is None
     host.live(0.6)
-    assert host.commands()[0] == 275_050
+    assert host.commands()[0] == 275_060
     assert host.boards.boards[0].fault is Fault.NONE
 
 
-def test_the_queue_has_room_for_sixteen(host):
-    row = points(host, 20, ahead_us=1_000_000)
-    answers = [host.ask(point) for point in row]
-    assert [isinstance(one, Done) for one in answers] == [True] * 16 + [False] * 4
-    assert answers[16].reason == Refusal.QUEUE_FULL
+def test_the_queue_has_room_for_32(host):
+    row = streamed(host, 36, ahead_us=1_000_000)
+    answers = [host.ask(segment, within_s=0.006) for segment in row]
+    assert answers[:32] == [None] * 32
+    assert answers[32].reason == Refusal.QUEUE_FULL
 
 
 def test_a_stream_that_runs_dry_or_comes_late_holds_where_it_was_sent_last(host):
-    row = points(host, 5)
-    for point in row[:3]:
-        host.say(point)
+    row = streamed(host, 5)
+    for segment in row[:3]:
+        host.say(segment)
     host.live(0.1)
     assert host.boards.boards[0].fault is Fault.LATE_SETPOINT
     host.live(0.1)
-    assert host.commands()[0] == 275_020
+    assert host.commands()[0] == 275_030
     host.ask(ClearFault())
-    late = points(host, 5, ahead_us=-5000)
-    assert host.refusal(late[0]) == Refusal.FAULTY
+    late = streamed(host, 5, ahead_us=-5000)
+    assert host.refusal(late[0]) == Refusal.OUT_OF_ORDER
     assert host.boards.boards[0].fault is Fault.LATE_SETPOINT
-    assert host.commands()[0] == 275_020
+    assert host.commands()[0] == 275_030
+
+
+def test_a_stream_begins_at_rest_only_and_with_something_in_it(host):
+    begin_us = host.now_us() + 1_000_000
+    assert host.refusal(BeginStream(begin_us, 0, 10, 0)) == Refusal.BAD_VALUE
+    assert host.refusal(BeginStream(begin_us, 1, 0, 0)) == Refusal.BAD_VALUE
+    assert host.refusal(BeginStream(begin_us, 1, 10, 17)) == Refusal.BAD_VALUE
+    host.ask(BeginStream(begin_us, 2, 10, 0))
+    assert host.refusal(BeginStream(begin_us, 2, 10, 0)) == Refusal.BUSY
+    assert host.refusal(SetPoint.of(0, 15, [(0, 0)] * 3)) == Refusal.BAD_VALUE
+    assert host.refusal(SetPoint.of(0, 10, [(0, 0)] * 2)) == Refusal.WRONG_LENGTH
+    host.ask(Stop())
+    host.ask(ClearFault())
+    host.ask(MoveVelocity(0, 100, 500))
+    assert host.refusal(BeginStream(begin_us, 2, 10, 0)) == Refusal.BUSY
 
 
 def test_a_set_point_beyond_the_limits_halts(host):
-    row = points(host, 3, ahead_us=100_000)
+    row = streamed(host, 3, ahead_us=100_000)
     host.ask(row[0])
-    beyond = SetPoint(1, 1, row[1].time_us, 550_001, 0, 0)
+    beyond = SetPoint.of(1, 20, [(275_000, 0), (0, 0), (0, 0)])
     assert host.refusal(beyond) == Refusal.BAD_VALUE
     assert host.boards.boards[0].fault is Fault.SOFT_LIMIT
     host.live(0.3)
     assert host.commands() == [275_000, 275_000, Z]
 
 
+@pytest.mark.parametrize("index", [0, 1, 3])
+def test_a_set_point_that_no_axis_reaches_in_its_time_halts(host, index):
+    row = streamed(host, 5, ahead_us=200_000)
+    for segment in row[:index]:
+        assert host.ask(segment) is None
+    # At 10 mm/s 1000 steps in 10 ms; the first one is where the axes stand.
+    leap = SetPoint.of(index, 20, [(2110, 0), (0, 0), (0, 0)])
+    assert host.refusal(leap) == Refusal.BAD_VALUE
+    assert host.boards.boards[0].fault is Fault.TOO_FAST
+    host.live(0.4)
+    assert host.commands() == [275_000, 275_000, Z]
+
+
 def thrust(host, *segments, board=2, axis=2, trigger=0):
-    check = crc_hqx(b"".join(one.packed() for one in segments), 0xFFFF)
-    said = [BeginProfile(axis, len(segments)), *segments, ArmProfile(trigger, check)]
-    answers = [host.ask(one, board) for one in said]
+    answers = [host.ask(one, board) for one in profile_of(axis, segments, trigger)]
     assert all(isinstance(one, Done) for one in answers), answers
 
 
@@ -296,7 +344,9 @@ def test_a_thrust_is_followed_at_the_boards_own_rate(host):
     """50 µm in 50 ms, out and back: 5 mm/s is what the axis may go at most."""
     host.ask(MoveTo(2, 5000, 5_000_000), 2)
     host.live(0.3)
-    thrust(host, Segment(0, 50_000, 0, 150_000, -100_000), Segment(1, 50_000, 0, -150_000, 100_000))
+    share = np.arange(101) / 100  # of 50 ms, at ticks of 0.5 ms
+    out = 50_000 * (3.0 * share**2 - 2.0 * share**3)
+    thrust(host, *segments_of(np.append(out, out[-2::-1])))
     assert host.telemetry(2).state == State.ARMED
     host.ask(Capture(4, 500, 400), 2, within_s=0.005)
     host.ask(TriggerProfile(), 2, within_s=0.01)
@@ -311,7 +361,7 @@ def test_a_thrust_is_followed_at_the_boards_own_rate(host):
 
 
 def test_a_button_triggers_and_a_profile_can_be_given_up(host):
-    slow = Segment(0, 1_000_000, 10_000, 0, 0)
+    slow = Quadratic(2000, 5 << 16, 0)  # 10 000 steps in a second
     thrust(host, slow, trigger=1)
     assert host.refusal(TriggerProfile(), 2) == Refusal.OUT_OF_ORDER
     host.boards.set_inputs((0, 0, 0), 1, board=2)
@@ -325,7 +375,7 @@ def test_a_button_triggers_and_a_profile_can_be_given_up(host):
 
 
 def test_a_profile_beyond_the_limits_is_held_there(host):
-    thrust(host, Segment(0, 100_000, 40_000, 0, 0))
+    thrust(host, Quadratic(200, 200 << 16, 0))
     host.ask(TriggerProfile(), 2)
     host.live(0.2)
     sample = host.telemetry(2)
@@ -334,9 +384,9 @@ def test_a_profile_beyond_the_limits_is_held_there(host):
 
 
 def test_a_profile_too_fast_or_damaged_is_not_armed(host):
-    one = Segment(0, 1000, 50_000, 0, 0)
+    one = Segments.of(0, [Quadratic(2, 25_000 << 16, 0)])
     host.ask(BeginProfile(2, 1), 2)
-    assert host.refusal(Segment(1, 1000, 0, 0, 0), 2) == Refusal.OUT_OF_ORDER
+    assert host.refusal(Segments.of(1, [Quadratic(2, 0, 0)]), 2) == Refusal.OUT_OF_ORDER
     host.ask(one, 2)
     check = crc_hqx(one.packed(), 0xFFFF)
     assert host.refusal(ArmProfile(0, check), 2) == Refusal.BAD_VALUE
@@ -352,7 +402,17 @@ _orders = st.one_of(
     st.builds(Stop),
     st.builds(ClearFault),
     st.builds(
-        SetPoint, st.just(0), st.integers(0, 3), st.integers(0, 2**32 - 1), _near, _near, _near
+        BeginStream,
+        st.integers(0, 2**32 - 1),
+        st.integers(0, 3),
+        st.integers(0, 9),
+        st.integers(0, 17),
+    ),
+    st.builds(
+        SetPoint.of,
+        st.integers(0, 2),
+        st.integers(0, 500),
+        st.lists(st.tuples(_near | _any, st.integers(-(2**23), 2**23 - 1)), max_size=3),
     ),
     st.builds(BeginProfile, _axes, st.just(1)),
     st.builds(TriggerProfile),
@@ -374,9 +434,8 @@ def test_limits_are_kept_whatever_is_said(hosts, orders):
 
 
 def test_a_stream_and_a_profile_lie_in_the_same_memory(host):
-    thrust(host, Segment(0, 100_000, 1000, 0, 0), board=1, axis=0)
-    row = points(host, 3, ahead_us=100_000)
-    host.ask(row[0])
+    thrust(host, Quadratic(200, 5 << 16, 0), board=1, axis=0)
+    streamed(host, 3, ahead_us=100_000)
     assert host.refusal(TriggerProfile()) == Refusal.OUT_OF_ORDER
     assert host.refusal(BeginProfile(0, 1)) == Refusal.BUSY
     assert host.telemetry().state & State.ARMED == 0

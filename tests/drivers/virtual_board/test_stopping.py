@@ -5,7 +5,7 @@ import pytest
 
 from rotemina.drivers.mc68hc11.codes import Fault
 from rotemina.drivers.mc68hc11.framing import STOP_BYTES
-from rotemina.drivers.mc68hc11.requests import MoveVelocity, Watch
+from rotemina.drivers.mc68hc11.requests import BeginStream, MoveVelocity, SetPoint, Watch
 from rotemina.drivers.virtual_board.boards import TICK_S
 from rotemina.drivers.virtual_board.faults import inject
 
@@ -49,6 +49,25 @@ def test_after_a_stop_the_next_tick_is_slower_and_the_last_step_comes_in_time(ru
     assert slower_s <= BYTE_S + 2.0 * TICK_S
     assert last_s <= BYTE_S + BRAKING_S + 2.0 * TICK_S
     assert running.boards.boards[0].fault is Fault.STOPPED
+
+
+@pytest.mark.parametrize("phase_s", [0.0, 1e-4, 2.7e-4, 4.3e-4])
+@pytest.mark.parametrize("playing", [False, True])
+def test_the_last_pulse_comes_one_tick_after_the_time_that_braking_takes(hosts, phase_s, playing):
+    host = hosts().patient()
+    if playing:
+        host.say(BeginStream(host.now_us() + 50_000 & 0xFFFF_FFFF, 100, 10, 0))
+        for index in range(40):  # at SPEED
+            host.say(SetPoint.of(index, 10, [(250 if index else 0, 0), (0, 0), (0, 0)]))
+            host.live(0.003)
+    else:
+        host.say(MoveVelocity(0, SPEED, 5000))
+        host.live(0.1)
+    host.live(phase_s)
+    host.write(STOP_BYTES)
+    host.live(0.1)
+    (note,) = host.boards.notes.stops
+    assert 0.8 * BRAKING_S < note.rest_s - note.heard_s <= BRAKING_S + TICK_S + 1e-9
 
 
 def test_a_line_held_at_space_is_a_stop(running):

@@ -69,7 +69,7 @@ def test_from_a_plan_to_a_calibration_that_is_on(qtbot, panel):
 @pytest.mark.slow
 def test_a_run_on_the_simulator_ends_in_a_result(qtbot, panel):
     _choose(panel, "zn")
-    panel.workbench.session.set_effects(
+    panel.workbench.session.service.set_effects(
         [AxisEffect(axis="zn", id="sensor_gain", parameters={"error": 0.02})]
     )
     panel.procedure.runs.setValue(3)

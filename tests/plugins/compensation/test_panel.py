@@ -10,14 +10,10 @@ from shiboken6 import isValid
 from rotemina.app.motion.state import PlaybackFinished
 from rotemina.app.shell.workbench import Run
 from rotemina.plugins.compensation.learning import Learned, learned_from
-from rotemina.plugins.compensation.trial import NAME, Aid, trial_motion, trial_of
+from rotemina.plugins.compensation.trial_motion import NAME, Aid, trial_motion, trial_of
 from rotemina.plugins.compensation.words import (
-    KINDS,
-    REASONS,
-    WHY,
     exceedance_text,
     judged,
-    micro,
     residual_text,
 )
 from rotemina.sim.comparison.comparison import compare
@@ -25,7 +21,7 @@ from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.file import Provenance, write_trained
 from rotemina.sim.compensate.inverse import Exceedance
-from rotemina.sim.compensate.judgement import NAMES, Residual, recommended
+from rotemina.sim.compensate.judgement import Residual
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.compensate.training import Trained
 from rotemina.sim.records.record import Record, Tap
@@ -59,8 +55,7 @@ def _learned():
     models = {kind: _model(kind) for kind in ("prandtl_ishlinskii", "linear")}
     left_ = Residual(5e-8, 5e-8, 2e-7, 8e-4, 6e-7, 0.0, 0.0)
     residuals = {"prandtl_ishlinskii": left_, "linear": replace(left_, rms=2e-6, share=0.03)}
-    why = "Prandtl–Ishlinskii leaves 0.080%"
-    trained = Trained(models, residuals, "prandtl_ishlinskii", why, ("Mind the gap.",))
+    trained = Trained(models, residuals, "prandtl_ishlinskii", ("Mind the gap.",))
     provenance = Provenance(robot=ROBOT.name, trained_on=[], held_out=[], seed=0, versions={})
     return Learned(trained, provenance, {})
 
@@ -117,8 +112,8 @@ def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
     controls.axis.setCurrentIndex(2)
     qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
     controls.switch.click()
-    qtbot.waitUntil(lambda: "zn" in session.compensated, timeout=LONG_MS)
-    assert session.compensated["zn"].name == "Prandtl–Ishlinskii, zn.json"
+    qtbot.waitUntil(lambda: "zn" in session.inverses.applied, timeout=LONG_MS)
+    assert session.inverses.applied["zn"].name == "Prandtl–Ishlinskii, zn.json"
     qtbot.waitUntil(lambda: controls.switch.text() == "Take off", timeout=LONG_MS)
     qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
 
@@ -141,7 +136,7 @@ def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
         qtbot.waitUntil(lambda told=told: "rms, mean" in told.text(), timeout=LONG_MS)
 
     controls.switch.click()
-    qtbot.waitUntil(lambda: session.compensated == {}, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: session.inverses.applied == {}, timeout=LONG_MS)
 
 
 def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_taken_off(
@@ -149,7 +144,7 @@ def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_tak
 ):
     controls, session, search = panel.controls, panel.workbench.session, panel.search
     controls.axis.setCurrentIndex(2)
-    qtbot.waitUntil(lambda: "there is no front yet" in controls.apply.toolTip(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "there is no front yet" in controls.keep.toolTip(), timeout=LONG_MS)
     controls.generations.setValue(60)
     panel.tune()
     qtbot.waitUntil(lambda: "generations" in controls.doing.text(), timeout=LONG_MS)
@@ -167,18 +162,18 @@ def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_tak
     search.keep(tmp_path / "zn.toml")
     qtbot.waitUntil(lambda: search.name == "zn.toml", timeout=LONG_MS)
 
-    search.tuning = None
+    search.name = ""  # not the tuning: the point's step may still be on its way
     search.open(tmp_path / "zn.toml")
-    qtbot.waitUntil(lambda: search.tuning is not None, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: search.name == "zn.toml", timeout=LONG_MS)
     assert search.tuning.chosen == 0
     qtbot.waitUntil(controls.apply.isEnabled, timeout=LONG_MS)
     controls.apply.click()
-    qtbot.waitUntil(lambda: "zn" in session.regulated, timeout=LONG_MS)
-    assert session.regulated["zn"].name == "zn.toml, point 0"
+    qtbot.waitUntil(lambda: "zn" in session.loops.applied, timeout=LONG_MS)
+    assert session.loops.applied["zn"].name == "zn.toml, point 0"
     qtbot.waitUntil(lambda: controls.apply.text() == "Take loop off", timeout=LONG_MS)
     qtbot.waitUntil(controls.apply.isEnabled, timeout=LONG_MS)
     controls.apply.click()
-    qtbot.waitUntil(lambda: session.regulated == {}, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: session.loops.applied == {}, timeout=LONG_MS)
 
     # Gains that are not stable on the axis are never applied.
     best = search.tuning.best
@@ -188,19 +183,50 @@ def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_tak
     panel.workbench.noticed.connect(lambda *notice: told.append(notice))
     panel.actuation.apply(search.tuning, "bad.toml")
     qtbot.waitUntil(lambda: any("nothing was applied" in str(one) for one in told), timeout=LONG_MS)
-    assert session.regulated == {}
+    assert session.loops.applied == {}
+    shown = controls.typed.fields["integral"].text()
+    assert float(shown) == pytest.approx(best.gains.integral, rel=1e-5)
+
+
+def test_typed_gains_are_held_against_their_bounds_and_then_against_the_axis(qtbot, panel):
+    controls, session, told = panel.controls, panel.workbench.session, []
+    panel.workbench.noticed.connect(lambda *notice: told.append(notice))
+    controls.axis.setCurrentIndex(2)
+    qtbot.waitUntil(controls.apply.isEnabled, timeout=LONG_MS)
+    fields = controls.typed.fields
+    controls.typed.show_gains("zn", None)  # whatever a search before found
+    assert float(fields["integral"].text()) > 0.0  # usual ones of the axis
+    for typed, why in (
+        ("1e9", "gain I = '1e9': must be a number from 0 to "),
+        ("x", "gain I = 'x'"),
+        (f"{2 * np.pi * 700:.1f}", "nothing was applied"),
+    ):
+        told.clear()
+        fields["integral"].clear()
+        qtbot.keyClicks(fields["integral"], typed)
+        panel.actuation.apply(None, "")
+        qtbot.waitUntil(lambda why=why: any(why in str(one) for one in told), timeout=LONG_MS)
+    assert session.loops.applied == {}
+    fields["integral"].clear()
+    qtbot.keyClicks(fields["integral"], "60")
+    controls.apply.click()
+    qtbot.waitUntil(lambda: "zn" in session.loops.applied, timeout=LONG_MS)
+    assert ", I 60, " in session.loops.applied["zn"].name
+    assert session.loops.applied["zn"].regulation.gains.integral == 60.0
+    session.loops.remove("zn")
+    qtbot.waitUntil(lambda: session.loops.applied == {}, timeout=LONG_MS)
 
 
 def test_a_trial_waits_until_nobody_drives_the_axis(qtbot, panel):
     controls, session = panel.controls, panel.workbench.session
     controls.axis.setCurrentIndex(2)
     qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
-    session.reserve("somebody")
+    session.reservations.reserve("somebody")
     said = "is still driven by somebody; wait, or stop it"
     for button in (controls.trial, controls.sweep, controls.apply):
         qtbot.waitUntil(lambda button=button: said in button.toolTip(), timeout=LONG_MS)
         assert not button.isEnabled()
-    session.set_free("somebody")
+    session.reservations.set_free("somebody")
     qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
     assert "no inverse is on" in controls.sweep.toolTip()
 
@@ -209,8 +235,8 @@ def test_a_trial_waits_until_nobody_drives_the_axis(qtbot, panel):
 def test_before_and_after_on_the_simulated_machine(qtbot, panel):
     controls, session = panel.controls, panel.workbench.session
     width = {"width": 0.12 * SPAN}
-    session.set_effects([AxisEffect(axis="zn", id="hysteresis", parameters=width)])
-    qtbot.waitUntil(lambda: bool(session.effects), timeout=LONG_MS)
+    session.service.set_effects([AxisEffect(axis="zn", id="hysteresis", parameters=width)])
+    qtbot.waitUntil(lambda: bool(session.service.effects), timeout=LONG_MS)
     controls.axis.setCurrentIndex(2)
     panel.learn_simulated()
     qtbot.waitUntil(lambda: panel.learned is not None, timeout=4 * LONG_MS)
@@ -218,7 +244,7 @@ def test_before_and_after_on_the_simulated_machine(qtbot, panel):
         if by is Aid.INVERSE:
             qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
             controls.switch.click()
-            qtbot.waitUntil(lambda: "zn" in session.compensated, timeout=LONG_MS)
+            qtbot.waitUntil(lambda: "zn" in session.inverses.applied, timeout=LONG_MS)
         qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
         controls.trial.click()
         qtbot.waitUntil(lambda by=by: by in panel.actuation.trials, timeout=LONG_MS)
@@ -285,26 +311,10 @@ def test_a_stopped_training_raises_where_it_tells():
 def test_words():
     learned = _learned()
     rows = judged(learned.trained)
-    assert rows[0] == ("Prandtl–Ishlinskii ◂", "50 nm", "0.2 µm", "0.08%")
+    assert rows[0] == ("Prandtl–Ishlinskii ◂", "50 nm", "200 nm", "0.08 %")
     assert rows[1][0] == "linear"
     assert residual_text(None, "m") == "–"
-    assert micro(-1.5e-6, "rad") == "-1.5 µrad"
     assert exceedance_text(Exceedance(0)) == ""
     assert exceedance_text(Exceedance.FAST | Exceedance.COMMAND) == (
-        "It has been faster than it saw, at an end of the machine's range (clamped)."
+        "It has been faster than it was trained, at an end of the machine's range (clamped)."
     )
-
-
-def test_reasons_of_the_model_are_known_by_their_sentences():
-    own = Residual(5e-8, 5e-8, 2e-7, 8e-4, 6e-7, 0.0, 0.0)
-    found = dict.fromkeys(NAMES, own)
-    for one_size in (False, True):
-        _, why = recommended(found, one_size=one_size)
-        match = WHY.fullmatch(why)
-        assert match is not None
-        assert {
-            match["kind"],
-            *(one.rpartition(" ")[0] for one in match["others"].split(", ")),
-        } == {*NAMES.values()}
-        assert match["more"] is None or match["more"] in REASONS
-    assert {name for name in NAMES.values() if name[0].islower()} == set(KINDS)

@@ -9,7 +9,6 @@ from rotemina.drivers import registry
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.plugins.connection import device as device_module
-from rotemina.plugins.connection import ports as ports_module
 
 LONG_MS = 30_000
 
@@ -17,8 +16,8 @@ LONG_MS = 30_000
 @pytest.fixture(autouse=True)
 def no_real_ports(monkeypatch):
     """Tests know which serial ports there are."""
-    found = [ports_module.OfferedPort("/dev/ttyTEST0", "a <b>cable</b>")]
-    monkeypatch.setattr(ports_module, "serial_ports", lambda: found)
+    found = [device_module.OfferedPort("/dev/ttyTEST0", "a <b>cable</b>")]
+    monkeypatch.setattr(device_module, "serial_ports", lambda: found)
 
 
 @pytest.fixture
@@ -52,7 +51,7 @@ def test_a_homed_simulator_is_ready(qtbot, window, panel):
     assert panel.state.phase.property("tone") == "good"
     assert panel.state.reason.text() == "Motion is possible."
     assert not panel.state.release.isEnabled()
-    assert "no emergency stop is latched" in panel.state.release.toolTip()
+    assert "nothing is locked" in panel.state.release.toolTip()
     assert "no line" in panel.line.text.text()
 
 
@@ -99,7 +98,7 @@ def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
 def test_a_move_is_taken_back(qtbot, window, panel, press):
     session = window.workbench.session
     phase_is(qtbot, panel, "ready")
-    assert "no move to take back" in panel.position.back.toolTip()
+    assert "no move to undo" in panel.position.back.toolTip()
     start = session.snapshot().command["zn"]
     window.workbench.jog("zn", 1e-6)
     press(panel.position.back)
@@ -118,7 +117,7 @@ def test_a_floor_is_taught_after_a_question_that_names_both_heights(qtbot, windo
     assert "none yet" in tip.question.text.text()
     qtbot.mouseClick(tip.question.no, Qt.MouseButton.LeftButton)
     assert tip.question.isHidden()
-    assert not session.keep_out.bounded
+    assert not session.bounds.keep_out.bounded
     press(tip.teach)
     qtbot.mouseClick(tip.question.yes, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: tip.figures.values["Floor"].text() == shown, timeout=LONG_MS)
@@ -138,6 +137,36 @@ def test_a_question_is_withdrawn_when_the_tip_moves(qtbot, window, panel, press)
     window.workbench.jog("z", 1e-4)
     qtbot.waitUntil(panel.tip.question.isHidden, timeout=LONG_MS)
     assert "no floor was taught" in notices(window)
+
+
+def test_a_voltage_is_put_out_after_a_question_that_says_where_it_leads(
+    qtbot, window, panel, press
+):
+    session, voltage = window.workbench.session, panel.voltage
+    phase_is(qtbot, panel, "ready")
+    assert [voltage.axis.itemText(i) for i in range(voltage.axis.count())] == ["θx", "θy", "Z nano"]
+    voltage.axis.setCurrentIndex(2)
+    voltage.volts.setValue(1000.0)
+    assert voltage.volts.value() == 130.0
+    voltage.volts.setValue(80.0)
+    before = session.snapshot().command["zn"]
+    press(voltage.apply)
+    assert voltage.question.isVisibleTo(panel)
+    assert "80 V to Z nano" in voltage.question.text.text()
+    assert "40.000 µm" in voltage.question.text.text()
+    voltage.volts.setValue(81.0)  # another one than was asked about
+    assert voltage.question.isHidden()
+    press(voltage.apply)
+    qtbot.mouseClick(voltage.question.no, Qt.MouseButton.LeftButton)
+    assert session.snapshot().command["zn"] == before
+    press(voltage.apply)
+    qtbot.mouseClick(voltage.question.yes, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: abs(session.snapshot().command["zn"] - 40.5e-6) < 1e-9, timeout=LONG_MS)
+    press(voltage.apply)
+    window.workbench.jog("x", 1e-2)  # nothing is put out in motion
+    qtbot.waitUntil(voltage.question.isHidden, timeout=LONG_MS)
+    assert "still moving" in voltage.apply.toolTip()
+    window.workbench.stop()
 
 
 @pytest.mark.parametrize("way", ["write", "accept"])
@@ -167,11 +196,11 @@ def test_a_device_that_cannot_be_opened_leaves_a_window_with_the_reason(
     qtbot.waitUntil(lambda: "port <COM9>" in notices(window), timeout=LONG_MS)
     assert panel.state.reason.textFormat() is Qt.TextFormat.PlainText
     assert not panel.position.home_all.isEnabled()
-    qtbot.waitUntil(window._bar.reconnect.isVisible, timeout=LONG_MS)
+    qtbot.waitUntil(window._bar.help.isVisible, timeout=LONG_MS)
     window.workbench.session.driver.plugged_in = True
-    press(window._bar.reconnect)
+    press(window._bar.help)
     phase_is(qtbot, panel, "ready")
-    qtbot.waitUntil(lambda: not window._bar.reconnect.isVisible(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: not window._bar.help.isVisible(), timeout=LONG_MS)
 
 
 def test_a_lost_connection_is_distrusted_until_confirmed(qtbot, make_robot_window, press, losing):

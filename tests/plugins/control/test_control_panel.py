@@ -1,13 +1,17 @@
 """The control menu: every way to move an axis, and when it is refused."""
 
 import re
+from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, Qt
+from PySide6.QtCore import QEvent, QPoint, QRect, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QApplication
 
+from rotemina.app.motion.backlash import Approach
+from rotemina.app.range_settings import kept_ranges
 from rotemina.drivers.samples import DeviceState
 
 LONG_MS = 30_000
@@ -145,6 +149,40 @@ def test_the_palette_leaves_out_what_must_be_held(qtbot, window):
     qtbot.waitUntil(lambda: lengths <= offered(), timeout=LONG_MS)
 
 
+def changed_step_by_step(qtbot, window, page, begin):
+    """Set load and work, change the pin by the guide; a stop and a lock stand in between."""
+    session = window.workbench.session
+    for name, at in (("load", begin["x"] + 2e-4), ("work", begin["x"])):
+        session.go_to({"x": at})
+        qtbot.waitUntil(lambda at=at: settled_at(session, "x", at, 1e-5), timeout=LONG_MS)
+        qtbot.waitUntil(page.places[name].isEnabled, timeout=LONG_MS)
+        page.places[name].click()
+        assert page.places[name].text() == "Set here?"
+        page.places[name].click()
+    assert page.positions.kept["work"]["x"] == pytest.approx(begin["x"])
+    page.change.click()
+    guide = page._guide
+    for number in range(7):
+        qtbot.waitUntil(guide.do.isEnabled, timeout=LONG_MS)
+        guide.do.click()
+        qtbot.waitUntil(lambda number=number: guide.at > number, timeout=LONG_MS)
+    floor = float("-inf")
+    qtbot.waitUntil(guide.do.isEnabled, timeout=LONG_MS)
+    guide.do.click()
+    window.workbench.stop()  # withdraws the question
+    guide.do.click()
+    assert session.bounds.keep_out.floor == floor
+    qtbot.waitUntil(lambda: guide.do.text() == "Teach here?" and guide.do.isEnabled())
+    guide.do.click()
+    qtbot.waitUntil(lambda: session.bounds.keep_out.floor > floor, timeout=LONG_MS)
+    qtbot.waitUntil(guide.isHidden, timeout=LONG_MS)
+    state = session.snapshot()
+    assert state.command["z"] == session.robot.axes["z"].range[1]  # nothing came down by itself
+    assert state.command["x"] == pytest.approx(begin["x"])
+    assert state.latched is None
+    session.bounds.clear_floor()
+
+
 def test_the_pages_keep_positions_change_modes_and_arm(qtbot, window, panel):
     session, page = window.workbench.session, panel.positions
     panel.tabs.setCurrentIndex(1)
@@ -164,6 +202,7 @@ def test_the_pages_keep_positions_change_modes_and_arm(qtbot, window, panel):
         qtbot.mouseClick(page.delete, Qt.MouseButton.LeftButton)
         assert page.names.count() == presses_left
     assert not page.positions.kept
+    changed_step_by_step(qtbot, window, page, begin)
     panel.tabs.setCurrentIndex(0)
     operation = window.workbench.operation
     qtbot.mouseClick(panel.hand.modes["nano"], Qt.MouseButton.LeftButton)
@@ -182,7 +221,7 @@ def test_the_pages_keep_positions_change_modes_and_arm(qtbot, window, panel):
     qtbot.waitUntil(lambda: page.arm.text() == "Disarm", timeout=LONG_MS)
     assert page.button.isEnabled()
     assert page.phase.text().startswith("armed")
-    qtbot.waitUntil(lambda: panel.rows["x"].status.text().startswith("penetration"))
+    qtbot.waitUntil(lambda: session.snapshot().owners.get("x", "").startswith("penetration"))
     qtbot.mouseClick(page.arm, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: page.arm.text() == "Arm", timeout=LONG_MS)
 
@@ -209,7 +248,73 @@ def test_a_stop_withdraws_that_a_position_is_deleted(qtbot, panel, window):
     page.name.setText("bench")
     page._keep()
     page._delete()
-    assert page.delete.text() == "Sure?"
+    assert page.delete.text() == "Delete it?"
     bench.stop()
     page._delete()
     assert "bench" in page.positions.kept
+
+
+def test_cards_have_large_digits_and_labelled_ends_where_there_is_room(qtbot, window, panel):
+    row, session = panel.rows["zn"], window.workbench.session
+    parts = [row.status, row.difference, row._readout, row._bar, row.go, row.left]
+
+    def all_in_sight():
+        below = row.mapTo(panel, QPoint(0, row.height())).y()
+        places = [QRect(one.mapTo(row, QPoint()), one.size()) for one in parts]
+        assert below <= panel.tabs.mapTo(panel, QPoint()).y()
+        assert all(row.rect().contains(place) for place in places), places
+        assert not any(one.intersects(two) for one, two in combinations(places, 2)), places
+
+    for width, height, digits, roomy in ((1920, 1080, 30, True), (1280, 800, 17, False)):
+        window.resize(width, height)
+        qtbot.waitUntil(all_in_sight, timeout=LONG_MS // 3)
+        assert row._readout.font().pixelSize() == digits
+        track = row._bar.track()
+        assert (track.left() > 0 and track.right() < row._bar.width()) is roomy
+    assert row._bar.ends == ("0", "65 µm")
+    state = session.snapshot()
+    cases = (0.0, "plain", "+0.000"), (4.7e-6, "apart", "+4.700"), (-2.4e-5, "beyond", "-24.000")
+    for apart, grade, text in cases:
+        measured = {**state.measured, "zn": state.command["zn"] + apart}
+        row.refresh(replace(state, measured=measured, age_s=0.0))
+        assert (row.difference.property("grade"), row.difference.text()) == (grade, text)
+    row.show_range((2e-5, 4e-5), [(0.0, 1e-5)])
+    assert not row.grab().toImage().isNull()
+
+
+def test_a_range_is_narrowed_and_an_approach_is_chosen_on_the_page_of_axes(qtbot, window, panel):
+    session, page, row = window.workbench.session, panel.axes, panel.rows["x"]
+    panel.tabs.setCurrentIndex(panel.tabs.count() - 1)
+    qtbot.waitUntil(page.narrow.isEnabled, timeout=LONG_MS)
+    assert (page.low.text(), page.high.text()) == ("0.0000", "55.0000")
+    page.high.setText("55.1")
+    qtbot.mouseClick(page.narrow, Qt.MouseButton.LeftButton)
+    assert "outside its range 0 mm to 55 mm" in window.notices.notices()[0].text
+    page.low.setText("20")
+    page.high.setText("30.5")
+    qtbot.keyClick(page.high, Qt.Key.Key_Return)
+    assert session.ranges.narrowed == {"x": (0.02, 0.0305)}
+    assert kept_ranges(window.workbench.settings, session.robot) == {"x": (0.02, 0.0305)}
+    qtbot.waitUntil(lambda: "20.0000 mm … 30.5000 mm" in row._bar.toolTip(), timeout=LONG_MS)
+    assert row._bar._forbidden[:2] == ((0.0, 0.02), (0.0305, 0.055))
+    qtbot.waitUntil(page.whole.isEnabled, timeout=LONG_MS)
+    qtbot.mouseClick(page.whole, Qt.MouseButton.LeftButton)
+    assert session.ranges.narrowed == kept_ranges(window.workbench.settings, session.robot) == {}
+    assert page.high.text() == "55.0000"
+
+    page.width_field.setText("0.9")
+    page.side.setCurrentIndex(1)
+    page.side.activated.emit(1)
+    assert "at most 550 µm" in window.notices.notices()[0].text
+    assert page.side.currentData() is None  # what is in use, not what was refused
+    page.width_field.setText("0.02")
+    page.side.setCurrentIndex(1)
+    page.side.activated.emit(1)
+    assert session.backlash.applied == {"x": Approach(2e-5, rising=True)}
+    qtbot.waitUntil(lambda: row.name.text() == "X (↑)", timeout=LONG_MS)
+    qtbot.waitUntil(row.plus.isEnabled, timeout=LONG_MS)
+    qtbot.mouseClick(row.plus, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: row.name.text() == "X ↑", timeout=LONG_MS)
+    page.axis.setCurrentIndex(page.axis.findData("zn"))
+    page.refresh(session.snapshot())
+    assert not page.side.isEnabled()

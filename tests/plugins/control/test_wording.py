@@ -1,5 +1,6 @@
 """What the control menu says, and what a typed target means."""
 
+import numpy as np
 import pytest
 
 from rotemina.app.display import axis_scale
@@ -8,10 +9,13 @@ from rotemina.app.motion.state import SessionState
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.plugins.control.asking import SETTLE_S, Confirmation
+from rotemina.plugins.control.panel import forbidden
 from rotemina.plugins.control.wording import (
     age_text,
     bounds_text,
+    difference_text,
     echo,
+    grade_of,
     is_little,
     owners_text,
     range_tip,
@@ -23,6 +27,7 @@ from rotemina.plugins.control.wording import (
     typed,
     way,
 )
+from rotemina.sim.kinematics.keep_out import KeepOutZone
 from rotemina.sim.robot.file import load_robot
 
 ROBOT = load_robot("rotemina")
@@ -69,7 +74,7 @@ def test_what_matters_most_of_an_axis_is_said():
         age_s=0.1,
         owners={"x": "joystick"},
     )
-    assert status_text("x", driven, MM) == "joystick → 21.0000"
+    assert status_text("x", driven, MM) == "→ 21.0000"
     old = SessionState(measured={"x": 0.02}, command={"x": 0.0}, position_known=True, age_s=3.0)
     assert status_text("x", old, MM) == "3.0 s old"
     lost = SessionState(measured={"x": 0.02}, command={"x": 0.0}, age_s=3.0, unhomed=("x",))
@@ -78,13 +83,13 @@ def test_what_matters_most_of_an_axis_is_said():
 
 def test_what_is_left_of_a_piezo_is_the_way_to_the_nearer_end():
     low, high = ZN.range
-    assert room_left_text(high - 2e-6, ZN, UM) == "2.0 µm left"
-    assert room_left_text(low + 3e-6, ZN, UM) == "3.0 µm left"
-    assert room_left_text(high + 1e-6, ZN, UM) == "0.0 µm left"
-    assert room_left_text(None, ZN, UM) == ""
-    assert is_little(high - 2e-6, ZN)
-    assert not is_little((low + high) / 2, ZN)
-    assert "2.000 µm up" in range_tip("zn", high - 2e-6, ZN, UM)
+    assert room_left_text(high - 2e-6, ZN.range, UM) == "2.0 µm left"
+    assert room_left_text(low + 3e-6, ZN.range, UM) == "3.0 µm left"
+    assert room_left_text(high + 1e-6, ZN.range, UM) == "0.0 µm left"
+    assert room_left_text(None, ZN.range, UM) == ""
+    assert is_little(high - 2e-6, ZN.range)
+    assert not is_little((low + high) / 2, ZN.range)
+    assert "2.000 µm up" in range_tip("zn", high - 2e-6, ZN.range, UM)
 
 
 def test_owners_are_named_and_a_playback_cannot_be_taken_over():
@@ -101,14 +106,14 @@ def test_the_tip_is_told_over_its_floor():
     clock.advance(0.02)
     session.run_once()
     state = session.snapshot()
-    assert tip_short(state, session.keep_out) == "No floor taught"
-    assert "Nothing bounds the tip" in bounds_text(session.keep_out)
-    session.teach_floor(2e-4)
-    assert tip_short(state, session.keep_out) == "Tip over floor 0.2000 mm"
-    assert tip_text(state, session.keep_out).endswith("; slow zone.")
-    assert "0.5 mm/s at most" in bounds_text(session.keep_out)
+    assert tip_short(state, session.bounds.keep_out) == "No floor taught"
+    assert "Only the ranges of the axes bound the tip" in bounds_text(session.bounds.keep_out)
+    session.bounds.teach_floor(2e-4)
+    assert tip_short(state, session.bounds.keep_out) == "Tip over floor 0.2000 mm"
+    assert tip_text(state, session.bounds.keep_out).endswith("; slow zone.")
+    assert "500 µm/s at most" in bounds_text(session.bounds.keep_out)
     session.close()
-    assert tip_text(SessionState(), session.keep_out) == "Tip: unknown."
+    assert tip_text(SessionState(), session.bounds.keep_out) == "Tip: unknown."
     assert "no chain" in tip_text(state, None)
 
 
@@ -150,3 +155,29 @@ def test_another_target_or_another_place_is_another_question(session):
     assert not asked.take(0.8, 0.11, 40.0)
     asked.withdraw()
     assert not asked.take(0.8, 0.11, 50.0)
+
+
+@pytest.mark.parametrize(
+    ("floors", "grade"), [(0.0, "plain"), (2.9, "plain"), (-3.1, "apart"), (1e5, "beyond")]
+)
+def test_a_reading_apart_from_its_command_is_graded_by_the_sensors_floor(floors, grade):
+    plain = max(ZN.sensor.noise_floor, 2.0 / 3.0 * ZN.sensor.resolution)
+    assert grade_of(floors * plain, ZN) == grade
+    assert grade_of(-1.001 * ZN.following, ZN) == "beyond"
+
+
+def test_a_difference_has_a_sign_and_the_digits_of_its_reading():
+    assert difference_text(4.7e-6, UM) == "+4.700"
+    assert difference_text(-1.2e-8, UM) == "-0.012"
+
+
+def test_what_the_tips_bounds_forbid_begins_where_the_tip_would_reach_them():
+    command = {name: sum(axis.range) / 2 for name, axis in ROBOT.axes.items()}
+    zone = KeepOutZone.of(ROBOT)
+    height = zone.tip(np.array(list(command.values())))[2]
+    found = forbidden(ROBOT, zone.taught(height - 1e-3), command)
+    ((low, high),) = found["z"]
+    assert low == ROBOT.axes["z"].range[0]
+    assert high == pytest.approx(command["z"] - 1e-3, abs=1e-6)
+    assert "x" not in found
+    assert forbidden(ROBOT, None, command) == {}

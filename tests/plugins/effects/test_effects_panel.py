@@ -2,11 +2,13 @@
 
 import threading
 from importlib import resources
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFileDialog
 
-from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.service import Service
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.effects import panel as panel_module
@@ -38,7 +40,7 @@ def in_place(qtbot, session, panel):
     """Wait until the simulator does exactly this, and the panel knows."""
 
     def wait(*effects):
-        qtbot.waitUntil(lambda: session.effects == effects, timeout=LONG_MS)
+        qtbot.waitUntil(lambda: session.service.effects == effects, timeout=LONG_MS)
         qtbot.waitUntil(lambda: panel.chain.asked == effects, timeout=LONG_MS)
         qtbot.waitUntil(lambda: panel.live._sent is None, timeout=LONG_MS)
 
@@ -48,7 +50,7 @@ def in_place(qtbot, session, panel):
 @pytest.fixture
 def loop(session, panel, in_place):
     """The panel with hysteresis on θx."""
-    session.set_effects([LOOP])
+    session.service.set_effects([LOOP])
     in_place(LOOP)
     return panel
 
@@ -113,8 +115,11 @@ def test_hysteresis_parts_the_measurement_from_the_model_line_until_all_is_off(
     qtbot.waitUntil(lambda: gap(session, "thx") < 2e-6, timeout=LONG_MS)
     assert loop.chain.asked == (LOOP,)
     assert loop.status.text() == "1 effect, all off"
-    qtbot.mouseClick(loop.all_off, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: session.effects == (LOOP,), timeout=LONG_MS)
+    tick = loop.table.item(0, 0)
+    assert tick.checkState() is Qt.CheckState.Unchecked
+    tick.setCheckState(Qt.CheckState.Checked)  # what is ticked acts
+    qtbot.waitUntil(lambda: session.service.effects == (LOOP,), timeout=LONG_MS)
+    assert not loop.all_off.isChecked()
 
 
 def test_the_menu_is_grouped_by_stage_with_summaries_as_tooltips(panel):
@@ -155,9 +160,11 @@ def test_what_is_refused_is_told_with_its_bound_and_marked(
     assert reason.format(high=field.quantity.number(field.quantity.high)) in newest_notice(window)
     assert field.not_applied
     assert field.edit.text() == text
-    assert session.effects == (LOOP,)
+    assert session.service.effects == (LOOP,)
     loop.editor.fields["shape"].slider.setValue(0)
-    qtbot.waitUntil(lambda: list(session.effects[0].parameters) == ["shape"], timeout=LONG_MS)
+    qtbot.waitUntil(
+        lambda: list(session.service.effects[0].parameters) == ["shape"], timeout=LONG_MS
+    )
     assert field.not_applied
     type_in(qtbot, field, "100")
     assert not field.not_applied
@@ -165,7 +172,7 @@ def test_what_is_refused_is_told_with_its_bound_and_marked(
 
 def test_leaving_a_field_changes_nothing(qtbot, session, loop, in_place):
     odd = AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.23456789e-4})
-    session.set_effects([odd])
+    session.service.set_effects([odd])
     in_place(odd)
     field = loop.editor.fields["width"]
     qtbot.keyClick(field.edit, Qt.Key.Key_Return)
@@ -222,7 +229,7 @@ def test_the_panel_takes_no_more_height_than_the_others(window, panel):
 
 def test_another_formulation_and_another_source(qtbot, session, panel, in_place):
     leak = AxisEffect(axis="zn", id="cross_coupling", from_axis="z", parameters={"k": 0.5})
-    session.set_effects([leak])
+    session.service.set_effects([leak])
     in_place(leak)
     editor = panel.editor
     editor.formulation.setCurrentIndex(editor.formulation.findData("mode"))
@@ -239,13 +246,13 @@ def test_another_formulation_and_another_source(qtbot, session, panel, in_place)
     assert editor.fields["k"].quantity.unit == ""
     editor.source.setCurrentIndex(editor.source.findData("thx"))
     editor.source.activated.emit(editor.source.currentIndex())
-    qtbot.waitUntil(lambda: session.effects[0].from_axis == "thx", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: session.service.effects[0].from_axis == "thx", timeout=LONG_MS)
     assert editor.fields["k"].quantity.unit == "m/rad"
 
 
 def test_effects_of_one_stage_change_places(qtbot, session, panel, in_place):
     mode, rub = AxisEffect(axis="x", id="flexible_mode"), AxisEffect(axis="x", id="friction")
-    session.set_effects([mode, rub])
+    session.service.set_effects([mode, rub])
     in_place(mode, rub)
     assert not panel.up.isEnabled()
     qtbot.mouseClick(panel.down, Qt.MouseButton.LeftButton)
@@ -272,8 +279,9 @@ def test_the_robot_is_saved_and_its_effects_are_loaded(
 
 def test_a_save_dialog_asks_before_it_replaces_a_file(panel):
     panel._ask_save()
-    (dialog,) = panel.findChildren(panel_module.QFileDialog)
-    assert not dialog.testOption(panel_module.QFileDialog.Option.DontConfirmOverwrite)
+    (dialog,) = panel.findChildren(QFileDialog)
+    assert not dialog.testOption(QFileDialog.Option.DontConfirmOverwrite)
+    assert (Path(dialog.directory().absolutePath()) / "six_axis_tour.csv").is_file()
     assert dialog.defaultSuffix() == "toml"
     dialog.reject()
 
@@ -288,7 +296,7 @@ def test_effects_that_do_not_fit_or_are_none_leave_the_list(
     loop.load_effects(path)
     wanted = "no such axis" if robot == "picma" else "has no effects"
     qtbot.waitUntil(lambda: wanted in newest_notice(window), timeout=LONG_MS)
-    assert loop.chain.asked == session.effects == (LOOP,)
+    assert loop.chain.asked == session.service.effects == (LOOP,)
 
 
 def shipped_text(robot):
@@ -308,11 +316,11 @@ def test_what_takes_long_is_prepared_while_the_window_lives(qtbot, window, sessi
         choose(panel.add.menu(), "θx", "Hysteresis").trigger()
         qtbot.waitUntil(lambda: panel.status.text() == "preparing …", timeout=LONG_MS)
         qtbot.waitSignals([window.workbench.refreshed] * 3, timeout=LONG_MS).wait()
-        assert session.effects == ()
+        assert session.service.effects == ()
     finally:
         gate.set()
     qtbot.waitUntil(lambda: panel.status.text() == "1 effect, 1 on", timeout=LONG_MS)
-    assert session.effects == (LOOP,)
+    assert session.service.effects == (LOOP,)
 
 
 def test_what_the_simulator_refuses_later_is_shown_as_not_applied(qtbot, window, session, loop):
@@ -328,12 +336,12 @@ def test_what_the_simulator_refuses_later_is_shown_as_not_applied(qtbot, window,
     qtbot.waitUntil(lambda: loop.status.text() == "Not applied: unstable with it", timeout=LONG_MS)
     assert field.not_applied
     assert newest_notice(window) == "unstable with it"
-    assert session.effects == (LOOP,)
+    assert session.service.effects == (LOOP,)
     driver._set_effects = plain
     loop.editor.fields["shape"].slider.setValue(0)
     qtbot.waitUntil(lambda: not field.not_applied, timeout=LONG_MS)
     assert loop.status.text() == "1 effect, 1 on"
-    assert session.effects[0].parameters["width"] == 2e-4
+    assert session.service.effects[0].parameters["width"] == 2e-4
 
 
 def test_broken_effects_are_named_and_left_out(make_robot_window, monkeypatch):
@@ -350,7 +358,7 @@ def test_broken_effects_are_named_and_left_out(make_robot_window, monkeypatch):
 
 
 def test_a_real_machine_has_effects_of_its_own(make_robot_window, monkeypatch):
-    monkeypatch.setattr(MotionSession, "effects", property(lambda self: None))
+    monkeypatch.setattr(Service, "effects", property(lambda self: None))
     panel = make_robot_window().panels["effects"]
     assert panel.status.text() == REAL_MACHINE
     for widget in (panel.add, panel.load, panel.save, panel.all_off, panel.table):
@@ -360,13 +368,13 @@ def test_a_real_machine_has_effects_of_its_own(make_robot_window, monkeypatch):
 def test_the_panel_follows_from_the_simulator_to_a_real_machine_and_back(
     qtbot, window, loop, monkeypatch
 ):
-    before = MotionSession.effects
+    before = Service.effects
     with monkeypatch.context() as patch:
-        patch.setattr(MotionSession, "effects", property(lambda self: None))
+        patch.setattr(Service, "effects", property(lambda self: None))
         qtbot.waitUntil(lambda: loop.status.text() == REAL_MACHINE, timeout=LONG_MS)
         qtbot.waitUntil(lambda: not loop.add.isEnabled(), timeout=LONG_MS)
         assert loop.table.rowCount() == 0
-    assert MotionSession.effects is before
+    assert Service.effects is before
     qtbot.waitUntil(loop.add.isEnabled, timeout=LONG_MS)
     assert loop.chain.asked == (LOOP,)
 

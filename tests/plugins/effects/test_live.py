@@ -25,6 +25,10 @@ class Session:
     refusal: str = ""
     tell: object = None
 
+    @property
+    def service(self):
+        return self
+
     def set_effects(self, effects):
         if self.refusal:
             raise RefusedError(self.refusal)
@@ -66,7 +70,7 @@ def send(qtbot, live, session, effects):
 def test_what_was_taken_is_applied(qtbot, live, session):
     send(qtbot, live, session, FIRST)
     assert live.apply_state is ApplyState.UNDER_WAY
-    session.effects = FIRST
+    session.service.effects = FIRST
     cycles(live, 1.0)
     assert live.apply_state is ApplyState.APPLIED
 
@@ -77,7 +81,7 @@ def test_while_one_change_is_under_way_only_the_newest_waits(qtbot, live, sessio
         live.ask(effects)
         qtbot.waitUntil(lambda: not live._pause.isActive())
     assert session.asked == [FIRST]
-    session.effects = FIRST
+    session.service.effects = FIRST
     cycles(live, 1.0)
     assert session.asked == [FIRST, THIRD]
     assert live.apply_state is ApplyState.UNDER_WAY
@@ -94,7 +98,7 @@ def test_what_takes_long_is_being_prepared(qtbot, live, session, monkeypatch):
     send(qtbot, live, session, FIRST)
     cycles(live, 1.0, 1.0, 1.0, 1.0)  # the worker is busy: no new samples
     assert live.apply_state is ApplyState.PREPARING
-    session.effects = FIRST
+    session.service.effects = FIRST
     cycles(live, 2.0)
     assert live.apply_state is ApplyState.APPLIED
 
@@ -149,10 +153,10 @@ def test_a_lost_device_ends_the_waiting(qtbot, live, session):
 def test_effects_of_others_are_noticed_once_and_own_ones_never(qtbot, live, session):
     heard = []
     live.replaced.connect(heard.append)
-    session.effects = SECOND
+    session.service.effects = SECOND
     cycles(live, 1.0, 2.0)
     assert heard == [SECOND]
     send(qtbot, live, session, FIRST)
-    session.effects = FIRST
+    session.service.effects = FIRST
     cycles(live, 3.0, 4.0)
     assert heard == [SECOND]

@@ -43,11 +43,11 @@ def test_refusals_latches_and_recoveries_are_listed_newest_first(qtbot, window, 
     wait_for(qtbot, panel, "recovered", "connected")
     window.workbench.go_to({"x": 1.0})
     window.workbench.emergency_stop()
-    wait_for(qtbot, panel, "emergency stop", "emergency stop latched")
+    wait_for(qtbot, panel, "stop and lock", "stop and lock latched")
     window.workbench.release()
-    wait_for(qtbot, panel, "emergency stop", "released")
+    wait_for(qtbot, panel, "stop and lock", "released")
     kinds = [kind for kind, _ in rows(panel)]
-    assert kinds == ["emergency stop", "emergency stop", "refused", "recovered"]
+    assert kinds == ["stop and lock", "stop and lock", "refused", "recovered"]
     assert "x" in rows(panel)[2][1]
     assert panel.table.item(0, 0).text().count(":") == 2
 

@@ -2,6 +2,7 @@
 
 import gc
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,20 +12,11 @@ from PySide6.QtWidgets import QMainWindow
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.window_run import make_application
-from rotemina.app.shell.workbench import Workbench
+from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.panel import GapPanel
-from rotemina.sim.gap.diagnosis import (
-    AxisDiagnosis,
-    Cause,
-    Diagnosis,
-    FittedParameter,
-    Ranked,
-    Shrinkage,
-    ShrinkageStep,
-    Untestable,
-    Verdict,
-)
+from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.where import locate
 from rotemina.sim.records.record import Record, Tap
@@ -50,54 +42,13 @@ def record():
 
 
 @pytest.fixture(scope="session")
-def diagnosis(record):
+def diagnosis(make_diagnosis, record):
     """Hysteresis on θx, or creep; nothing on θy."""
 
     def places(axis):
         return locate(Evidence.of(ROBOT, axis, [record]), np.random.default_rng(0))
 
-    cause = Cause(
-        axis="thx",
-        effect="hysteresis",
-        formulation="prandtl_ishlinskii",
-        stage="actuator",
-        tap=Tap.MEAS,
-        from_axis=None,
-        probability=0.91,
-        ambiguous_with=("creep",),
-        gap_before=3.2e-5,
-        gap_after=7.6e-7,
-        closed=0.98,
-        closed_interval=(0.97, 0.99),
-        parameters=(FittedParameter("width", 1.2e-4, "rad", (1.1e-4, 1.3e-4), "high"),),
-    )
-    shrinkage = Shrinkage(
-        axis="thx",
-        tap=Tap.MEAS,
-        raw=3.3e-5,
-        retuned=3.2e-5,
-        corrected=7.7e-7,
-        floor=4e-7,
-        ceiling=None,
-        closed=0.97,
-        closed_interval=(0.96, 0.98),
-        steps=(ShrinkageStep("hysteresis", "thx", 7.8e-7, 1.0),),
-    )
-    thx = AxisDiagnosis(
-        axis="thx",
-        verdict=Verdict.EXPLAINED,
-        places=places("thx"),
-        causes=(cause,),
-        shrinkage=(shrinkage,),
-        ranking=(
-            Ranked("hysteresis", "prandtl_ishlinskii", None, 0.91, 1.2, (1.1, 1.3)),
-            Ranked("cross_coupling", None, "thy", 0.09, 43.0, (38.0, 47.0)),
-        ),
-        untestable=(Untestable("sensor_gain", "no reference was measured"),),
-        fitted=(LOOP,),
-    )
-    thy = AxisDiagnosis("thy", Verdict.NONE, places("thy"))
-    return Diagnosis(ROBOT, {"thx": thx, "thy": thy})
+    return replace(make_diagnosis(places, "thy"), experiments=())
 
 
 class Host(QMainWindow):
@@ -138,3 +89,22 @@ def window(qtbot, settings, tmp_path):
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     gc.enable()
     assert not [thread for thread in threading.enumerate() if thread.name == "motion session"]
+
+
+@pytest.fixture
+def panel(window):
+    return window.panel
+
+
+@pytest.fixture
+def chosen(panel, record):
+    """The panel with a record."""
+    panel.records.take(Run("day one.csv", compare(panel.workbench.robot, record)))
+    return panel
+
+
+@pytest.fixture
+def answered(chosen, diagnosis, record):
+    """The panel with an answer."""
+    chosen.take_answer(Answer.of(diagnosis, ["day one.csv"], [record]))
+    return chosen

@@ -67,12 +67,14 @@ def test_it_answers_what_the_diagnosis_itself_does(process, record):
     assert any(one.ranking is not None for one in steps)
 
 
+@pytest.mark.slow
 def test_one_process_answers_again_and_again(process, started, healthy):
     for name in ("one", "two"):
         assert process.answer(ROBOT, [name], [healthy], lambda _: None).names == (name,)
     assert len(started) == 1
 
 
+@pytest.mark.slow
 def test_what_cannot_be_diagnosed_is_refused_in_the_same_words(process, healthy):
     short = healthy.part(slice(0, 12))
     with pytest.raises(InputError) as here:
@@ -83,6 +85,7 @@ def test_what_cannot_be_diagnosed_is_refused_in_the_same_words(process, healthy)
     assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
 
 
+@pytest.mark.slow
 def test_what_the_listener_raises_ends_the_work_and_the_process_stays(
     process, started, record, healthy
 ):
@@ -106,6 +109,7 @@ def test_a_process_that_dies_is_told_and_another_takes_its_place(process, starte
     assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
 
 
+@pytest.mark.slow
 def test_a_fault_of_the_program_brings_its_traceback(process, healthy):
     with pytest.raises(DiagnosisError, match=r"^AttributeError: ") as fault:
         process.answer(None, ["one"], [healthy], lambda _: None)

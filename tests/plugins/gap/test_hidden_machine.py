@@ -46,7 +46,7 @@ def test_it_is_driven_like_any_other_and_revealed_beside_the_answer(
 ):
     session = window.workbench.session
     assert isinstance(session.driver, HiddenMachine)
-    assert session.effects == ()
+    assert session.service.effects == ()
     assert "More → Reveal" in window.told[-1]
     session.jog("zn", 1e-6)
     answer = Answer.of(diagnosis, ["day one.csv"], [record])  # hysteresis, or creep

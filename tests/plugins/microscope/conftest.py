@@ -87,6 +87,10 @@ class FakeMicroscope:
     def feed(self, **changes):
         self.change(feed=replace(self.status.feed, **changes))
 
+    @property
+    def camera(self):
+        return self
+
     def listen(self, tell):
         self.listeners.append(tell)
         return lambda: self.listeners.remove(tell)

@@ -14,6 +14,8 @@ from rotemina.plugins.microscope.picture_view import PointerTool
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position
 
+PANELS = ("plots",)
+
 LONG_MS = 60_000
 LEFT = Qt.MouseButton.LeftButton
 

@@ -185,7 +185,7 @@ def test_words_tell_uncertainties(status):
 
 
 def test_what_is_typed_for_a_camera():
-    typed = CameraTexts("12,5", "2", "", "10 20 640 480", "mono8", "software", False)
+    typed = CameraTexts("12.5", "2", "", "10 20 640 480", "mono8", "software", False)
     wanted = CameraSettings(
         0.0125, 2.0, None, Region(10, 20, 640, 480), PixelType.MONO8, Trigger.SOFTWARE, False
     )

@@ -7,7 +7,7 @@ from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.thrust import ThrustTrace, plan_thrust
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.simulator.driver import Simulator
-from rotemina.plugins.penetration.cells import cells_text, with_cell, without_cell
+from rotemina.plugins.penetration.cell_view import cells_text, with_cell, without_cell
 from rotemina.plugins.penetration.plan_preview import (
     PlanPreview,
     commanded_curve,

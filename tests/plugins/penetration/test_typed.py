@@ -57,7 +57,7 @@ def test_what_is_no_depth_is_refused_with_its_bounds(typed, said):
 
 def test_a_tip_says_what_it_does_and_its_bounds():
     about, bounds = QUANTITIES["retract_speed"].tip
-    assert about == "How fast the tip goes back."
+    assert about == "Speed of the retraction."
     assert bounds == "1 to 1000 µm/s; preset 100 µm/s"
 
 

@@ -10,8 +10,10 @@ from rotemina.app.panel import STALE_S
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import DARK
 from rotemina.plugins.plots.axis_plot import AxisPlot
+from rotemina.plugins.plots.gap_strip import GapStrip
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.file import load_robot
 
 LONG_MS = 30_000
 
@@ -140,6 +142,61 @@ def test_new_samples_reach_all_plots_a_few_at_a_time(qtbot, window, panel, monke
     assert len(order) == 14
     qtbot.wait(50)
     assert len(order) == 14
+
+
+def test_the_strip_of_the_gap_stands_against_floor_and_bounds(qtbot):
+    axis = load_robot("rotemina").axes["zn"]
+    floor = axis.sensor.noise_floor
+    strip = GapStrip(DARK, "zn", axis, floor)
+    qtbot.addWidget(strip)
+    strip.resize(300, 50)
+    since = np.linspace(-10.0, 0.0, 101)
+    values = np.full(101, floor)
+    values[40:60] = np.nan  # at rest
+    values[80:] = 3e-6  # more than noise, within the following bound
+    strip.show_course(since, values, 10.0)
+    assert strip.top == pytest.approx(2000.0 * floor)
+    heights = [strip.height_of(size) for size in (floor, *strip.bounds.values())]
+    assert heights == sorted(heights, reverse=True)
+    picture = strip.grab().toImage()
+
+    def colours(first, last):
+        track = strip.track()
+        across = [round(track.left() + share * track.width()) for share in (first, last)]
+        return {
+            picture.pixelColor(x, y).name()
+            for x in range(*across)
+            for y in range(int(track.top()), int(strip.height_of(floor)) + 2)
+        }
+
+    assert DARK.text in colours(0.1, 0.35)
+    assert DARK.text not in colours(0.42, 0.58)
+    assert DARK.warning in colours(0.85, 0.95)
+    strip.set_stale(True)
+    picture = strip.grab().toImage()
+    assert DARK.text not in colours(0.0, 1.0)
+    assert DARK.quiet in colours(0.1, 0.35)
+    strip.show_course(since, np.full(101, np.nan), 10.0)
+    assert strip.top == pytest.approx(20.0 * floor)  # nothing moved
+
+
+def test_the_strip_shows_the_gap_of_the_plots_where_there_is_room(qtbot, window, panel):
+    window.resize(1280, 1080)
+    window.workbench.jog("zn", 1e-6)
+    strip = panel.plots["zn"].strip
+
+    def drawn_to_the_end():
+        panel.refresh()
+        return np.isfinite(strip._values).any()
+
+    qtbot.waitUntil(drawn_to_the_end, timeout=LONG_MS)
+    assert strip.isVisible()
+    panel.shown.setCurrentIndex(2)  # a loop has no time
+    assert not strip.isVisible()
+    panel.shown.setCurrentIndex(0)
+    assert strip.isVisible()
+    panel.plots["zn"].share_height(40)
+    assert not strip.isVisible()
 
 
 def test_old_readings_are_grey_and_their_age_is_said(qtbot, window, panel):

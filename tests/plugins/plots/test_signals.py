@@ -12,13 +12,8 @@ from rotemina.plugins.plots.cursor_text import (
     nearest,
     values_text,
 )
-from rotemina.plugins.plots.signals import (
-    NothingShownError,
-    OtherRun,
-    alignment,
-    as_record,
-    latest,
-)
+from rotemina.plugins.plots.overlay import OtherRun, alignment
+from rotemina.plugins.plots.signals import NothingShownError, as_record, latest
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot

@@ -35,7 +35,7 @@ def record_a_move(qtbot, window):
     assert not section.note.isEnabled()
     click(qtbot, section.record)
     qtbot.waitUntil(lambda: section.record.text() == "■ End recording", timeout=LONG_MS)
-    qtbot.waitUntil(window.recording_sign.isVisible, timeout=LONG_MS)
+    qtbot.waitUntil(window._bar.recording.isVisible, timeout=LONG_MS)
     start = session.snapshot().command["x"]
     hand = QTimer(interval=20)
     hand.timeout.connect(lambda: operation.pad.deflect("x", 0.8))
@@ -59,14 +59,14 @@ def record_a_move(qtbot, window):
     later = noted_s + 0.1  # the last command must have stood before the end
     qtbot.waitUntil(lambda: session.snapshot().device_time_s > later, timeout=LONG_MS)
     click(qtbot, section.record)
-    qtbot.waitUntil(window.recording_sign.isHidden, timeout=LONG_MS)
+    qtbot.waitUntil(window._bar.recording.isHidden, timeout=LONG_MS)
     return start, session.snapshot().command["x"]
 
 
 def replay_to_the_note(qtbot, window, reached):
     """Show the one recording, jump to its note, and let the stretch end there."""
     replaying, panel = window.workbench.replaying, shown(window)
-    qtbot.waitUntil(lambda: panel.recordings.table.rowCount() == 1, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: len(panel.recordings.table.entries_model.entries) == 1, timeout=LONG_MS)
     panel.recordings.table.selectRow(0)
     with qtbot.waitSignal(replaying.changed, timeout=LONG_MS):
         click(qtbot, panel.recordings.open)
@@ -90,12 +90,13 @@ def test_a_stick_moves_x_is_recorded_shown_exported_and_played_again(qtbot, wind
     replay_to_the_note(qtbot, window, reached)
 
     view.export(view.chosen, tmp_path / "part.csv")
-    qtbot.waitUntil(lambda: "Exported" in notices(window)[0], timeout=LONG_MS)
+    qtbot.waitUntil(lambda: any("Exported" in one for one in notices(window)), timeout=LONG_MS)
     record = read_record(tmp_path / "part.csv")
     assert record.duration_s == pytest.approx(float(view.end.text()), abs=0.2)
     assert record.signal("x", Tap.CMD)[-1] == pytest.approx(reached)
     view.export(view.chosen, view.chosen.path)
-    qtbot.waitUntil(lambda: "it is the recording itself" in notices(window)[0], timeout=LONG_MS)
+    why = "it is the recording itself"
+    qtbot.waitUntil(lambda: any(why in one for one in notices(window)), timeout=LONG_MS)
 
     with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
         click(qtbot, view.to_trajectory)
@@ -127,7 +128,7 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
         "Recordings that were cut off: crashed.arrows.part. Recover them in the panel Recorder."
     ]
     click(qtbot, panel.unfinished.recover)
-    qtbot.waitUntil(lambda: panel.recordings.table.rowCount() == 1, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: len(panel.recordings.table.entries_model.entries) == 1, timeout=LONG_MS)
     assert notices(window)[0] == "Recovered crashed.arrows"
     qtbot.waitUntil(panel.unfinished.recover.isHidden, timeout=LONG_MS)
     panel.recordings.table.selectRow(0)
@@ -144,7 +145,7 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
         complaint = panel.recording.complaint
         qtbot.waitUntil(complaint.isVisible, timeout=LONG_MS)
         assert "Nothing is recorded now: No space left" in complaint.text()
-        sign = window.recording_sign
+        sign = window._bar.recording
         qtbot.waitUntil(lambda: sign.property("tone") == "danger", timeout=LONG_MS)
         qtbot.waitUntil(lambda: "motion goes on" in notices(window)[0], timeout=LONG_MS)
     qtbot.waitUntil(complaint.isHidden, timeout=LONG_MS)

@@ -1,28 +1,16 @@
 """The words of the recorder panel."""
 
-from datetime import datetime
 from pathlib import Path
 
 import pytest
 
-from rotemina.plugins.recorder.listing import Listed, Unfinished
+from rotemina.plugins.recorder.listing import Unfinished
+from rotemina.plugins.recorder.recording import room_text, scarce
 from rotemina.plugins.recorder.words import (
     SpanError,
-    cells,
-    room_text,
-    scarce,
     span,
     unfinished_text,
 )
-
-
-def test_a_recording_in_a_row():
-    one = Listed(
-        Path("a/run.arrows"), 2_000_000, 0, datetime(2026, 3, 4, 5, 6, 7), 61.25, "RoTeMiNa", 12
-    )
-    assert cells(one) == ("2026-03-04 05:06:07", "1:01.2", "2 MB", "12", "RoTeMiNa", "run.arrows")
-    spoilt = Listed(Path("a/run.arrows"), 7, 0, problem="no recording")
-    assert cells(spoilt) == ("cannot be opened", "–", "7 bytes", "–", "–", "run.arrows")
 
 
 def test_room_lasts_half_as_long_as_what_is_put_together_takes_twice():

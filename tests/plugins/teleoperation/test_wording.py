@@ -54,11 +54,11 @@ def test_the_device_that_drives_is_named():
 
 
 def test_trust_has_its_reasons_each_once_and_only_of_what_moves():
-    assert wording.trust_text(STICK) == "Trusted"
+    assert wording.trust_text(STICK) == "Active"
     doubted = DevicesView(1.0, (device(x="let go of it", z="let go of it", y="jitters"),))
-    assert wording.trust_text(doubted) == "Not trusted: X, Z: let go of it; Y: jitters"
+    assert wording.trust_text(doubted) == "Not active: X, Z: let go of it; Y: jitters"
     broken = DevicesView(1.0, (device(problem="no axis 'X'"),))
-    assert wording.trust_text(broken) == "Not trusted: no axis 'X'"
+    assert wording.trust_text(broken) == "Not active: no axis 'X'"
     assert wording.trust_text(DevicesView(problems=("no profile",))) == "no profile"
 
 
@@ -118,7 +118,7 @@ def test_only_beside_another_device_the_pad_may_take_over():
         (
             view(LawKind.IMPEDANCE, speed=1e-3, factor=0.5),
             None,
-            "full stick ends at 0.5 mm/s, time constant 0.2 s",
+            "full stick ends at 500 µm/s, time constant 0.2 s",
         ),
         (
             view(LawKind.IMPEDANCE, speed=4e-3, factor=10.0),
@@ -128,7 +128,7 @@ def test_only_beside_another_device_the_pad_may_take_over():
         (
             view(LawKind.IMPEDANCE, way=4e-4, spring_hz=0.5),
             None,
-            "full stick ends 0.4 mm away: 0.5 Hz, damping ratio 1, time constant 0.318 s",
+            "full stick ends 400 µm away: 0.5 Hz, damping ratio 1, time constant 0.318 s",
         ),
     ],
 )
@@ -152,7 +152,7 @@ def test_the_factor_says_what_makes_it():
 
 def test_the_clutch_is_told_where_it_counts():
     assert "space" in wording.clutch_text(LawKind.POSITION, frozenset())
-    assert "rests" in wording.clutch_text(LawKind.RATE, frozenset())
+    assert "rest" in wording.clutch_text(LawKind.RATE, frozenset())
     assert "robot does not" in wording.clutch_text(LawKind.RATE, {Action.CLUTCH})
 
 

@@ -14,6 +14,8 @@ from rotemina.plugins.view3d import panel as panel_module
 from rotemina.plugins.view3d.panel import scene_of
 from rotemina.sim.robot.file import load_robot
 
+PANELS = ("comparison",)
+
 LONG_MS = 30_000
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.comparison.gap import gap_figure, gap_text, moving
+from rotemina.sim.comparison.gap import gap_course, gap_figure, gap_text, moving
 
 TIME_S = np.arange(4001) * 1e-3  # rests for 1 s, moves for 1 s, rests for 2 s
 COMMAND = np.clip(TIME_S - 1.0, 0.0, 1.0)[:, None] * np.array([[2e-5, 0.0]])
@@ -42,6 +42,23 @@ def test_what_is_no_number_is_left_out():
     assert gap_figure(moving(TIME_S, COMMAND), COMMAND[:, 0], model) is None
 
 
+def test_the_course_of_the_gap_is_the_figure_of_each_span():
+    rng = np.random.default_rng(1)
+    counted = moving(TIME_S, COMMAND)
+    gap = 1e-6 * rng.standard_normal((len(TIME_S), 2)) * [1.0, 1e-3]
+    gap[1700:1900, 1] = np.nan
+    ends_s = np.array([0.2, 1.1, 1.75, 1.85, 2.4, 3.9])
+    course = gap_course(TIME_S, counted, gap, ends_s, 0.1)
+    assert course.shape == (6, 2)
+    for end_s, row in zip(ends_s, course, strict=True):
+        part = (end_s - 0.1 <= TIME_S) & (end_s >= TIME_S) & counted
+        for values, found in zip(gap.T, row, strict=True):
+            figure = gap_figure(part, values, np.zeros(len(TIME_S)))
+            assert np.isnan(found) if figure is None else found == pytest.approx(figure.rms)
+    assert np.isnan(course[[0, 5]]).all()
+    assert np.isfinite(course[1:5]).sum() == 7
+
+
 @pytest.mark.parametrize(
     ("size", "unit", "text"),
     [
@@ -49,7 +66,7 @@ def test_what_is_no_number_is_left_out():
         (9.996e-8, "m", "100 nm"),
         (2.02e-8, "m", "20.2 nm"),
         (3.1e-4, "rad", "310 µrad"),
-        (0.0, "m", "0 nm"),
+        (0.0, "m", "0 m"),
         (3.47e-18, "m", "0 nm"),
         (None, "m", "–"),
         (float("nan"), "m", "–"),

@@ -118,9 +118,7 @@ def test_a_command_stays_inside_the_machine():
 def test_positions_beyond_are_refused_with_row_value_and_bound():
     inverse = Inverse(line(), SAMPLE_S)
     inverse.check(np.array([0.0, 1e-5]))
-    with pytest.raises(
-        CompensationError, match="axis p: desired position 2e-05 m at sample 1 lies"
-    ):
+    with pytest.raises(CompensationError, match="axis p: desired position 20 µm at sample 1 lies"):
         inverse.check(np.array([0.0, 2e-5]))
     with pytest.raises(CompensationError, match="at sample 0"):
         inverse.check(np.array([np.nan]))

@@ -7,7 +7,7 @@ from rotemina.sim.compensate.excitation import RATE_HZ, excitation
 from rotemina.sim.compensate.inverse import Inverse
 from rotemina.sim.compensate.training import train
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("compensation")]  # learned once
 
 PLANTS = {
     "thx": ("robot", "thx", "prandtl_ishlinskii"),

@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.sim.compensate import anfis, training
 from rotemina.sim.compensate.errors import CompensationError, ConvergenceError
-from rotemina.sim.compensate.judgement import Residual, recommended, residual
+from rotemina.sim.compensate.judgement import Residual, reason, recommended, residual
 from rotemina.sim.compensate.model import KINDS
 from rotemina.sim.compensate.samples import Samples
 from rotemina.sim.compensate.training import train
@@ -90,20 +90,20 @@ def left(rms):
 
 def test_the_better_is_recommended_and_among_equals_the_simpler():
     figures = dict(zip(KINDS, map(left, (1.0, 2.0, 3.0, 9.0)), strict=True))
-    assert recommended(figures, one_size=False)[0] == "anfis"
+    assert recommended(figures, one_size=False) == "anfis"
     figures["modified_prandtl_ishlinskii"] = left(1.01)
-    kind, why = recommended(figures, one_size=False)
+    kind = recommended(figures, one_size=False)
     assert kind == "modified_prandtl_ishlinskii"
-    assert "simplest of those within 2% of the least" in why
+    assert "simplest of those within 2 % of the least" in reason(figures, kind)
     figures["modified_prandtl_ishlinskii"] = left(0.5)
-    assert recommended(figures, one_size=False)[0] == "modified_prandtl_ishlinskii"
+    assert recommended(figures, one_size=False) == "modified_prandtl_ishlinskii"
 
 
 def test_of_swings_of_one_size_no_rich_kind_is_recommended():
     figures = dict(zip(KINDS, map(left, (1.0, 2.0, 3.0, 9.0)), strict=True))
-    kind, why = recommended(figures, one_size=True)
+    kind = recommended(figures, one_size=True)
     assert kind == "prandtl_ishlinskii"
-    assert "All swings are of one size" in why
+    assert "All swings are of one size" in reason(figures, kind)
 
 
 def test_a_lag_and_creep_are_found(robot, bent_run):

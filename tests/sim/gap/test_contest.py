@@ -1,4 +1,4 @@
-"""What stands in a cause's place: in which form, and of what was tried alike the simplest."""
+"""What stands in a cause's place, and in which form."""
 
 from types import SimpleNamespace
 
@@ -8,19 +8,9 @@ from scipy.linalg import eigh
 
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap import contest
-from rotemina.sim.gap.contest import _alike, _bends_to, _is_kin, _loads, _one_of_each, _twins
+from rotemina.sim.gap.contest import _alike, _loads, _twins
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
-
-
-def explained(score, free, *ids):
-    return SimpleNamespace(ids=ids, score=score, fit=SimpleNamespace(parameters=free))
-
-
-def test_of_what_was_tried_alike_the_simplest_stays_that_is_as_good():
-    first, simpler = explained(1.00, 9, "creep"), explained(1.02, 6, "creep")
-    bad, other = explained(3.0, 2, "creep"), explained(5.0, 3, "delay")
-    assert _one_of_each([first, simpler, bad, other]) == [other, simpler]
 
 
 def test_a_twin_has_the_form_of_its_cause_and_its_numbers():
@@ -59,17 +49,6 @@ def test_a_delay_is_a_lag_of_the_third_order_as_well():
     assert (lag.id, late_s) == ("amplifier_lag", pytest.approx(4e-4))
     evidence.has = lambda tap: False
     assert [one.id for one in _twins(evidence, cause)] == ["sensor_lag", "amplifier_lag"]
-
-
-@pytest.mark.parametrize(
-    ("effect", "left", "none"),
-    [("hysteresis", 6.0, False), ("hysteresis", 8.0, True), ("thermal_drift", 6.0, True)],
-)
-def test_what_is_as_slow_as_a_wander_must_close_most_of_it(effect, left, none):
-    evidence = SimpleNamespace(residual=lambda others: np.full(4, np.sqrt(10.0)))
-    cause = AxisEffect(axis="x", id=effect)
-    best = SimpleNamespace(causes=(cause,), score=left)
-    assert _bends_to(evidence, best, (effect, None)) is none
 
 
 def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkeypatch):
@@ -111,20 +90,6 @@ def test_of_two_that_are_doubted_the_less_likely_one_goes_first(monkeypatch):
     assert best.ids == keys[1:]
 
 
-@pytest.mark.parametrize(
-    ("name", "source", "kin"),
-    [
-        ("encoder_interpolation", None, True),
-        ("leadscrew_error", None, True),
-        ("friction", None, False),
-        ("encoder_interpolation", "y", False),
-    ],
-)
-def test_what_does_the_same_at_the_sensor_is_one_kind(name, source, kin):
-    rival = SimpleNamespace(effect="microstep_error", from_axis=None)
-    assert _is_kin(rival, (name, source)) is kin
-
-
 @pytest.mark.parametrize("off", [-0.03, -0.18])
 def test_a_load_that_rings_as_slow_as_a_retuned_resonance(off):
     robot = load_robot("rotemina")
@@ -142,24 +107,3 @@ def test_a_load_that_rings_as_slow_as_a_retuned_resonance(off):
 def test_no_load_makes_an_axis_ring_faster():
     cause = AxisEffect(axis="x", id="resonance_mismatch", parameters={"frequency_error": 0.1})
     assert _loads(SimpleNamespace(robot=load_robot("rotemina"), axis="x"), cause) == []
-
-
-@pytest.mark.parametrize(("score", "again"), [(1.6, False), (8.6, True)])
-def test_a_twin_that_was_fitted_from_a_worse_begin_is_fitted_again(monkeypatch, score, again):
-    robot = load_robot("rotemina")
-    evidence = SimpleNamespace(robot=robot, axis="x", has=lambda tap: True)
-    steps = AxisEffect(axis="x", id="quantization", parameters={"step": 3e-7, "shift": -0.38})
-    late = AxisEffect(axis="x", id="delay", parameters={"delay": 4e-4})
-    lag = AxisEffect(axis="x", id="amplifier_lag", formulation="third_order")
-    monkeypatch.setattr(contest, "is_own", lambda *_: False)
-    monkeypatch.setattr(contest, "beside", lambda _, causes: list(causes))
-    monkeypatch.setattr(contest, "fit", lambda _, causes, **__: causes)
-    monkeypatch.setattr(contest, "explanation", lambda _, number, causes: causes)
-    ids = (("amplifier_lag", None), ("quantization", None))
-    tried = SimpleNamespace(ids=ids, causes=(lag, steps), score=score)
-    best = SimpleNamespace(causes=(late, steps), score=1.4)
-    found = contest._twins_of(evidence, best, [tried])
-    assert [[one.id for one in causes] for causes in found] == (
-        [["quantization", "amplifier_lag"]] if again else []
-    )
-    assert all(causes[0] is steps for causes in found)  # where its grid was found

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rotemina.sim.gap.rivals import Rival, _counted, not_ruled_out
+from rotemina.sim.gap.rivals import Rival, not_ruled_out
 from rotemina.sim.robot.model import AxisEffect
 
 
@@ -31,25 +31,6 @@ def test_rivals_near_the_likeliest_are_not_ruled_out():
 def test_a_slight_shift_of_the_resonance_may_be_a_small_mass_on_a_spring(error, damping, also):
     own = ranked("resonance_mismatch", {"frequency_error": error, "damping_error": damping})
     assert not_ruled_out(own, ("resonance_mismatch", None), 100.0) == also
-
-
-def lag(formulation):
-    cause = AxisEffect(axis="zn", id="amplifier_lag", formulation=formulation)
-    return SimpleNamespace(causes=(cause,), fit=SimpleNamespace(parameters=6))
-
-
-@pytest.mark.parametrize(
-    ("formulation", "cause", "counted"),
-    [
-        ("third_order", "delay", 4),
-        ("second_order", "delay", 5),
-        ("first_order", "delay", 6),
-        ("third_order", "amplifier_lag", 4),
-        ("third_order", "hysteresis", 6),
-    ],
-)
-def test_the_order_of_a_lag_makes_a_delay_no_likelier(formulation, cause, counted):
-    assert _counted(lag(formulation), (cause, None)) == counted
 
 
 @pytest.mark.parametrize(

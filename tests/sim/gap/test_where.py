@@ -7,7 +7,7 @@ from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.gap.blocks import Blocks, block_numbers, drawn_means, summed
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.regimes import Regime, Ways, regimes
-from rotemina.sim.gap.where import locate
+from rotemina.sim.gap.where import Place, Portion, locate
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -189,3 +189,16 @@ def test_a_single_moment_is_sudden_though_other_moments_might_lack_it():
         (found,) = locate(Evidence.of(ROBOT, "zn", [record]), rng)
         assert not found.significant
         assert found.sudden is sudden
+
+
+def test_what_an_axis_hardly_did_is_not_named_as_the_worst():
+    def place(rows):
+        """A gap of 10 floors² over all, three times as large in so small a share of the rows."""
+        portions = {
+            Regime.FAST: Portion(0.9, (0.8, 1.0), 9.0),
+            Regime.REVERSAL: Portion(3.0 * rows, (0.0, 1.0), 30.0),
+        }
+        return Place("x", Tap.MEAS, Stage.SENSOR, 1e-6, 3e-7, 10.0, (9.0, 11.0), portions, {})
+
+    assert place(rows=0.021).worst_regime is Regime.REVERSAL
+    assert place(rows=0.019).worst_regime is Regime.FAST

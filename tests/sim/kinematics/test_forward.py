@@ -8,7 +8,6 @@ from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import (
     axis_jacobian,
     sideways,
-    tilt_for,
     tip_jacobian,
     tip_position,
     tool_axis,
@@ -80,9 +79,6 @@ def test_central_differences_approach_the_jacobian_with_order_two():
 
 def test_a_milliradian_is_forty_micrometres():
     assert sideways(CHAIN, 1e-3) == pytest.approx(40e-6, rel=1e-6)
-    assert tilt_for(CHAIN, 40e-6) == pytest.approx(1e-3, rel=1e-6)
-    tilts = np.linspace(-0.5, 0.5, 7)
-    np.testing.assert_allclose(tilt_for(CHAIN, sideways(CHAIN, tilts, 65e-6), 65e-6), tilts)
     rest, tilted = np.zeros(6), np.zeros(6)
     tilted[3] = 1e-3
     moved = tip_position(CHAIN, tilted) - tip_position(CHAIN, rest)

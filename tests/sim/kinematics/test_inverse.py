@@ -11,8 +11,6 @@ from rotemina.sim.kinematics.chain import JOINTS, Chain
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.inverse import (
     Split,
-    follow_tip,
-    nano_reserve,
     solve_nano,
     solve_tip,
 )
@@ -123,7 +121,7 @@ def test_hybrid_centres_only_what_overflows():
     np.testing.assert_array_equal(joints[:2], start[:2])
     assert joints[2] - start[2] == pytest.approx(37.5e-6, rel=1e-3)
     assert joints[4] - start[4] == pytest.approx(-50e-6, rel=1e-2)
-    assert nano_reserve(CHAIN, joints)[2] == pytest.approx([32.5e-6, 32.5e-6], rel=1e-5)
+    assert joints[5] == pytest.approx(CHAIN.centre[5], rel=1e-5)
 
 
 def test_hybrid_falls_back_where_a_table_cannot_make_room():
@@ -184,15 +182,3 @@ def test_the_nano_stage_alone_refuses_what_it_does_not_reach(step, axis):
 def test_a_target_that_is_no_number_is_refused(bad):
     with pytest.raises(OutOfLimitsError, match="not a finite position"):
         solve_tip(CHAIN, np.array([0.02, bad, 0.0]), START)
-
-
-def test_a_path_is_followed_and_says_where_it_ends():
-    angle = np.linspace(0.0, 2 * np.pi, 60)
-    circle = HERE + 60e-6 * np.stack([np.cos(angle), np.sin(angle), 0.1 * angle], axis=-1)
-    joints = follow_tip(CHAIN, circle, START)
-    np.testing.assert_allclose(tip_position(CHAIN, joints), circle, atol=1e-15)
-    moved = np.abs(np.diff(joints[:, :3], axis=0)).max(axis=1) > 0
-    assert 0 < moved.sum() < 30  # the tables rest while the nano stage reaches
-    circle[40, 0] = 0.2
-    with pytest.raises(OutOfLimitsError, match=r"tip path, row 40: axis x"):
-        follow_tip(CHAIN, circle, START)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position
-from rotemina.sim.kinematics.pivoting import hold_tip, hold_tip_path, pivot, recentre
+from rotemina.sim.kinematics.pivoting import hold_tip, pivot, recentre
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory.limits import OutOfLimitsError
 
@@ -44,28 +44,24 @@ def test_a_path_of_turns_keeps_the_tip_at_every_row():
     assert np.abs(strayed).max() < 1e-15
 
 
+def evenly(joints, nano, rows):
+    """Joints (rows, 6) from ``joints`` (6,) to ``nano`` (3,), the tip held at each row."""
+    return hold_tip(CHAIN, joints, np.linspace(joints[3:], nano, rows))
+
+
 def test_a_straight_line_strays_by_its_square():
     """The bound of the module: pin_length · turn² / 8 half-way between two rows."""
     nano = CHAIN.lower[3:].copy()
-    path = hold_tip_path(CHAIN, CHAIN.centre, nano, 2)
+    path = evenly(CHAIN.centre, nano, 2)
     half_way = tip_position(CHAIN, path.mean(axis=0)) - tip_position(CHAIN, CHAIN.centre)
     turn = np.hypot(*CHAIN.centre[3:5])
     bound = CHAIN.pin_length * turn**2 / 8
     # Shortening the pin while turning adds the product of both.
     assert np.linalg.norm(half_way) <= bound + turn * CHAIN.centre[5] / 4
-    finer = hold_tip_path(CHAIN, CHAIN.centre, nano, 11)
+    finer = evenly(CHAIN.centre, nano, 11)
     between = tip_position(CHAIN, 0.5 * (finer[1:] + finer[:-1]))
     strayed = np.linalg.norm(between - tip_position(CHAIN, CHAIN.centre), axis=-1)
     assert strayed.max() == pytest.approx(np.linalg.norm(half_way) / 100, rel=0.02)
-
-
-def test_re_centring_runs_evenly_from_here_to_the_middle():
-    joints = CHAIN.centre.copy()
-    joints[3:] = CHAIN.upper[3:]
-    path = hold_tip_path(CHAIN, joints, CHAIN.centre[3:], 5)
-    np.testing.assert_allclose(path[0], joints, rtol=0, atol=1e-16)
-    np.testing.assert_array_equal(path[-1], recentre(CHAIN, joints))
-    np.testing.assert_allclose(np.diff(path[:, 3:], n=2, axis=0), 0.0, atol=1e-18)
 
 
 def test_a_turn_beyond_the_range_is_refused_with_its_row():

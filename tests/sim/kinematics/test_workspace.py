@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.inverse import Split, solve_tip
-from rotemina.sim.kinematics.workspace import Workspace, nano_grid, nano_outline
+from rotemina.sim.kinematics.workspace import Workspace
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory.limits import OutOfLimitsError
 
@@ -103,22 +103,3 @@ def test_the_margin_is_the_length_of_the_last_step_that_still_goes():
     corners = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
     assert SPACE.reachable(tip + margin * corners).all()
     assert not SPACE.reachable(tip + (margin + SPACE.blur + 1e-9) * np.array([1.0, 0, 0]))
-
-
-def test_the_nano_stage_s_own_reach():
-    joints = CHAIN.centre
-    box, grid = SPACE.nano_box(joints), nano_grid(CHAIN, joints, 9)
-    assert grid.shape == (9, 9, 9, 3)
-    np.testing.assert_allclose(grid.min(axis=(0, 1, 2)), box.low, atol=1e-15)
-    np.testing.assert_allclose(grid.max(axis=(0, 1, 2)), box.high, atol=1e-15)
-    # 1.16355 mrad at 40 mm, and 65 µm with what tilting lifts.
-    np.testing.assert_allclose(box.high - box.low, [46.54e-6, 46.54e-6, 65.05e-6], rtol=1e-3)
-
-
-def test_the_outline_is_closed_and_encloses_what_tilt_reaches():
-    outline = nano_outline(CHAIN, CHAIN.centre, 4)
-    assert outline.shape == (17, 3)
-    np.testing.assert_array_equal(outline[0], outline[-1])
-    assert np.ptp(outline[:, 0]) == pytest.approx(46.5e-6, rel=2e-3)
-    assert np.ptp(outline[:, 1]) == pytest.approx(46.5e-6, rel=2e-3)
-    assert np.ptp(outline[:, 2]) < 0.1e-6

@@ -10,7 +10,13 @@ from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.simulation.effect_check import check_effect
 
-INSTALLED = tuple(registry.all_effects()[0])
+# Those that take seconds.
+LONG = {"amplifier_lag", "contact", "cross_coupling", "flexible_mode", "hysteresis"}
+LONG |= {"static_nonlinearity"}
+INSTALLED = [
+    pytest.param(name, marks=[pytest.mark.slow] if name in LONG else [])
+    for name in registry.all_effects()[0]
+]
 
 MODULE = """
 import numpy as np

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotemina.sim.quantities import exact
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory import prediction
 from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.limits import OutOfLimitsError, Quantity
-from rotemina.sim.trajectory.wording import readable
 
 ROBOT = load_robot("rotemina")
 
@@ -111,7 +111,7 @@ def test_a_motion_that_swings_out_of_the_range_is_refused(top, allowed, back):
         (violation,) = run.violations
         assert violation.quantity is Quantity.MOTION
         assert violation.value == pytest.approx(top * (1 + np.exp(-np.pi * 0.02)), rel=0.02)
-        for word in ("axis m1: predicted motion", "5 µm", "0.1 µm (1 % of the range)"):
+        for word in ("axis m1: predicted motion", "5 µm", "100 nm (1 % of the range)"):
             assert word in str(violation)
         with pytest.raises(OutOfLimitsError, match="predicted motion"):
             run.require()
@@ -169,4 +169,4 @@ def test_jumps_of_the_reference_are_refused_for_speed(shared_dir):
     ],
 )
 def test_values_are_written_in_the_unit_a_person_would_choose(value, unit, text):
-    assert readable(value, unit) == text
+    assert exact(value, unit) == text

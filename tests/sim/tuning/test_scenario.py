@@ -41,7 +41,7 @@ def test_a_triangle_is_straight_between_its_rounded_corners():
 
 
 def test_more_than_the_range_is_refused():
-    with pytest.raises(TuningError, match=r"step of 0.0001: .* 6.5e-05 m"):
+    with pytest.raises(TuningError, match=r"step of 100 µm: .* 65 µm"):
         step_of(ROBOT.axes["zn"], RATE_HZ, 1e-4)
-    with pytest.raises(TuningError, match="triangle of 0:"):
+    with pytest.raises(TuningError, match="triangle of 0 µm:"):
         triangle_of(ROBOT.axes["zn"], RATE_HZ, None, 0.0)

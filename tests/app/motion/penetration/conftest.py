@@ -33,7 +33,7 @@ class Bench:
     def ready(self, effects=(), start=START):
         """Put effects on the machine and the tip above the cell."""
         self.stepped.step()
-        self.session.set_effects(list(effects))
+        self.session.service.set_effects(list(effects))
         self.stepped.step()
         self.session.go_to({"zn": start})
         self.stepped.until(DeviceState.IDLE)

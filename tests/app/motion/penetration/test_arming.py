@@ -26,9 +26,9 @@ def test_what_speaks_against_arming_is_known_before_and_reserves_nothing(bench):
     bench.step()
     assert "still moving" in bench.why_not()
     bench.stepped.until_idle()
-    bench.session.reserve("joystick")
+    bench.session.reservations.reserve("joystick")
     assert "driven by joystick" in bench.why_not()
-    bench.session.set_free("joystick")
+    bench.session.reservations.set_free("joystick")
     bench.ready().arm()
     bench.press().step()
     assert "a penetration is approach" in bench.why_not()
@@ -71,7 +71,7 @@ def test_somebody_else_who_drives_is_not_pushed_aside(bench):
     with pytest.raises(RefusedError, match="still moving"):
         bench.arm()
     bench.stepped.until_idle()
-    bench.session.reserve("joystick")
+    bench.session.reservations.reserve("joystick")
     with pytest.raises(RefusedError, match="driven by joystick"):
         bench.arm()
     assert bench.phase is Phase.DISARMED
@@ -111,7 +111,7 @@ def test_a_robot_without_zn_is_refused(make_bench):
 def test_a_device_without_profiles_is_refused(bench, monkeypatch):
     hooks = {name: lambda *_: None for name in Driver.__abstractmethods__}
     monkeypatch.setattr(
-        bench.session, "driver", type("Plain", (Driver,), {"name": "plain", **hooks})(ROBOT)
+        bench.session._link, "driver", type("Plain", (Driver,), {"name": "plain", **hooks})(ROBOT)
     )
     with pytest.raises(RefusedError, match="'plain' cannot run profiles"):
         bench.arm()

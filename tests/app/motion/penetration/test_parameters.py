@@ -13,8 +13,8 @@ from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParame
 @pytest.mark.parametrize(
     ("given_", "message"),
     [
-        ({"depth": 2e-4}, r"depth = 0\.2 mm: must be 1 µm to 0\.1 mm"),
-        ({"approach_speed": 0.0}, r"approach_speed = 0 m/s: must be 0\.1 µm/s to 0\.2 mm/s"),
+        ({"depth": 2e-4}, r"depth = 200 µm: must be 1 µm to 100 µm"),
+        ({"approach_speed": 0.0}, r"approach_speed = 0 m/s: must be 100 nm/s to 200 µm/s"),
         ({"hold_s": float("nan")}, "hold_s = nan: must be a finite number"),
         ({"hold_s": True}, "hold_s = True"),
         ({"hold_s": "1"}, "hold_s = '1'"),
@@ -59,7 +59,7 @@ def test_a_file_on_disk_reads_back(tmp_path):
     ("text", "message"),
     [
         ("dept = 1e-5", r"cell\.toml: dept = 1e-05: unknown key; did you mean 'depth'"),
-        ("zzz = 1", "known: axis, direction"),
+        ("zzz = 1", "known here: axis, direction"),
         ("depth = 1.0", r"cell\.toml: depth = 1 m: must be"),
         ("depth = [", "not valid TOML"),
     ],

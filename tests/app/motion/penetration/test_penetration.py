@@ -9,6 +9,7 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.run_log import Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
+from rotemina.app.motion.run_labels import RunLabels
 from rotemina.drivers.errors import ConnectionLostError
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
@@ -43,12 +44,13 @@ def commands(bench):
 
 def test_a_whole_run_succeeds_and_is_logged(bench):
     bench.ready([cell(58e-6, 0.05)]).arm(drift=0.02, **INJECTING).step(times=20)
+    bench.session.labels = RunLabels(sample="oocyte 7")
     assert bench.penetration.status.peak_speed > bench.penetration.status.average_speed
     bench.press()
     tool = {}
     while bench.phase in UNDER_WAY:
         bench.step(0.01)
-        tool.setdefault(bench.phase, []).append(bench.session.tool_on)
+        tool.setdefault(bench.phase, []).append(bench.session.tool.on)
     assert bench.phase is Phase.DONE
     assert any(tool[Phase.INJECT])
     assert not any(tool[Phase.HOLD] + tool[Phase.RETRACT])
@@ -56,6 +58,7 @@ def test_a_whole_run_succeeds_and_is_logged(bench):
     assert problems == ()
     assert run.verdict is Verdict.DONE
     assert run.started == "2026-11-21T00:00:00+00:00"
+    assert (run.run, run.sample) == ("", "oocyte 7")
     assert [name for name, _ in run.phases] == [
         "approach", "contact", "thrust", "hold", "inject", "hold after", "retract", "done",
     ]  # fmt: skip
@@ -76,7 +79,7 @@ def test_a_membrane_that_gives_way_leaves_the_nominal_robot_within_one_percent(b
     bench.ready([cell(58e-6, 0.05)]).arm(drift=0.02).press()
     bench.until(Phase.THRUST)
     bench.step(0.03)
-    bench.session.set_effects([])
+    bench.session.service.set_effects([])
     bench.run()
     run = bench.penetration.status.run
     assert run.verdict is Verdict.DONE
@@ -133,7 +136,7 @@ def test_the_button_aborts_every_phase_and_the_tip_comes_back(bench, phase):
     state = bench.session.snapshot()
     assert state.command["zn"] == START
     assert state.fault is None
-    assert bench.session.tool_on is False
+    assert bench.session.tool.on is False
 
 
 @pytest.mark.parametrize(
@@ -152,7 +155,7 @@ def test_what_somebody_else_ends_is_held_and_never_goes_back_by_itself(bench, ho
     elif how == "stop":
         bench.session.stop()
     elif how == "taken over":
-        bench.session.take_over(["x"], "operator")
+        bench.session.reservations.take_over(["x"], "operator")
     else:
 
         def lost():
@@ -161,7 +164,7 @@ def test_what_somebody_else_ends_is_held_and_never_goes_back_by_itself(bench, ho
         bench.stepped.driver.before["read"] = lost
     bench.step(0.02, 10)
     assert bench.phase is Phase.HELD
-    assert bench.session.tool_on is False
+    assert bench.session.tool.on is False
     place = bench.session.snapshot().command["zn"]
     bench.session.release()
     bench.step(0.1, 20)
@@ -223,7 +226,7 @@ def test_a_cell_that_is_touched_at_once_is_found(bench):
 def test_hysteresis_creep_and_noise_are_no_contact_and_a_cell_is(bench):
     bench.ready([HYSTERESIS, CREEP], start=60e-6).arm(depth=40e-6).press()
     assert "no contact" in bench.run().reason
-    bench.session.set_effects([HYSTERESIS, CREEP, cell(62e-6, 0.3)])
+    bench.session.service.set_effects([HYSTERESIS, CREEP, cell(62e-6, 0.3)])
     bench.step(0.02, 50)
     bench.arm(depth=40e-6, depth_tolerance=0.5, overload=3e-5).press()
     bench.until(Phase.CONTACT)

@@ -1,6 +1,7 @@
 """Recordings as records and trajectories: what was done, and done again."""
 
 from dataclasses import replace
+from datetime import datetime
 
 import numpy as np
 import pytest
@@ -43,12 +44,24 @@ def test_a_record_has_what_the_device_told(moved, tmp_path):
         "history": "unknown",
         "robot": "RoTeMiNa",
         "driver": "unruly",
+        "robot_sha256": moved.metadata["robot_sha256"],
+        "model": moved.metadata["model"],
         "recording": "session.arrows",
         "recording_id": moved.metadata["id"],
         "recording_from_s": f"{samples.host_time_s[0] - moved.began_s:.6f}",
     }
     comparison = compare(load_robot("rotemina"), made)
     assert comparison.record is made
+
+
+def test_a_stretch_says_who_made_it_and_when_it_began_itself(moved):
+    said = {"began": "2026-11-21T20:33:00+01:00", "operator": "A. Müller", "sample": ""}
+    moved.metadata = {**moved.metadata, **said}
+    told = record_of(moved, moved.began_s + 0.3, moved.began_s + 0.5).metadata
+    began = datetime.fromisoformat(told["began"]) - datetime.fromisoformat(said["began"])
+    assert began.total_seconds() == pytest.approx(float(told["recording_from_s"]), abs=1e-3)
+    assert told["operator"] == "A. Müller"
+    assert "sample" not in told
 
 
 def test_the_exported_file_reads_back_bit_by_bit(moved, tmp_path, monkeypatch):
@@ -142,7 +155,7 @@ def test_a_gap_in_mid_move_is_refused(stepped, record):
     recorded.rest()
     stepped.session.go_to({"x": 0.029})
     recorded.step()
-    recorded.session._taps.clear()  # as if what came meanwhile had found no room
+    recorded.session._subscribers._taps.clear()  # as if what came meanwhile had found no room
     stepped.step(0.02, 3)
     recorded.session.tap(recorded.recorder._on_samples)
     recorded.step(0.02, 40)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.run_labels import RunLabels
 from rotemina.app.motion.state import Connection, PlaybackFinished
 from rotemina.app.motion.teleoperation.intent import Action, Intent
 from rotemina.drivers.errors import ConnectionLostError, LimitError
@@ -45,14 +46,17 @@ def test_samples_are_those_of_the_history(stepped, record):
 
 
 def test_what_holds_for_the_whole_is_there(stepped, record):
-    recorded = record(stepped, settings={"theme": "dark"}, began="2026-11-21 20:33")
+    stepped.session.labels = RunLabels.typed("", " A. Müller\n", "oocyte 7")
+    recorded = record(stepped, settings={"theme": "dark"}, began="2026-11-21 20:33+01:00")
     recording = Recording.open(recorded.recorder.close())
     about = recording.metadata
     assert recording.robot == load_robot("rotemina")
     assert about["driver"] == "unruly"
     assert json.loads(about["driver_settings"])["seed"] == 0
     assert about["settings"] == '{"theme": "dark"}'
-    assert about["began"] == "2026-11-21 20:33"
+    assert about["began"] == "2026-11-21 20:33+01:00"
+    assert (about["operator"], about["sample"]) == ("A. Müller", "oocyte 7")
+    assert "run" not in about
     assert about["program"].startswith("rotemina ")
     assert len(about["robot_sha256"]) == len(about["settings_sha256"]) == 64
     assert recording.units["thx"] == "rad"

@@ -16,7 +16,6 @@ from rotemina.app.motion.teleoperation.profile import (
     ProfileError,
     listed_profiles,
     load_profile,
-    parse_profile,
     save_profile,
 )
 from rotemina.sim.whole_files import FileWriteError
@@ -124,10 +123,12 @@ def test_a_file_that_cannot_be_written_leaves_the_one_before(tmp_path, monkeypat
         ),
     ],
 )
-def test_bad_profiles_are_explained(text, said):
+def test_bad_profiles_are_explained(tmp_path, text, said):
+    path = tmp_path / "bench.toml"
+    path.write_text(text, "utf-8")
     with pytest.raises(ProfileError) as caught:
-        parse_profile(text, "bench.toml")
-    assert str(caught.value).startswith("bench.toml: ")
+        load_profile(path)
+    assert str(caught.value).startswith(f"{path}: ")
     assert said in str(caught.value)
 
 
@@ -136,12 +137,13 @@ def test_a_missing_file_is_explained(tmp_path):
         load_profile(tmp_path / "none.toml")
 
 
-def test_the_example_of_the_documentation_can_be_used():
+def test_the_example_of_the_documentation_can_be_used(tmp_path):
     page = Path(__file__).parents[4] / "docs" / "input-mapping.md"
     examples = re.findall(r"```toml\n(.*?)```", page.read_text("utf-8"), re.S)
-    profiles = [parse_profile(text) for text in examples if "[[devices]]" in text]
-    assert len(profiles) == 1
-    check_profile(profiles[0], ("x", "y", "z", "thx", "thy", "zn"))
+    (example,) = (text for text in examples if "[[devices]]" in text)
+    path = tmp_path / "example.toml"
+    path.write_text(example, "utf-8")
+    check_profile(load_profile(path), ("x", "y", "z", "thx", "thy", "zn"))
 
 
 def test_the_documentation_names_every_key_and_action():

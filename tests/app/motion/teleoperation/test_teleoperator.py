@@ -244,7 +244,7 @@ def test_stop_and_emergency_stop_by_button(desk):
     desk.run(0.2, {**CENTRE, "x": 1.0})
     desk.run(0.2, {**CENTRE, "x": 1.0}, pressed={Action.EMERGENCY_STOP})
     state = desk.session.snapshot()
-    assert state.latched == "the joystick's emergency stop"
+    assert state.latched == "the joystick's stop and lock"
     begin = state.command["x"]
     assert desk.run(0.3, {**CENTRE, "x": 1.0}).command["x"] == begin
     desk.session.release()
@@ -302,8 +302,8 @@ def test_it_ends_softly_at_the_end_of_a_range(desk):
 
 def test_close_to_the_floor_it_is_slowed_and_never_goes_below(desk):
     desk.teleoperator.use_preset(5.0)
-    desk.session.teach_floor(1e-3)
-    floor = desk.session.keep_out.low
+    desk.session.bounds.teach_floor(1e-3)
+    floor = desk.session.bounds.keep_out.low
     desk.run(0.1)
     heights = []
     for _ in range(40):
@@ -362,7 +362,7 @@ def test_a_contact_is_felt_with_impedance(desk):
     scale = replace(teleoperator.scales.of("nano", coordinate), contact_gain=1.0)
     teleoperator.use_scales(teleoperator.scales.with_scale("nano", "zn", scale))
     wall = AxisEffect(axis="zn", id="contact", parameters={"place": 36e-6, "stiffness": 2.0})
-    desk.session.set_effects((wall,))
+    desk.session.service.set_effects((wall,))
     desk.run(0.2)
     free = desk.run(0.3, {**CENTRE, "z": 0.5}).command["zn"]
     assert free < 36e-6

@@ -1,0 +1,52 @@
+"""A z-stack as a TIFF of several pages, each with what was known of it."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import NamedTuple
+
+import tifffile
+
+from rotemina.app.cameras.snapshot import Circumstances, description, program
+from rotemina.drivers.cameras.frame import Frame
+from rotemina.sim.whole_files import replaced
+
+
+class Page(NamedTuple):
+    """A picture, the place of the focus, m, and all axes as commanded and measured, m and rad."""
+
+    place: float
+    frame: Frame
+    command: Mapping[str, float]
+    measured: Mapping[str, float]
+
+
+def write_stack(path: Path, pages: Sequence[Page], axis: str, about: Circumstances) -> None:
+    """Write the camera's own numbers, a page for each place, whole or not at all.
+
+    A page's description is JSON as that of a snapshot, with ``focus_axis``, ``focus_m``, ``page``
+    and ``pages``.
+
+    Raises
+    ------
+    FileWriteError
+        If it cannot be written.
+    """
+    per_cm = 0.01 / about.pixel_m if about.pixel_m else None
+    with replaced(path) as file, tifffile.TiffWriter(file) as writer:
+        for number, page in enumerate(pages, 1):
+            own = replace(about, command=page.command, measured=page.measured)
+            facts = json.loads(description(page.frame, own))
+            facts |= {"focus_axis": axis, "focus_m": page.place}
+            facts |= {"page": number, "pages": len(pages)}
+            writer.write(
+                page.frame.pixels,
+                photometric="rgb" if page.frame.colour else "minisblack",
+                description=json.dumps(facts),
+                metadata=None,
+                contiguous=False,
+                software=program(),
+                resolution=None if per_cm is None else (per_cm, per_cm),
+                resolutionunit=None if per_cm is None else "CENTIMETER",
+            )

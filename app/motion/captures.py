@@ -1,0 +1,68 @@
+"""Samples at a high rate, taken by the device and fetched afterwards."""
+
+import threading
+from collections import deque
+from collections.abc import Sequence
+
+from rotemina.app.motion.device_link import DeviceLink
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.drivers.abilities import Capturer
+from rotemina.drivers.capture import Captured
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Epoch, Permit
+from rotemina.sim.messages import message
+
+
+class Captures:
+    """One capture at a time."""
+
+    def __init__(self, link: DeviceLink) -> None:
+        self._link = link
+        self._captured: deque[Captured] = deque()
+        self._collecting = threading.Event()
+        self._collected_at: Epoch | None = None
+
+    def begin(self, axes: Sequence[str], rate_hz: float, count: int) -> None:
+        """Begin to sample axes at a high rate; :meth:`collected` hands the samples out.
+
+        Raises
+        ------
+        RefusedError
+            If the device cannot, or is not connected.
+        """
+        if not isinstance(self._link.driver, Capturer):
+            raise RefusedError(
+                message("engine", "driver {name} cannot capture").fill(
+                    name=repr(self._link.driver.name)
+                )
+            )
+        wanted = tuple(axes)
+
+        def begin(driver: Driver, _: Permit) -> None:
+            assert isinstance(driver, Capturer), "the session refuses on any other"
+            driver.capture(wanted, rate_hz, count)
+            self._captured.clear()
+
+        self._link.ask(begin)
+
+    def collected(self) -> tuple[Captured, ...]:
+        """Return what has come of the latest capture since the last call, and ask for more.
+
+        It never waits: what the device has by now is among the answer to the next call.
+        """
+        found = []
+        while self._captured:
+            found.append(self._captured.popleft())
+        epoch = self._link.gate.epoch
+        if self._collecting.is_set() and self._collected_at == epoch:
+            return tuple(found)
+        self._collected_at = epoch  # a stop drops what was asked for before
+
+        def collect(driver: Driver, _: Permit) -> None:
+            self._collecting.clear()
+            if isinstance(driver, Capturer) and (part := driver.captured()) is not None:
+                self._captured.append(part)
+
+        self._collecting.set()
+        self._link.ask(collect)
+        return tuple(found)

@@ -1,0 +1,195 @@
+"""The way to a device: its driver, the gate, the queue, and the worker that talks to it."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from rotemina.app.motion.history import LiveHistory
+from rotemina.app.motion.lock_reasons import NOT_CONNECTED
+from rotemina.app.motion.mailbox import Ask, ConnectionRequest, Mailbox, RefusedError
+from rotemina.app.motion.state import Connection, SessionState
+from rotemina.app.motion.stop_request import StopRequest
+from rotemina.app.motion.subscribers import Subscribers
+from rotemina.app.motion.worker import Worker
+from rotemina.drivers.abilities import TrajectoryPlayer
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Gate, Permit, Purpose
+from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
+from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+
+_EXCHANGED = message("engine", "another device is being connected; wait")
+
+
+class DeviceLink:
+    """What all parts of a session share; every method may be called from any thread.
+
+    One worker talks to the driver, and only a stop goes past that. The link runs no thread:
+    whoever holds it steps :attr:`worker`.
+
+    Parameters
+    ----------
+    driver : Driver
+    history : LiveHistory
+        Where samples go.
+    subscribers : Subscribers
+    clock : callable
+        The host's time, s.
+    queue_size : int
+        How many commands may wait.
+    stale_after_s : float
+        Motion is refused when the latest sample is older.
+    """
+
+    def __init__(
+        self,
+        driver: Driver,
+        history: LiveHistory,
+        subscribers: Subscribers,
+        *,
+        clock: Clock,
+        queue_size: int,
+        stale_after_s: float,
+    ) -> None:
+        self.driver = driver
+        self.robot = driver.robot
+        self.clock = clock
+        self.mailbox = Mailbox(queue_size)
+        self.gate = Gate(clock, self._locks)
+        driver.gate = self.gate
+        self.worker = Worker(
+            driver,
+            self.gate,
+            self.mailbox,
+            history,
+            clock,
+            subscribers.emit,
+            subscribers.pass_on,
+        )
+        #: Why no motion is accepted on any path; None while it is.
+        self.barred: str | None = None
+        #: Host time of the latest stop, whoever asked for it; None before the first.
+        self.stop_asked_s: float | None = None
+        self._stale_after_s = stale_after_s
+        self._stop: StopRequest | None = None
+
+    @property
+    def setpoint_period_s(self) -> float:
+        """How often the device applies set-points, s."""
+        driver = self.driver
+        return (
+            driver.setpoint_period_s if isinstance(driver, TrajectoryPlayer) else SETPOINT_PERIOD_S
+        )
+
+    def connect(self) -> None:
+        """Ask the worker to connect."""
+        self.mailbox.request_connection(ConnectionRequest(self.driver))
+
+    def disconnect(self) -> None:
+        """Ask the worker to let go of the device."""
+        self.mailbox.request_connection(ConnectionRequest(None))
+
+    def exchange(self, driver: Driver) -> None:
+        """Ask the worker to let go of the device and to connect to another one."""
+        # Until the worker has exchanged them, both drivers are stopped and neither is moved.
+        driver.gate = self.gate
+        self.driver = driver
+        self.gate.reconnected()
+        self.connect()
+
+    def ask(self, action: Callable[[Driver, Permit], None], permit: Permit | None = None) -> None:
+        """Have something done on the thread that talks to the driver.
+
+        Raises
+        ------
+        RefusedError
+            If the device is not connected, the permit passes no more, or the queue is full.
+        """
+        permit = self.gate.permit(Purpose.ENQUIRY) if permit is None else permit
+        self.refuse_unconnected()
+        self.mailbox.post(Ask(action), permit)
+
+    def refuse_unconnected(self) -> None:
+        """Refuse what needs a connection where there is none.
+
+        Raises
+        ------
+        RefusedError
+            With what is missing.
+        """
+        state = self.worker.state
+        if state.connection is not Connection.CONNECTED:
+            raise RefusedError(state.locked or NOT_CONNECTED)
+
+    def halt(self, request: StopRequest, latch: str | None = None) -> None:
+        """Shut the gate on what was asked before, then tell every driver that may be open.
+
+        Never waits and never raises. With ``latch`` nothing moves until the gate is released.
+        """
+        asked_s = self.clock()
+        self._stop, self.stop_asked_s = request, asked_s
+        self.gate.stop(latch)
+        self.mailbox.clear()
+        failure = None
+        # During an exchange the worker still has the driver from before.
+        for driver in dict.fromkeys((self.worker.driver, self.driver)):
+            try:
+                driver.halt()
+            except Exception as error:  # told by the worker: a stop button must not raise
+                failure = error
+        self.worker.stopped(asked_s, failure, request)
+
+    def snapshot(self) -> SessionState:
+        """Return the present state, but for the tip's."""
+        state = self.worker.state
+        latched = self.gate.latched
+        locked = self._locked(state)
+        if latched is not None:
+            locked = message("engine", "{stop} is latched; release it first").fill(stop=latched)
+        return replace(
+            state,
+            age_s=self._age_s(state),
+            locked=locked,
+            queued=len(self.mailbox),
+            stop=self._stop,
+            latched=latched,
+            owners=self.worker.ownership.owners,
+            stop_latency=self.worker.latency.figures(),
+        )
+
+    def unready(self, state: SessionState) -> str | None:
+        """Return why nothing can be done that needs a sound device, but no known position."""
+        if self.worker.driver is not self.driver:
+            return _EXCHANGED
+        if state.connection is not Connection.CONNECTED or state.fault or state.silent_s > 0.0:
+            return state.locked or message("engine", "not connected")
+        return self.barred
+
+    def _locks(self, permit: Permit) -> str | None:
+        """Return what locks a permit's purpose beside a stop; under the gate's lock."""
+        state = self.worker.state
+        if permit.purpose is Purpose.MOTION:
+            locked = self._locked(state)
+        elif permit.purpose is Purpose.HOMING:
+            locked = self.unready(state)
+        else:
+            return None
+        other = permit.owner and self.worker.ownership.other_than(permit.owner, permit.axes)
+        if locked or not other:
+            return locked
+        return message("engine", "an axis is driven by {other}").fill(other=other)
+
+    def _locked(self, state: SessionState) -> str | None:
+        """Return why no motion is accepted, but for a latch."""
+        if self.worker.driver is not self.driver:
+            return _EXCHANGED
+        age_s = self._age_s(state)
+        if state.locked is None and age_s is not None and age_s > self._stale_after_s:
+            return message(
+                "engine", "the device has sent nothing for {seconds} s; wait, or reconnect"
+            ).fill(seconds=fixed(age_s, 1))
+        return state.locked or self.barred
+
+    def _age_s(self, state: SessionState) -> float | None:
+        received_s = state.sample_host_time_s
+        return None if received_s is None else self.clock() - received_s

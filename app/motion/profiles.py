@@ -1,0 +1,148 @@
+"""Profiles that a device runs by itself: handed over, triggered, aborted."""
+
+from rotemina.app.motion.admission import Admission
+from rotemina.app.motion.compensation import Inverses
+from rotemina.app.motion.device_link import DeviceLink
+from rotemina.app.motion.guard import Guard
+from rotemina.app.motion.mailbox import LoadProfile, RefusedError, RunProfile
+from rotemina.app.motion.ownership import OPERATOR
+from rotemina.app.motion.reservations import Reservations
+from rotemina.drivers.abilities import ProfileRunner
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Permit
+from rotemina.drivers.profile import Profile
+from rotemina.sim.messages import AxisName, message
+
+
+class Profiles:
+    """One profile at a time, of one axis, which is checked and owned as a move is."""
+
+    def __init__(
+        self,
+        link: DeviceLink,
+        admission: Admission,
+        guard: Guard,
+        inverses: Inverses,
+        reservations: Reservations,
+    ) -> None:
+        self._link = link
+        self._admission = admission
+        self._guard = guard
+        self._inverses = inverses
+        self._reservations = reservations
+        self._loaded: tuple[Profile, float] | None = None  # and where its axis was
+
+    def upload(
+        self, profile: Profile, owner: str = OPERATOR, *, permit: Permit | None = None
+    ) -> None:
+        """Hand a profile to the device, from where its axis is commanded now; nothing moves yet.
+
+        Its extremes are held against range and keep-out. Within the slow zone it is refused where
+        it is faster than that allows, except for an owner who has reserved every axis: a
+        deliberate thrust. The floor itself holds for everybody.
+
+        Raises
+        ------
+        OutOfLimitsError
+            If an extreme is beyond a limit, or the tip might leave its bounds.
+        InputError
+            If a segment is beyond what the axis can.
+        RefusedError
+            If the device runs no profiles, is not at rest, or as for any move.
+        """
+        permit = self._admission.drawn(permit)
+        self._profile_runner()
+        with self._admission.lock:
+            self._admission.refuse_unless_at_rest("a profile")
+            start = self._commanded(profile.axis)
+            profile.check(self._link.robot, start)
+            self._check_profile(profile, start, owner)
+            self._admission.queue(LoadProfile(profile), permit, (profile.axis,), owner)
+            self._loaded = (profile, start)
+
+    def trigger(self, owner: str = OPERATOR, *, permit: Permit | None = None) -> None:
+        """Let the profile that was uploaded run; stop and :meth:`abort` end it.
+
+        Raises
+        ------
+        OutOfLimitsError
+            If the tip might leave its bounds by now.
+        RefusedError
+            If none was uploaded, its axis has moved since, or as :meth:`upload`.
+        """
+        permit = self._admission.drawn(permit)
+        self._profile_runner()
+        with self._admission.lock:
+            self._admission.refuse_unless_at_rest("a profile")
+            if self._loaded is None:
+                raise RefusedError(message("engine", "no profile was uploaded; upload one first"))
+            profile, start = self._loaded
+            if self._commanded(profile.axis) != start:
+                raise RefusedError(
+                    message(
+                        "engine",
+                        "axis {axis} has moved since its profile was uploaded; upload it again",
+                    ).fill(axis=AxisName(profile.axis))
+                )
+            self._check_profile(profile, start, owner)
+            end = start + sum(segment.length for segment in profile.segments)
+            run = RunProfile({profile.axis: end})
+            self._admission.queue_move(run, permit, (profile.axis,), owner)
+            self._loaded = None
+
+    def check_thrust(self, axis: str, ends: tuple[float, float], speed: float) -> None:
+        """Refuse a way of one axis, at this speed at most, that no profile may make.
+
+        That is, none of an owner who has reserved every axis.
+
+        Raises
+        ------
+        OutOfLimitsError
+            As :meth:`upload`.
+        """
+        self._guard.profile(self._admission.envelope(), axis, ends, speed, thrust=True)
+
+    def abort(self) -> None:
+        """Halt the profile that runs, without a fault, or forget the one that waits.
+
+        Raises
+        ------
+        RefusedError
+            If the device runs none, or is not connected.
+        """
+        self._profile_runner()
+        self._loaded = None
+        self._link.ask(_abort)
+
+    def _profile_runner(self) -> None:
+        if not isinstance(self._link.driver, ProfileRunner):
+            raise RefusedError(
+                message("engine", "driver {name} cannot run profiles by itself").fill(
+                    name=repr(self._link.driver.name)
+                )
+            )
+
+    def _commanded(self, axis: str) -> float:
+        return float(self._link.worker.state.command.get(axis, float("nan")))
+
+    def _check_profile(self, profile: Profile, start: float, owner: str) -> None:
+        low = high = at = start
+        for segment in profile.segments:
+            places = [at + extreme for extreme in segment.extremes()]
+            low, high = min(low, *places), max(high, *places)
+            at += segment.length
+        for end in (low, high):
+            self._inverses.check({profile.axis: end})
+        fastest = max(segment.greatest_speed() for segment in profile.segments)
+        self._guard.profile(
+            self._admission.envelope(),
+            profile.axis,
+            (low, high),
+            fastest,
+            thrust=self._reservations.held_by(owner),
+        )
+
+
+def _abort(driver: Driver, _: Permit) -> None:
+    assert isinstance(driver, ProfileRunner), "the session refuses on any other"
+    driver.abort()

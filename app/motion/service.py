@@ -1,0 +1,112 @@
+"""What is asked of a device that moves nothing: parameters, a display, faults, effects."""
+
+from collections.abc import Sequence
+
+from rotemina.app.motion.device_link import DeviceLink
+from rotemina.app.motion.mailbox import ClearFault, RefusedError, SetEffects
+from rotemina.drivers.abilities import Display, Parameterised
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Permit, Purpose
+from rotemina.drivers.model_abilities import EffectCarrier
+from rotemina.sim.messages import message
+from rotemina.sim.robot.model import AxisEffect
+
+
+class Service:
+    """Requests about what a device is and shows; whatever could let it move passes the gate."""
+
+    def __init__(self, link: DeviceLink) -> None:
+        self._link = link
+
+    def accept_parameters(self) -> None:
+        """Move with the device's parameters as they are.
+
+        Raises
+        ------
+        RefusedError
+            If the device has none, or is not connected.
+        """
+        self._refuse_without_parameters()
+
+        def accept(driver: Driver, _: Permit) -> None:
+            assert isinstance(driver, Parameterised), "the session refuses on any other"
+            driver.accept_parameters()
+
+        self._link.ask(accept)
+
+    def write_parameters(self) -> None:
+        """Write the robot file's parameters into the device.
+
+        Raises
+        ------
+        RefusedError
+            If the device has none, or is not connected.
+        """
+        permit = self._link.gate.permit(Purpose.SERVICE)
+        self._refuse_without_parameters()
+
+        def write(driver: Driver, permit: Permit) -> None:
+            assert isinstance(driver, Parameterised), "the session refuses on any other"
+            driver.write_parameters(permit=permit)
+
+        self._link.ask(write, permit)
+
+    def show(self, row: int, text: str) -> None:
+        """Show text on the device's display; nothing happens where there is none."""
+
+        def action(driver: Driver, _: Permit) -> None:
+            if isinstance(driver, Display):
+                driver.show(row, text)
+
+        if isinstance(self._link.driver, Display):
+            self._link.ask(action)
+
+    def clear_fault(self) -> None:
+        """Acknowledge a device's fault; nothing happens without one.
+
+        Raises
+        ------
+        RefusedError
+            If the connection failed: reconnect instead.
+        """
+        permit = self._link.gate.permit(Purpose.SERVICE)
+        self._link.refuse_unconnected()
+        if self._link.worker.state.fault is not None:
+            self._link.mailbox.post(ClearFault(), permit)
+
+    @property
+    def effects(self) -> tuple[AxisEffect, ...] | None:
+        """The effects on a simulated machine; None where the device is none that carries any."""
+        driver = self._link.driver
+        return driver.effects if isinstance(driver, EffectCarrier) else None
+
+    def set_effects(self, effects: Sequence[AxisEffect]) -> None:
+        """Put other effects on a simulated machine, also while it moves.
+
+        Raises
+        ------
+        EffectError
+            With axis, effect, parameter, value and bound.
+        RefusedError
+            If the device carries no effects, is not connected, or a queue is full.
+        """
+        permit = self._link.gate.permit(Purpose.SERVICE)
+        driver = self._link.driver
+        if not isinstance(driver, EffectCarrier):
+            raise RefusedError(
+                message(
+                    "engine",
+                    "driver {name} is a real machine: its effects are its own; connect "
+                    "to the simulator",
+                ).fill(name=repr(driver.name))
+            )
+        driver.check_effects(effects)
+        self._link.refuse_unconnected()
+        self._link.mailbox.post(SetEffects(tuple(effects)), permit)
+
+    def _refuse_without_parameters(self) -> None:
+        driver = self._link.driver
+        if not isinstance(driver, Parameterised):
+            raise RefusedError(
+                message("engine", "driver {name} keeps no parameters").fill(name=repr(driver.name))
+            )

@@ -1,0 +1,47 @@
+"""A tip that is out of its bounds: what is said of it, and which ways lead back in."""
+
+from typing import TYPE_CHECKING
+
+from rotemina.sim.kinematics.keep_out import Excess, KeepOutZone
+from rotemina.sim.messages import Listed, Message, message
+from rotemina.sim.quantities import exact
+
+if TYPE_CHECKING:
+    from rotemina.app.motion.guard import PositionEnvelope
+
+_CLOSER = 1e-9  # m by which each axis has to bring the tip nearer to its bounds
+
+
+def nearer(
+    zone: KeepOutZone, envelope: "PositionEnvelope", column: int, at: float, out: Excess
+) -> bool:
+    """Tell whether an axis that goes there alone brings the commanded tip back, all the way."""
+    low, high = envelope.low.copy(), envelope.high.copy()
+    low[column] = high[column] = at
+    before, end, way = (
+        zone.excess(zone.swept(*bounds))
+        for bounds in (
+            (envelope.low, envelope.high),
+            (low, high),
+            envelope.widened({column: at})[:2],
+        )
+    )
+    broken = [number for number, excess in enumerate(out) if excess > 0.0]
+    return all(way[k] <= before[k] + _CLOSER for k in broken) and any(
+        end[k] < before[k] - _CLOSER for k in broken
+    )
+
+
+def out_text(out: Excess) -> Message:
+    """Say by how much the tip is out of its bounds, and what to do."""
+    where = (
+        (message("engine", "{much} below its floor"), out.below),
+        (message("engine", "{much} above the objective's height"), out.above),
+        (message("engine", "{much} outside its radius"), out.aside),
+    )
+    told = tuple(how.fill(much=exact(much, "m")) for how, much in where if much > 0.0)
+    return message(
+        "engine",
+        "tip: {told}, as commanded or as read: it only moves back in, slowly and confirmed, by "
+        "axes that each bring it nearer; bring it back, or mend the sensor that reads wrong",
+    ).fill(told=Listed(told))

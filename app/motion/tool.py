@@ -1,0 +1,49 @@
+"""The tool at the tip: an injector, a vacuum."""
+
+from rotemina.app.motion.admission import Admission
+from rotemina.app.motion.device_link import DeviceLink
+from rotemina.app.motion.mailbox import RefusedError
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.gate import Permit, Purpose
+from rotemina.drivers.tool import ToolOutput
+from rotemina.sim.messages import message
+
+
+class Tool:
+    """A switch, which is locked as motion is."""
+
+    def __init__(self, link: DeviceLink, admission: Admission) -> None:
+        self._link = link
+        self._admission = admission
+
+    @property
+    def on(self) -> bool | None:
+        """Whether the tool is on; None where the device has none."""
+        driver = self._link.driver
+        return driver.tool_on if isinstance(driver, ToolOutput) else None
+
+    def switch(self, on: bool, *, permit: Permit | None = None) -> None:
+        """Switch the tool; off is possible in a fault and while a stop is latched too.
+
+        Raises
+        ------
+        RefusedError
+            If the device has none or is not connected; to switch on, if motion is locked.
+        """
+        permit = self._admission.drawn(permit)
+        if not isinstance(self._link.driver, ToolOutput):
+            name = self._link.driver.name
+            raise RefusedError(
+                message("engine", "driver {name} has no tool that could be switched").fill(
+                    name=repr(name)
+                )
+            )
+        if on:
+            self._admission.refuse_if_locked()
+
+        def switch(driver: Driver, permit: Permit) -> None:
+            assert isinstance(driver, ToolOutput), "the session refuses on any other"
+            driver.switch_tool(on, permit=permit)
+
+        # Switched on, what has come since counts; switched off, nothing does.
+        self._link.ask(switch, permit.meant_for(Purpose.SERVICE if on else Purpose.ENQUIRY))

@@ -1,0 +1,133 @@
+"""Which machine this window drives: simulated, virtual boards, or a real one."""
+
+import os
+from enum import StrEnum
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.drivers.driver import Driver
+from rotemina.drivers.model_abilities import EffectCarrier
+
+_TERMINAL = "/dev/pts/"  # a pseudo-terminal: no wire leads out of one
+_MARGIN = 10  # px beside the words
+
+
+class Machine(StrEnum):
+    """What moves when this window says so."""
+
+    SIMULATOR = "simulator"
+    VIRTUAL_BOARDS = "virtual boards"
+    MACHINE = "machine"
+
+
+WORDS = {
+    Machine.SIMULATOR: marked("shell", "SIMULATOR"),
+    Machine.VIRTUAL_BOARDS: marked("shell", "VIRTUAL BOARDS"),
+    Machine.MACHINE: marked("shell", "MACHINE"),
+}
+TIPS = {
+    Machine.SIMULATOR: marked("shell", "The built-in simulator: nothing real moves."),
+    Machine.VIRTUAL_BOARDS: marked(
+        "shell", "Boards that this computer emulates, behind ports of its own: nothing real moves."
+    ),
+    Machine.MACHINE: marked("shell", "A real machine moves when this window says so."),
+}
+
+
+def machine_of(driver: Driver) -> Machine:
+    """Return what a driver drives; what cannot be told for sure is a real machine."""
+    if isinstance(driver, EffectCarrier):
+        return Machine.SIMULATOR
+    ports = ports_of(driver)
+    if ports and all(os.path.realpath(port).startswith(_TERMINAL) for port in ports):
+        return Machine.VIRTUAL_BOARDS
+    return Machine.MACHINE
+
+
+def ports_of(driver: Driver) -> tuple[str, ...]:
+    """Return the ports that a driver talks through."""
+    found = (value for name, value in driver.settings.items() if name.endswith("port"))
+    return tuple(port for port in found if isinstance(port, str) and port)
+
+
+class MachineBadge(QWidget):
+    """The kind of machine in large letters, with its port: each kind looks its own way."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self.machine = Machine.SIMULATOR
+        self.words = self.port = ""
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        self.refresh()
+
+    def refresh(self) -> bool:
+        """Look which driver is in use; return whether it is another than before."""
+        driver = self._workbench.session.driver
+        machine = machine_of(driver)
+        port = ", ".join(ports_of(driver)) or driver.name
+        words = translate("shell", WORDS[machine])
+        if (machine, port, words) == (self.machine, self.port, self.words):
+            return False
+        self.machine, self.port, self.words = machine, port, words
+        self.setAccessibleName(f"{self.words}, {self.port}")
+        self.setToolTip(plain_tip(translate("shell", TIPS[machine]), self.port))
+        self.update()
+        return True
+
+    def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Return the size of the large header."""
+        return QSize(280, 56)
+
+    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw an outline with hatches, a violet ground, or a white one."""
+        painter, theme = QPainter(self), self._workbench.theme
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        frame = QRectF(self.rect()).adjusted(1, 1, -1, -1)
+        violet = QColor(theme.virtual)
+        painter.setPen(QPen(violet, 2))
+        painter.setBrush(violet)
+        ink = theme.on_virtual
+        if self.machine is Machine.SIMULATOR:
+            faint = QColor(violet)
+            faint.setAlphaF(0.25)
+            painter.setBrush(QBrush(faint, Qt.BrushStyle.BDiagPattern))
+            ink = theme.text
+        elif self.machine is Machine.MACHINE:
+            painter.setPen(QPen(QColor("#000000"), 2))
+            painter.setBrush(QColor("#ffffff"))
+            ink = "#000000"
+        painter.drawRoundedRect(frame, 4, 4)
+        painter.setPen(QColor(ink))
+        self._write(painter, frame)
+
+    def _write(self, painter: QPainter, frame: QRectF) -> None:
+        """Write the kind as large as it fits, 20 px at most, and the port below it."""
+        inner = frame.adjusted(_MARGIN, 3, -_MARGIN, -3)
+        large, small = self.font(), self.font()
+        large.setBold(True)
+        base = self.fontMetrics().height() / 16.0
+        size = round(min(20 * base, 0.46 * frame.height()))
+        large.setPixelSize(size)
+        small.setPixelSize(round(min(12 * base, 0.29 * frame.height())))
+        painter.setFont(large)
+        while painter.fontMetrics().horizontalAdvance(self.words) > inner.width() and size > 10:
+            size -= 1
+            large.setPixelSize(size)
+            painter.setFont(large)
+        side = Qt.AlignmentFlag.AlignLeft
+        painter.drawText(inner, int(side | Qt.AlignmentFlag.AlignTop), self.words)
+        painter.setFont(small)
+        middle, width = Qt.TextElideMode.ElideMiddle, round(inner.width())
+        port = painter.fontMetrics().elidedText(self.port, middle, width)
+        painter.drawText(inner, int(side | Qt.AlignmentFlag.AlignBottom), port)
+
+
+def window_title(badge: MachineBadge, robot: str) -> str:
+    """Return the window's title, by which two of them are told apart."""
+    return f"RoTeMiNa – {badge.words} {badge.port} – {robot}"

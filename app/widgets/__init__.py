@@ -1,0 +1,1 @@
+"""Small widgets that the window and its panels share; they know of no panel and no machine."""

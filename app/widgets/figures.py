@@ -1,0 +1,66 @@
+"""Names and values in two columns."""
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
+
+from rotemina.app.widgets.controls import plain_tip, set_property
+
+
+class Figures(QWidget):
+    """Values by name.
+
+    ``names`` gives each name, as it is shown, a sentence of what it means, or none. There is
+    always room for the ``widest`` value; ``spacing`` is in pixels, between rows.
+    """
+
+    def __init__(self, names: Mapping[str, str], *, widest: str = "", spacing: int = 3) -> None:
+        super().__init__()
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(10)
+        grid.setVerticalSpacing(spacing)
+        grid.setColumnStretch(1, 1)
+        self._widest = widest
+        self.values: dict[str, QLabel] = {}
+        for row, (name, about) in enumerate(names.items()):
+            title, value = QLabel(name), QLabel("–")
+            title.setProperty("quiet", True)
+            value.setTextFormat(Qt.TextFormat.PlainText)
+            value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+            value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            value.setAccessibleName(name)
+            if about:
+                for widget in (title, value):
+                    widget.setToolTip(plain_tip(about))
+            grid.addWidget(title, row, 0)
+            grid.addWidget(value, row, 1)
+            self.values[name] = value
+        self._fit()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave room for the widest value whatever the size of text is."""
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
+            self._fit()
+        super().changeEvent(event)
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave room for the widest value; before, the size of text is not known."""
+        self._fit()
+        super().showEvent(event)
+
+    def _fit(self) -> None:
+        for value in self.values.values():
+            value.setMinimumWidth(value.fontMetrics().horizontalAdvance(self._widest))
+
+    def show_values(self, *texts: str) -> None:
+        """Show texts in the order of the names."""
+        for value, text in zip(self.values.values(), texts, strict=True):
+            value.setText(text)
+
+    def set_stale(self, stale: bool) -> None:
+        """Grey values that are too old."""
+        for value in self.values.values():
+            set_property(value, "stale", stale)

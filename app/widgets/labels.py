@@ -1,0 +1,100 @@
+"""Texts: one line cut with dots, quiet lines, headings, names in their colours."""
+
+from collections.abc import Iterable
+from html import escape
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel, QSizePolicy
+
+from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import plain_tip
+
+
+class ElidedLabel(QLabel):
+    """One line of plain text that takes what room there is; its tooltip has all of it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+
+    def show_text(self, text: str) -> None:
+        """Show another text."""
+        if text != self.text():
+            self.setText(text)
+            self.setToolTip(plain_tip(text) if text else "")
+
+    def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for no width: it takes what the others leave."""
+        return self.minimumSizeHint()
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for no width at all."""
+        return QSize(0, super().minimumSizeHint().height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw as much of the text as there is room for."""
+        painter = QPainter(self)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        cut = self.fontMetrics().elidedText(
+            self.text(), Qt.TextElideMode.ElideRight, self.contentsRect().width()
+        )
+        painter.drawText(self.contentsRect(), int(Qt.AlignmentFlag.AlignVCenter), cut)
+        painter.end()
+
+
+def heading(text: str) -> QLabel:
+    """Return a heading."""
+    label = QLabel(text)
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    label.setProperty("heading", True)
+    return label
+
+
+def plain_text(text: str = "", *, quiet: bool = True, wrap: bool = False, lines: int = 0) -> QLabel:
+    """Return a label whose text is no markup.
+
+    With ``wrap`` it breaks into lines as it needs; with ``lines`` too, and always has room for so
+    many.
+    """
+    label = QLabel(text)
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    label.setProperty("quiet", quiet)
+    label.setWordWrap(wrap or lines > 0)
+    if lines:
+        label.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
+        keep_lines(label, lines)
+    return label
+
+
+def keep_lines(label: QLabel, lines: int) -> None:
+    """Give a label room for so many lines, whatever is in it: what is below must not leap."""
+    label.ensurePolished()  # the theme says how large text is
+    label.setFixedHeight(lines * label.fontMetrics().lineSpacing() + 2)
+
+
+def show_text(label: QLabel, text: str) -> None:
+    """Show a text; an empty one takes no room."""
+    if text != label.text():
+        label.setText(text)
+    if label.isHidden() is bool(text):
+        label.setVisible(bool(text))
+
+
+def hint(text: str) -> QLabel:
+    """Return a quiet text in the middle of a place where there is nothing to show yet."""
+    label = plain_text(text, wrap=True)
+    label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    return label
+
+
+def legend(theme: Theme, names: Iterable[tuple[str, str]], *, mark: str = "") -> str:
+    """Return names, each with the role of its colour, as rich text; ``mark`` has it alone."""
+
+    def coloured(text: str, role: str) -> str:
+        return f'<span style="color:{getattr(theme, role)}">{text}</span>'
+
+    if mark:
+        return "&nbsp; ".join(f"{coloured(mark, role)}&nbsp;{escape(n)}" for n, role in names)
+    return ", ".join(coloured(escape(name), role) for name, role in names)

@@ -1,0 +1,36 @@
+"""What is scrolled within a panel, and pages of which one is seen."""
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFrame, QScrollArea, QStackedWidget, QTabBar, QWidget
+
+
+def scrolled(content: QWidget, *, sideways: bool = False) -> QScrollArea:
+    """Return an area in which a content is scrolled, ``sideways`` as well or only up and down."""
+    area = QScrollArea()
+    area.setObjectName("panelScroll")
+    area.setFrameShape(QFrame.Shape.NoFrame)
+    area.setWidgetResizable(True)
+    if not sideways:
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setWidget(content)
+    return area
+
+
+def least_width(area: QScrollArea) -> int:
+    """Return how wide an area must be for its content and the bar beside it."""
+    return area.widget().minimumSizeHint().width() + area.verticalScrollBar().sizeHint().width()
+
+
+def tabbed(name: str, pages: Mapping[str, QWidget]) -> tuple[QTabBar, QStackedWidget]:
+    """Return tabs by the titles of pages, and the pages, of which the chosen one is seen."""
+    tabs, views = QTabBar(), QStackedWidget()
+    tabs.setAccessibleName(name)
+    tabs.setExpanding(False)
+    tabs.setDrawBase(False)
+    for title, page in pages.items():
+        tabs.addTab(title)
+        views.addWidget(page)
+    tabs.currentChanged.connect(views.setCurrentIndex)
+    return tabs, views

@@ -1,0 +1,152 @@
+"""One axis at a time: its range, which can be narrowed, and how it comes to its targets."""
+
+from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
+
+from rotemina.app.display import axis_scale, label
+from rotemina.app.motion.backlash import Approach
+from rotemina.app.motion.state import SessionState
+from rotemina.app.range_settings import keep_ranges
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.plugins.control.wording import no_position, typed
+from rotemina.sim.quantities import Scale
+from rotemina.sim.robot.model import StepperAxis
+
+_USUAL_WIDTH = 20e-6  # m: beyond the play of most screws
+
+
+class AxesPage(QWidget):
+    """Range and approach of the chosen axis; the fields show what is in use until one types."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench, self._session = workbench, workbench.session
+        self.axis = SteadyChoice(
+            translate("control", "Axis"), translate("control", "Whose range and approach")
+        )
+        for name in workbench.robot.axes:
+            self.axis.addItem(label(name), name)
+        self.axis.currentIndexChanged.connect(lambda _: self._show())
+        self.low, self.high, self.width_field = QLineEdit(), QLineEdit(), QLineEdit()
+        self.low.setAccessibleName(translate("control", "Low end of the range"))
+        self.high.setAccessibleName(translate("control", "High end of the range"))
+        self.width_field.setAccessibleName(translate("control", "Width of the approach"))
+        self.narrow = button(translate("control", "Narrow"), self._narrow)
+        self.whole = button(translate("control", "Whole"), self._restore)
+        self.unit = QLabel()
+        self.side = SteadyChoice(
+            translate("control", "Approach"),
+            translate("control", "From which side targets are come to"),
+        )
+        for text, rising in (
+            (translate("control", "straight"), None),
+            (translate("control", "from below"), True),
+            (translate("control", "from above"), False),
+        ):
+            self.side.addItem(text, rising)
+        self.side.activated.connect(lambda _: self._approach())
+        self.low.returnPressed.connect(self._narrow)
+        self.high.returnPressed.connect(self._narrow)
+        self.width_field.returnPressed.connect(self._approach)
+        self._lay_out()
+        self._show()
+
+    def refresh(self, state: SessionState) -> None:
+        """Lock what must not be changed now."""
+        axis, session = self._axis, self._session
+        why = state.locked
+        if why is None and not session.at_rest:
+            why = translate("control", "the machine is moving")
+        narrowed = axis in session.ranges.narrowed
+        allow(self.narrow, why, translate("control", "Let the axis be sent nowhere else"))
+        allow(
+            self.whole,
+            why or (None if narrowed else translate("control", "its range is whole")),
+            translate("control", "Give back the range of the robot file"),
+        )
+        if not isinstance(self._workbench.robot.axes[axis], StepperAxis):
+            why = translate("control", "only stepper axes have backlash to take up")
+        allow(self.side, why, translate("control", "From which side targets are come to"))
+        allow(
+            self.width_field,
+            why,
+            translate("control", "How far beyond it goes first: more than the play"),
+        )
+
+    @property
+    def _axis(self) -> str:
+        return str(self.axis.currentData())
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout(self)
+        grid.setContentsMargins(10, 6, 10, 4)
+        grid.setHorizontalSpacing(6)
+        grid.setVerticalSpacing(4)
+        grid.addWidget(self.axis, 0, 0, 1, 2)
+        grid.addWidget(self.unit, 0, 2)
+        grid.addWidget(self.narrow, 0, 3)
+        grid.addWidget(self.whole, 0, 4)
+        grid.addWidget(QLabel(translate("control", "Range")), 1, 0)
+        grid.addWidget(self.low, 1, 1, 1, 2)
+        grid.addWidget(self.high, 1, 3, 1, 2)
+        grid.addWidget(QLabel(translate("control", "Approach")), 2, 0)
+        grid.addWidget(self.side, 2, 1, 1, 2)
+        grid.addWidget(self.width_field, 2, 3, 1, 2)
+        grid.setColumnStretch(1, 1)
+        grid.setColumnStretch(3, 1)
+        grid.setRowStretch(3, 1)
+
+    def _show(self) -> None:
+        """Write what is in use into the fields."""
+        axis = self._axis
+        scale = self._scale
+        low, high = self._session.ranges.of(axis)
+        self.low.setText(scale.number(low))
+        self.high.setText(scale.number(high))
+        whole = self._workbench.robot.axes[axis].range
+        ends = " … ".join(scale.text(end) for end in whole)
+        for field in (self.low, self.high):
+            field.setToolTip(plain_tip(translate("control", "Within {ends}").format(ends=ends)))
+        self.unit.setText(f"[{scale.symbol}]")
+        approach = self._session.backlash.applied.get(axis)
+        self.side.setCurrentIndex(self.side.findData(approach.rising if approach else None))
+        self.width_field.setText(scale.number(approach.width if approach else _USUAL_WIDTH))
+
+    @property
+    def _scale(self) -> Scale:
+        return axis_scale(self._workbench.robot.axes[self._axis])
+
+    def _number(self, field: QLineEdit) -> float | None:
+        """Return what a field says, SI; tell where it is no number."""
+        value = typed(field.text(), self._scale)
+        if value is None:
+            text = no_position(self._axis, field.text(), self._scale)
+            self._workbench.notify(Level.WARNING, text, about=self)
+        return value
+
+    def _narrow(self) -> None:
+        axis, low, high = self._axis, self._number(self.low), self._number(self.high)
+        if low is None or high is None:
+            return
+        if self._workbench.ask(lambda: self._session.ranges.narrow(axis, low, high)):
+            self._keep()
+
+    def _restore(self) -> None:
+        axis = self._axis
+        if self._workbench.ask(lambda: self._session.ranges.restore(axis)):
+            self._keep()
+
+    def _keep(self) -> None:
+        ranges = self._session.ranges.narrowed
+        keep_ranges(self._workbench.settings, self._workbench.robot, ranges)
+        self._show()
+
+    def _approach(self) -> None:
+        axis, rising = self._axis, self.side.currentData()
+        width = self._number(self.width_field)
+        if width is not None:
+            approach = None if rising is None else Approach(width, rising)
+            self._workbench.ask(lambda: self._session.backlash.use(axis, approach))
+        self._show()

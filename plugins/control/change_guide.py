@@ -1,0 +1,211 @@
+"""Changing the pin or the dish, step by step; with the new one nothing comes down by itself."""
+
+from collections.abc import Callable, Mapping
+from math import isfinite
+from typing import NamedTuple
+
+from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from rotemina.app.motion.saved_positions import LOAD, WORK
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.pending import Pending
+from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.plugins.connection.reasons import against_teaching, in_motion
+
+LIFT = "z"
+_THERE = 1e-9  # m or rad
+
+
+class Step(NamedTuple):
+    """What is to be done, by which word; why not now; and whether it has been."""
+
+    text: str
+    word: str
+    run: Callable[[], object]
+    against: Callable[[SessionState], str | None]
+    done: Callable[[SessionState], bool]
+
+
+class ChangeGuide(QDialog):
+    """One step after the other, each by a press of its own; the window can be used beside it.
+
+    Parameters
+    ----------
+    workbench : Workbench
+    places : mapping of str to (mapping axis -> float)
+        Saved positions, m or rad.
+    show_panel : callable
+        Brings a panel up by its name.
+    parent : QWidget
+    """
+
+    def __init__(
+        self,
+        workbench: Workbench,
+        places: Callable[[], Mapping[str, Mapping[str, float]]],
+        show_panel: Callable[[str], object],
+        parent: QWidget,
+    ) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(translate("control", "Change pin or dish"))
+        self._bench, self._session = workbench, workbench.session
+        self._places, self._show_panel = places, show_panel
+        self._teaching: Pending[bool] = Pending(workbench.session)
+        self._at, self._begun = 0, False
+        self._top = self._session.robot.axes[LIFT].range[1]
+        self.steps = self._listed()
+        self.lines = [QLabel() for _ in self.steps]
+        self.do = button("", self._do)
+        self.skip = button(
+            translate("control", "Skip"), self._next, translate("control", "Leave this step out")
+        )
+        column = QVBoxLayout(self)
+        for line in self.lines:
+            column.addWidget(line)
+        row = QHBoxLayout()
+        row.addWidget(self.do, 1)
+        row.addWidget(self.skip)
+        column.addLayout(row)
+        workbench.refreshed.connect(self.refresh)
+
+    @property
+    def at(self) -> int:
+        """Which step is next; their number after the last one."""
+        return self._at
+
+    def begin(self) -> None:
+        """Begin with the first step."""
+        self._at, self._begun = 0, False
+        self.refresh(self._session.snapshot())
+        self.show()
+        self.raise_()
+
+    def refresh(self, state: SessionState) -> None:
+        """Go on where a step is done, and say which one is next."""
+        if not self.isVisible():
+            return
+        if self._begun and self.steps[self._at].done(state):
+            self._next()
+        for number, (line, step) in enumerate(zip(self.lines, self.steps, strict=True)):
+            sign = "✓" if number < self._at else "▸" if number == self._at else "  "
+            line.setText(f"{sign} {number + 1}  {step.text}")
+            line.setEnabled(number <= self._at)
+        if self._at < len(self.steps):
+            step = self.steps[self._at]
+            asked = self._teaching.what is not None
+            self.do.setText(translate("control", "Teach here?") if asked else step.word)
+            allow(self.do, step.against(state), step.text)
+
+    def _do(self) -> None:
+        self._begun = True
+        self.steps[self._at].run()
+
+    def _next(self) -> None:
+        self._teaching.withdraw()
+        self._at, self._begun = self._at + 1, False
+        if self._at == len(self.steps):
+            self.close()
+
+    # --- steps ------------------------------------------------------------------------------------
+
+    def _listed(self) -> tuple[Step, ...]:
+        session = self._session
+        top = self._top
+
+        def to_move(state: SessionState) -> str | None:
+            return state.locked or in_motion(state)
+
+        def to_place(name: str) -> Callable[[SessionState], str | None]:
+            none = translate("control", "no position {name!r} is saved; skip, or save it")
+            return lambda state: (
+                to_move(state) if name in self._places() else none.format(name=name)
+            )
+
+        return (
+            Step(
+                translate("control", "Retract: Z to its upper end"),
+                translate("control", "Retract"),
+                lambda: self._bench.go_to({LIFT: top}),
+                to_move,
+                lambda state: _rests_at(state, {LIFT: top}),
+            ),
+            Step(
+                translate("control", "Go to the load position"),
+                translate("control", "Go there"),
+                lambda: self._bench.ask(lambda: session.go_safely(self._places()[LOAD])),
+                to_place(LOAD),
+                lambda state: _rests_at(state, self._places().get(LOAD, {})),
+            ),
+            Step(
+                translate("control", "Forget the floor and the tip in the picture"),
+                translate("control", "Forget them"),
+                self._forget,
+                to_move,
+                lambda _: self._floor() is None,
+            ),
+            Step(
+                translate("control", "Lock; then change the pin or the dish by hand"),
+                translate("control", "Stop and lock"),
+                self._bench.emergency_stop,
+                lambda _: None,
+                lambda state: state.latched is not None,
+            ),
+            Step(
+                translate(
+                    "control", "Pin or dish is changed and hands are clear: release the lock"
+                ),
+                translate("control", "Release"),
+                self._bench.release,
+                lambda _: None,
+                lambda state: state.latched is None,
+            ),
+            Step(
+                translate("control", "Go above the work position, Z up"),
+                translate("control", "Go there"),
+                lambda: self._bench.ask(lambda: session.go_safely(self._above_work())),
+                to_place(WORK),
+                lambda state: _rests_at(state, self._above_work()),
+            ),
+            Step(
+                translate("control", "Find the tip in the microscope; come down by hand, slowly"),
+                translate("control", "Show the microscope"),
+                lambda: self._show_panel("microscope"),
+                lambda _: None,
+                lambda _: True,
+            ),
+            Step(
+                translate("control", "Teach the floor where the tip touches"),
+                translate("control", "Teach floor"),
+                self._teach,
+                lambda state: against_teaching(state, session.bounds.keep_out),
+                lambda _: self._floor() is not None,
+            ),
+        )
+
+    def _above_work(self) -> dict[str, float]:
+        """Return the work position with Z at its upper end: the new pin may be longer."""
+        return {**self._places().get(WORK, {}), LIFT: self._top}
+
+    def _forget(self) -> None:
+        if self._floor() is not None:
+            self._bench.clear_floor()
+        self._bench.ask(lambda: self._bench.microscope.track(False))
+
+    def _teach(self) -> None:
+        """Ask once more; a stop withdraws the question."""
+        if self._teaching.take():
+            self._bench.teach_floor()
+        else:
+            self._teaching.put(True)
+
+    def _floor(self) -> float | None:
+        zone = self._session.bounds.keep_out
+        return zone.floor if zone is not None and isfinite(zone.floor) else None
+
+
+def _rests_at(state: SessionState, place: Mapping[str, float]) -> bool:
+    """Whether the machine rests there, as commanded."""
+    there = all(abs(state.command.get(axis, at + 1.0) - at) <= _THERE for axis, at in place.items())
+    return there and in_motion(state) is None

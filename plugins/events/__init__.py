@@ -1,0 +1,1 @@
+"""The operator's log: moves, stops, locks, refusals and runs."""

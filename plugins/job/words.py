@@ -1,0 +1,70 @@
+"""What runs, in words. Free of Qt."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+from rotemina.app.display import duration_text, size_text
+from rotemina.app.motion.ownership import PLAYBACK
+from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
+from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.phase import driven
+from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.penetration.words import headline
+
+
+class Running(NamedTuple):
+    """How something stands.
+
+    Attributes
+    ----------
+    name, doing : str
+    time : str
+        That is left, or has passed; it may be empty.
+    share : float or None
+        That is done, 0 to 1; None: nobody knows.
+    """
+
+    name: str
+    doing: str = ""
+    time: str = ""
+    share: float | None = None
+
+
+def playback(state: PlaybackState, name: str) -> Running:
+    """Return how a playback stands, or that ``name`` waits to be played."""
+    if not name:
+        return Running(translate("job", "No trajectory is loaded"))
+    if state.phase is PlaybackPhase.IDLE:
+        return Running(name, translate("job", "is loaded"))
+    row = translate("job", "row {row} of {rows}").format(row=max(state.row, 0) + 1, rows=state.rows)
+    if state.phase is PlaybackPhase.PAUSED:
+        row = translate("job", "paused, {row}").format(row=row)
+    left_s = (state.duration_s - state.path_s) / state.speed
+    left = translate("job", "{time} left").format(time=duration_text(left_s))
+    share = state.path_s / state.duration_s if state.duration_s else 0.0
+    return Running(name, row, left, share)
+
+
+def penetration(status: PenetrationStatus) -> Running | None:
+    """Return how a penetration stands; None while nothing is armed."""
+    if status.phase is Phase.DISARMED:
+        return None
+    return Running(headline(status), spoken(status.reason) if status.reason else "")
+
+
+def recording(path: Path, since_s: float, size: int, failure: str | None) -> Running:
+    """Return how a recording stands: its name, how long and how large it is, or why it is none."""
+    doing = translate("job", "not recording: {why}").format(why=failure) if failure else ""
+    return Running(path.name, doing or size_text(size), duration_text(since_s))
+
+
+def motion(state: SessionState) -> Running | None:
+    """Return who moves what; None where nothing moves, or what does has a card of its own."""
+    if state.activity in (DeviceState.IDLE, DeviceState.CLOSED, DeviceState.PLAYING):
+        return None
+    if PLAYBACK in state.owners.values():
+        return None
+    return Running(driven(state) or translate("job", "The axes move"))

@@ -1,0 +1,330 @@
+"""The library of records: open one, export a stretch, make a trajectory of it, delete it."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QMenu,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import size_text
+from rotemina.app.motion.recording import exporting
+from rotemina.app.motion.recording.errors import RecordingError
+from rotemina.app.motion.recording.merging import SUFFIX
+from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.records.entry import Entry, Kind
+from rotemina.app.shell.engine_words import error_text
+from rotemina.app.shell.file_dialog import ask_file, ask_where
+from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.record_table import RecordTable
+from rotemina.app.shell.record_words import NAME, NOTE, state_text
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.question import Question
+from rotemina.plugins.recorder.words import BEGIN, END, span
+from rotemina.sim.errors import InputError
+from rotemina.sim.quantities import fixed
+from rotemina.sim.records.record import Record
+
+_NONE = marked("recorder", "choose one record in the table")
+_NO_STRETCH = marked("recorder", "it is a record already; only a recording is exported")
+
+
+class RecordsView(QWidget):
+    """Table, with what was ``unfinished`` over it, and what can be done with the chosen record.
+
+    ``filter`` stands elsewhere.
+
+    Signals
+    -------
+    looked_for() : the folders are to be looked into again.
+    """
+
+    looked_for = Signal()
+
+    def __init__(self, workbench: Workbench, unfinished: QWidget) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self.table = RecordTable(workbench, multiple=True)
+        self.filter = self.table.filter_row()
+        self.table.chosen_changed.connect(self._allow)
+        self.table.opened.connect(self._open)
+        self.table.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.question = Question()
+        self._make_buttons()
+        self._lay_out(unfinished)
+        self._allow()
+        workbench.replaying.changed.connect(self._allow)
+
+    @property
+    def chosen(self) -> Entry | None:
+        """The record of the chosen row; None if there are several, or none."""
+        chosen = self.table.chosen
+        return chosen[0] if len(chosen) == 1 else None
+
+    # --- what comes of one ------------------------------------------------------------------------
+
+    def export(self, one: Entry, target: Path) -> None:
+        """Write the stretch that is typed as an ASCII record."""
+        stretch = self._stretch(one)
+        if stretch is None:
+            return
+
+        def work() -> int:
+            if target.exists() and target.samefile(one.path):
+                raise RecordingError(
+                    translate(
+                        "recorder", "{target}: it is the recording itself; name another file"
+                    ).format(target=target)
+                )
+            recording = Recording.open(one.path)
+            begin_s, end_s = (recording.began_s + at_s for at_s in stretch)
+            return exporting.export(recording, target, begin_s, end_s)
+
+        def done(rows: int) -> None:
+            self._workbench.notify(
+                Level.GOOD,
+                translate("recorder", "Exported {target}: {rows} rows").format(
+                    target=target, rows=rows
+                ),
+            )
+
+        doing = translate("recorder", "Exporting {name} …").format(name=target.name)
+        self._workbench.work(f"export {target}", doing, work, done)
+
+    def take_in_hand(self, one: Entry) -> None:
+        """Make the commands of a playback, or of the stretch that is typed, the trajectory."""
+        if one.path.suffix != SUFFIX:
+            self._workbench.load_entry(one)
+            return
+        stretch = self._stretch(one)
+        if stretch is None:
+            return
+        robot, period_s = self._workbench.robot, self._workbench.session.setpoint_period_s
+
+        def work() -> Record:
+            recording = Recording.open(one.path)
+            begin_s, end_s = (recording.began_s + at_s for at_s in stretch)
+            return exporting.trajectory(recording, begin_s, end_s, period_s, robot).commands
+
+        def done(commands: Record) -> None:
+            self._workbench.plan_trajectory(
+                translate("recorder", "{stem} again").format(stem=one.name), commands
+            )
+
+        doing = translate("recorder", "Reading the commands of {name} …").format(name=one.name)
+        self._workbench.work("recorded trajectory", doing, work, done)
+
+    # --- parts ------------------------------------------------------------------------------------
+
+    def _make_buttons(self) -> None:
+        self.open = button(translate("recorder", "Replay"), lambda: self._with_chosen(self._open))
+        self.to_record = button(translate("recorder", "Export …"), self._ask_export)
+        self.to_trajectory = button(
+            translate("recorder", "To trajectory"), lambda: self._with_chosen(self.take_in_hand)
+        )
+        self.begin, self.end = _field(BEGIN), _field(END)
+        self.begin_here = button(translate("recorder", "▏Here"), lambda: self._here(self.begin))
+        self.end_here = button(translate("recorder", "Here▕"), lambda: self._here(self.end))
+        self.more = QToolButton()
+        self.more.setText(translate("recorder", "More"))
+        self.more.setToolTip(
+            translate("recorder", "Change name or note, find or open a file, delete")
+        )
+        self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        menu = QMenu(self)
+        self.rename = menu.addAction(translate("recorder", "Change name"))
+        self.annotate = menu.addAction(translate("recorder", "Change note"))
+        self.find = menu.addAction(translate("recorder", "Find file …"))
+        menu.addSeparator()
+        self.other = menu.addAction(translate("recorder", "Replay other file …"))
+        self.again = menu.addAction(translate("recorder", "Refresh"))
+        menu.addSeparator()
+        self.delete = menu.addAction(translate("recorder", "Delete …"))
+        self.rename.triggered.connect(lambda: self.table.rename(NAME))
+        self.annotate.triggered.connect(lambda: self.table.rename(NOTE))
+        self.find.triggered.connect(self._ask_where_it_is)
+        self.other.triggered.connect(self._ask_other)
+        self.again.triggered.connect(self.looked_for.emit)
+        self.delete.triggered.connect(self._ask_delete)
+        self.more.setMenu(menu)
+        self.table.customContextMenuRequested.connect(
+            lambda at: menu.popup(self.table.viewport().mapToGlobal(at))
+        )
+
+    def _lay_out(self, unfinished: QWidget) -> None:
+        self.stretch = QWidget()
+        stretch = QHBoxLayout(self.stretch)
+        stretch.setContentsMargins(0, 0, 0, 0)
+        for widget in (
+            QLabel(translate("recorder", "From")),
+            self.begin,
+            self.begin_here,
+            QLabel(translate("recorder", "to")),
+            self.end,
+            QLabel("s"),
+            self.end_here,
+        ):
+            stretch.addWidget(widget)
+        below = QHBoxLayout()
+        below.addWidget(self.stretch)
+        below.addStretch(1)
+        for widget in (self.open, self.to_record, self.to_trajectory, self.more):
+            below.addWidget(widget)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        column.addWidget(unfinished)
+        column.addWidget(self.question)
+        column.addWidget(self.table, 1)
+        column.addLayout(below)
+
+    def _allow(self) -> None:
+        chosen, several = self.chosen, self.table.chosen
+        why_not = translate("recorder", _NONE) if chosen is None else None
+        if chosen is not None and not chosen.usable:
+            why_not = state_text(chosen)
+        replayed = chosen is None or chosen.path.suffix == SUFFIX
+        self.stretch.setVisible(replayed)  # a playback is taken as a whole
+        self.open.setText(
+            translate("recorder", "Replay") if replayed else translate("recorder", "Compare")
+        )
+        tip = (
+            translate("recorder", "Show the recording in place of the machine")
+            if replayed
+            else translate("recorder", "Compare the record with the model in use")
+        )
+        allow(self.open, why_not, tip)
+        whole = why_not or (None if replayed else translate("recorder", _NO_STRETCH))
+        tip = translate(
+            "recorder", "Write the stretch as an ASCII record, to be compared and diagnosed"
+        )
+        allow(self.to_record, whole, tip)
+        tip = translate(
+            "recorder",
+            "Take the commands of the stretch in hand, to be played on the machine; every axis "
+            "must stand at both ends",
+        )
+        allow(self.to_trajectory, why_not, tip)
+        here = (
+            None
+            if self._shown_s() is not None
+            else translate("recorder", "this recording is not shown")
+        )
+        allow(
+            self.begin_here,
+            here,
+            translate("recorder", "Let the stretch begin where the replay is"),
+        )
+        allow(self.end_here, here, translate("recorder", "Let the stretch end where the replay is"))
+        self.rename.setEnabled(chosen is not None)
+        self.annotate.setEnabled(chosen is not None)
+        self.find.setEnabled(chosen is not None and chosen.missing)
+        self.delete.setEnabled(bool(several))
+
+    def _shown_s(self) -> float | None:
+        """Return where the replay of the chosen recording is."""
+        paced, chosen = self._workbench.replaying.paced, self.chosen
+        if paced is None or chosen is None or paced.replay.recording.path != chosen.path:
+            return None
+        return paced.at_s
+
+    def _here(self, field: QLineEdit) -> None:
+        at_s = self._shown_s()
+        if at_s is not None:
+            field.setText(fixed(at_s, 3))
+
+    def _stretch(self, one: Entry) -> tuple[float, float] | None:
+        try:
+            return span(self.begin.text(), self.end.text(), one.duration_s or 0.0)
+        except InputError as error:
+            self._workbench.notify(Level.WARNING, error_text(error), about=error)
+            return None
+
+    # --- dialogs ----------------------------------------------------------------------------------
+
+    def _with_chosen(self, use: Callable[[Entry], None]) -> None:
+        chosen = self.chosen
+        if chosen is not None and chosen.usable:
+            use(chosen)
+
+    def _open(self, one: Entry) -> None:
+        if not one.usable:
+            self._workbench.notify(Level.WARNING, f"{one.name}: {state_text(one)}", about=self)
+        elif one.path.suffix == SUFFIX:
+            self._workbench.open_replay(one.path)
+        else:
+            self._workbench.open_entry(one)
+
+    def _ask_export(self) -> None:
+        def ask(one: Entry) -> None:
+            title, kinds = (
+                translate("recorder", "Export a record"),
+                translate("recorder", "Records (*.csv *.csv.gz)"),
+            )
+            name = f"{one.path.stem}.csv"
+            ask_where(
+                self.window(), self._workbench, title, kinds, name, lambda to: self.export(one, to)
+            )
+
+        self._with_chosen(ask)
+
+    def _ask_other(self) -> None:
+        kinds = translate("recorder", "Recordings (*{suffix});;All files (*)").format(suffix=SUFFIX)
+        title = translate("recorder", "Replay")
+        ask_file(self.window(), self._workbench, title, kinds, self._workbench.open_replay)
+
+    def _ask_where_it_is(self) -> None:
+        one = self.chosen
+        if one is not None:
+            title = translate("recorder", "Where is {name}?").format(name=one.path.name)
+            kinds = f"*{one.path.suffix} (*{one.path.suffix})"
+            library = self._workbench.library
+            ask_file(
+                self.window(), self._workbench, title, kinds, lambda to: library.found_at(one, to)
+            )
+
+    def _ask_delete(self) -> None:
+        """Ask whether to delete; files of other folders are only forgotten."""
+        chosen = self.table.chosen
+        if not chosen:
+            return
+        own = [one for one in chosen if one.kind is not Kind.FILE and not one.missing]
+        names = ", ".join(f'"{one.name}"' for one in chosen[:3])
+        if len(chosen) > 3:
+            names = translate("recorder", "{names} and {n} more").format(
+                names=names, n=len(chosen) - 3
+            )
+        text = translate(
+            "recorder",
+            "Delete {names}? This deletes {size} on the disk for good. Files in other folders "
+            "stay; they only leave the list.",
+        ).format(names=names, size=size_text(sum(one.size for one in own)))
+        delete = self._workbench.library.delete
+        self.question.ask(text, translate("recorder", "Delete"), lambda: delete(chosen))
+
+
+def _field(end: str) -> QLineEdit:
+    field = QLineEdit()
+    what = translate("recorder", end)
+    field.setPlaceholderText(what)
+    room = field.fontMetrics().horizontalAdvance(what)
+    field.setFixedWidth(max(60, room + 28))  # the frame and the cursor
+    field.setAccessibleName(
+        translate("recorder", "{end} of the stretch in seconds").format(
+            end=what[:1].upper() + what[1:]
+        )
+    )
+    field.setToolTip(
+        translate("recorder", "Seconds from the begin of the recording; empty: its {end}").format(
+            end=what
+        )
+    )
+    return field

@@ -1,0 +1,175 @@
+"""Teach points: where the machine is becomes a point; points become a trajectory."""
+
+from dataclasses import replace
+
+from PySide6.QtCore import QSignalBlocker
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import axis_scale, label
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.plugins.trajectory.teach import LONGEST_PAUSE_S, TaughtPoint, taught
+from rotemina.sim.quantities import parsed, rounded
+from rotemina.sim.records.record import Record
+
+
+class TeachView(QWidget):
+    """The points in a table: a place of each axis, the speed of the way there, a pause.
+
+    Nothing here moves the machine: the trajectory is planned as one of a file is.
+    """
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._workbench = workbench
+        self.points: list[TaughtPoint] = []
+        self._axes = tuple(workbench.robot.axes)
+        self._scales = [axis_scale(axis) for axis in workbench.robot.axes.values()]
+        heads = [
+            f"{label(axis)} [{scale.symbol}]"
+            for axis, scale in zip(self._axes, self._scales, strict=True)
+        ]
+        heads += [translate("trajectory", "speed [%]"), translate("trajectory", "pause [s]")]
+        self.table = QTableWidget(0, len(heads))
+        self.table.setAccessibleName(translate("trajectory", "Taught points"))
+        self.table.setHorizontalHeaderLabels(heads)
+        triggers = QAbstractItemView.EditTrigger
+        self.table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed)
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        header = self.table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setFixedHeight(23)
+        self.table.verticalHeader().setDefaultSectionSize(21)
+        self.table.itemChanged.connect(self._typed)
+        self.take = button(translate("trajectory", "Take point"), self._take)
+        self.again = button(translate("trajectory", "Take anew"), self._again)
+        self.remove = button(translate("trajectory", "Remove"), self._remove)
+        self.use = button(translate("trajectory", "Make trajectory"), self._use)
+        buttons = QVBoxLayout()
+        for one in (self.take, self.again, self.remove, self.use):
+            buttons.addWidget(one)
+        buttons.addStretch(1)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.table, 1)
+        row.addLayout(buttons)
+
+    def refresh(self, state: SessionState) -> None:
+        """Allow what can be done now."""
+        known = None if state.position_known else translate("trajectory", "its place is not known")
+        chosen = (
+            None if self.table.currentRow() >= 0 else translate("trajectory", "mark a point first")
+        )
+        few = None if len(self.points) > 1 else translate("trajectory", "take two points or more")
+        allow(
+            self.take,
+            known,
+            translate("trajectory", "Add where the machine is sent now, behind the marked point"),
+        )
+        allow(
+            self.again,
+            known or chosen,
+            translate("trajectory", "Put the marked point where the machine is sent now"),
+        )
+        allow(self.remove, chosen, translate("trajectory", "Remove the marked point"))
+        allow(
+            self.use,
+            few,
+            translate("trajectory", "Make a trajectory of the points; the dry run tries it"),
+        )
+
+    def _take(self) -> None:
+        row = self.table.currentRow()
+        at = row + 1 if row >= 0 else len(self.points)
+        point = TaughtPoint(dict(self._workbench.session.snapshot().command))
+        if point.place:
+            self.points.insert(at, point)
+            self._fill(at)
+
+    def _again(self) -> None:
+        row, place = self.table.currentRow(), self._workbench.session.snapshot().command
+        if 0 <= row < len(self.points) and place:
+            self.points[row] = replace(self.points[row], place=dict(place))
+            self._fill(row)
+
+    def _remove(self) -> None:
+        row = self.table.currentRow()
+        if 0 <= row < len(self.points):
+            del self.points[row]
+            self._fill(min(row, len(self.points) - 1))
+
+    def _use(self) -> None:
+        name = translate("trajectory", "{n} taught points").format(n=len(self.points))
+        found: list[Record] = []
+        points, robot = tuple(self.points), self._workbench.robot
+        if self._workbench.ask(lambda: found.append(taught(robot, points, name))):
+            self._workbench.plan_trajectory(name, found[0])
+
+    def _typed(self, item: QTableWidgetItem) -> None:
+        """Take what was typed, or put back what was there and say what may stand there."""
+        row, column = item.row(), item.column()
+        value, point = parsed(item.text()), self.points[row]
+        after = None if value is None else self._changed(point, column, value)
+        if after is None:
+            self._workbench.notify(Level.WARNING, self._bound(row, column, item.text()), about=self)
+        else:
+            self.points[row] = after
+        self._fill(row)
+
+    def _changed(self, point: TaughtPoint, column: int, value: float) -> TaughtPoint | None:
+        """Return a point with another number in a column; None where that may not be."""
+        count = len(self._axes)
+        if column < count:
+            axis = self._axes[column]
+            low, high = self._workbench.session.ranges.of(axis)
+            place = value / self._scales[column].per_si
+            slack = 1e-9 * (high - low)
+            inside = low - slack <= place <= high + slack
+            return replace(point, place={**point.place, axis: place}) if inside else None
+        if column == count:
+            return replace(point, speed=0.01 * value) if 0.0 < value <= 100.0 else None
+        return replace(point, pause_s=value) if 0.0 <= value <= LONGEST_PAUSE_S else None
+
+    def _bound(self, row: int, column: int, text: str) -> str:
+        count = len(self._axes)
+        if column < count:
+            scale = self._scales[column]
+            low, high = self._workbench.session.ranges.of(self._axes[column])
+            bound = translate("trajectory", "must be {low} to {high}").format(
+                low=scale.text(low), high=scale.text(high)
+            )
+        elif column == count:
+            bound = translate("trajectory", "must be above 0 and at most 100 %")
+        else:
+            bound = translate("trajectory", "must be 0 to {most} s").format(
+                most=rounded(LONGEST_PAUSE_S)
+            )
+        head = self.table.horizontalHeaderItem(column).text()
+        return translate("trajectory", "Point {number}, {column}: {text!r}: {bound}").format(
+            number=row + 1, column=head, text=text, bound=bound
+        )
+
+    def _fill(self, chosen: int) -> None:
+        with QSignalBlocker(self.table):
+            self.table.setRowCount(len(self.points))
+            for row, point in enumerate(self.points):
+                texts = [
+                    scale.number(point.place[axis])
+                    for axis, scale in zip(self._axes, self._scales, strict=True)
+                ]
+                texts += [rounded(100.0 * point.speed), rounded(point.pause_s)]
+                for column, text in enumerate(texts):
+                    self.table.setItem(row, column, QTableWidgetItem(text))
+        if chosen >= 0:
+            self.table.selectRow(chosen)

@@ -1,0 +1,263 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+<context>
+    <name>cli</name>
+    <message>
+        <source>--seed {seed}: must be 0 or more</source>
+        <translation>--seed {seed}: muss 0 oder größer sein</translation>
+    </message>
+    <message>
+        <source>--mishaps {mishaps}: must be from 0 to 1000 a second</source>
+        <translation>--mishaps {mishaps}: muss zwischen 0 und 1000 je Sekunde liegen</translation>
+    </message>
+    <message>
+        <source>{asked} ports: two boards have {most_ports} at most</source>
+        <translation>{asked} Anschlüsse: zwei Karten haben höchstens {most_ports}</translation>
+    </message>
+    <message>
+        <source>--bus: it is one line; name one port only</source>
+        <translation>--bus: das ist eine einzige Leitung; nur einen Anschluss nennen</translation>
+    </message>
+    <message>
+        <source>--bus: the robot&apos;s axes take one board, which shares no line</source>
+        <translation>--bus: die Achsen des Roboters brauchen nur eine Karte, die keine Leitung teilt</translation>
+    </message>
+    <message>
+        <source>this system has no pseudo-terminals ({error}); use --tcp 127.0.0.1:0</source>
+        <translation>dieses System hat keine Pseudoterminals ({error}); --tcp 127.0.0.1:0 verwenden</translation>
+    </message>
+    <message>
+        <source>--tcp {address}: cannot listen there: {error}</source>
+        <translation>--tcp {address}: dort lässt sich nicht lauschen: {error}</translation>
+    </message>
+    <message>
+        <source>--tcp {address}: {value} is not this machine&apos;s own loop; anybody who reaches a board can move it: use 127.0.0.1:PORT</source>
+        <translation>--tcp {address}: {value} ist nicht die lokale Schleife dieses Rechners; wer eine Karte erreicht, kann sie bewegen: 127.0.0.1:PORT verwenden</translation>
+    </message>
+    <message>
+        <source>--tcp {address}: the port must be a number from 0 (any) to 65535</source>
+        <translation>--tcp {address}: der Port muss eine Zahl von 0 (beliebig) bis 65535 sein</translation>
+    </message>
+    <message>
+        <source>--port {link}: there is something of this name already; remove it, or take another</source>
+        <translation>--port {link}: etwas mit diesem Namen gibt es schon; entfernen oder einen anderen Namen wählen</translation>
+    </message>
+    <message>
+        <source>--port {link}: cannot make a link there: {error}</source>
+        <translation>--port {link}: dort lässt sich keine Verknüpfung anlegen: {error}</translation>
+    </message>
+    <message>
+        <source>--laser: {count} files for {records} records; give one each</source>
+        <translation>--laser: {count} Dateien für {records} Aufzeichnungen; für jede eine nennen</translation>
+    </message>
+    <message>
+        <source>--fit: it re-fits the model, which --with leaves out; use one of them</source>
+        <translation>--fit: es passt das Modell neu an, das bei --with fehlt; nur eines von beiden verwenden</translation>
+    </message>
+    <message>
+        <source>{path}: it is named twice; give the output a name of its own</source>
+        <translation>{path}: der Name kommt zweimal vor; der Ausgabe einen eigenen geben</translation>
+    </message>
+    <message>
+        <source>{inverse}: it was trained for robot {robot}, not for {name}; name that one by --robot</source>
+        <translation>{inverse}: sie wurde für Roboter {robot} gelernt, nicht für {name}; jenen mit --robot nennen</translation>
+    </message>
+    <message>
+        <source>--simulate takes no records; leave out one or the other</source>
+        <translation>--simulate nimmt keine Aufzeichnungen; eines von beiden weglassen</translation>
+    </message>
+    <message>
+        <source>no record is named; name one, or let the simulator move: --simulate</source>
+        <translation>keine Aufzeichnung genannt; eine nennen oder den Simulator fahren lassen: --simulate</translation>
+    </message>
+    <message>
+        <source>--effects and --seed belong to --simulate; leave them out, or add it</source>
+        <translation>--effects und --seed gehören zu --simulate; weglassen oder es hinzufügen</translation>
+    </message>
+    <message>
+        <source>--simulate needs --axis NAME</source>
+        <translation>--simulate braucht --axis NAME</translation>
+    </message>
+    <message>
+        <source>{output}: there is no folder {parent}; make it</source>
+        <translation>{output}: den Ordner {parent} gibt es nicht; erst anlegen</translation>
+    </message>
+    <message>
+        <source>{path}: it is named twice; give each file a name of its own</source>
+        <translation>{path}: der Name kommt zweimal vor; jeder Datei einen eigenen geben</translation>
+    </message>
+    <message>
+        <source>{path}: its piezo axes are {found}; name one by --axis</source>
+        <translation>{path}: die Piezoachsen darin sind {found}; eine mit --axis nennen</translation>
+    </message>
+    <message>
+        <source>{output}: it is the file that is read; name another by -o</source>
+        <translation>{output}: das ist die Datei, die gelesen wird; mit -o eine andere nennen</translation>
+    </message>
+    <message>
+        <source>--units {chosen}: a position&apos;s unit is a length or an angle</source>
+        <translation>--units {chosen}: die Einheit einer Position ist eine Länge oder ein Winkel</translation>
+    </message>
+    <message>
+        <source>--set {text}: must be KEY=VALUE</source>
+        <translation>--set {text}: muss KEY=VALUE sein</translation>
+    </message>
+    <message>
+        <source>{name}: unknown setting {setting}; it knows {known}</source>
+        <translation>{name}: unbekannte Einstellung {setting}; bekannt: {known}</translation>
+    </message>
+    <message>
+        <source>--set {name}={value}: must be {kind}</source>
+        <translation>--set {name}={value}: muss {kind} sein</translation>
+    </message>
+    <message>
+        <source>there is no effect {effect_id}; there are {names}</source>
+        <translation>den Effekt {effect_id} gibt es nicht; vorhanden: {names}</translation>
+    </message>
+    <message>
+        <source>{text} is none of {names}</source>
+        <translation>{text} ist keines von {names}</translation>
+    </message>
+    <message>
+        <source>{text} is not {advice}</source>
+        <translation>{text} ist nicht {advice}</translation>
+    </message>
+    <message>
+        <source>{text} is no whole number</source>
+        <translation>{text} ist keine ganze Zahl</translation>
+    </message>
+    <message>
+        <source>--{option}: {error}</source>
+        <translation>--{option}: {error}</translation>
+    </message>
+    <message>
+        <source>--{option}: {text}; write it as {metavar}</source>
+        <translation>--{option}: {text}; so schreiben: {metavar}</translation>
+    </message>
+    <message>
+        <source>unknown kind {kind}; use one of {names}</source>
+        <translation>unbekannte Art {kind}; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>axis {name}: robot {robot_name} has no such axis; use one of {names}</source>
+        <translation>Achse {name}: Roboter {robot_name} hat keine solche Achse; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>{kind} has no --{refused}; it takes {names}</source>
+        <translation>{kind} kennt kein --{refused}; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>--{option}: axis {key} is none of those that move</source>
+        <translation>--{option}: Achse {key} gehört nicht zu den bewegten</translation>
+    </message>
+    <message>
+        <source>--{option}: {text} has two values for an axis</source>
+        <translation>--{option}: {text} enthält zwei Werte für eine Achse</translation>
+    </message>
+    <message>
+        <source>gap: name what to do: diagnose, predict, twin, blind or bench (--help tells more)</source>
+        <translation>gap: nennen, was zu tun ist: diagnose, predict, twin, blind oder bench (mehr mit --help)</translation>
+    </message>
+    <message>
+        <source>{output}: it is named twice; give each file a name of its own</source>
+        <translation>{output}: der Name kommt zweimal vor; jeder Datei einen eigenen geben</translation>
+    </message>
+    <message>
+        <source>--pause: name the motion that went before by --after</source>
+        <translation>--pause: die vorausgegangene Bewegung mit --after nennen</translation>
+    </message>
+    <message>
+        <source>{output}: it exists already; name the record by -o</source>
+        <translation>{output}: die Datei gibt es schon; die Aufzeichnung mit -o benennen</translation>
+    </message>
+    <message>
+        <source>{output}: it cannot be written, there is no folder {parent}; make it, or choose another</source>
+        <translation>{output}: kann nicht geschrieben werden, den Ordner {parent} gibt es nicht; anlegen oder einen anderen wählen</translation>
+    </message>
+    <message>
+        <source>{other}: a suggested experiment of {document} would take its place; name another file by --json</source>
+        <translation>{other}: ein vorgeschlagenes Experiment von {document} käme an seine Stelle; mit --json eine andere Datei nennen</translation>
+    </message>
+    <message>
+        <source>--zn, --thx, --thy: must be finite numbers</source>
+        <translation>--zn, --thx, --thy: müssen endliche Zahlen sein</translation>
+    </message>
+    <message>
+        <source>the pin&apos;s bottom cannot go that far: --zn, --thx, --thy must be within ± {farthest} µm or µrad</source>
+        <translation>so weit kommt das untere Ende des Stifts nicht: --zn, --thx, --thy müssen innerhalb von ± {farthest} µm oder µrad liegen</translation>
+    </message>
+    <message>
+        <source>{trajectory}: {objections}{more}</source>
+        <translation>{trajectory}: {objections}{more}</translation>
+    </message>
+    <message>
+        <source>there is no {wanted} {name}; `rotemina plugin list` tells which there are</source>
+        <translation>{wanted} {name} gibt es nicht; `rotemina plugin list` zeigt, was es gibt</translation>
+    </message>
+    <message>
+        <source>--from {begin} --to {end}: must be 0 or more, and in order</source>
+        <translation>--from {begin} --to {end}: müssen 0 oder größer und in dieser Reihenfolge sein</translation>
+    </message>
+    <message>
+        <source>--trajectory and --reference: choose one of them</source>
+        <translation>--trajectory und --reference: nur eines von beiden wählen</translation>
+    </message>
+    <message>
+        <source>--period {period}: must be more than 0 s</source>
+        <translation>--period {period}: muss größer als 0 s sein</translation>
+    </message>
+    <message>
+        <source>{effects}: on robot {name}: {error}</source>
+        <translation>{effects}: bei Roboter {name}: {error}</translation>
+    </message>
+    <message>
+        <source>tune: name the axis by --axis, or a point by --choose</source>
+        <translation>tune: die Achse mit --axis oder einen Punkt mit --choose nennen</translation>
+    </message>
+    <message>
+        <source>{output}: tuned for robot {robot}, and this is {name}; name the robot by --robot</source>
+        <translation>{output}: abgestimmt für Roboter {robot}, dies ist {name}; den Roboter mit --robot nennen</translation>
+    </message>
+    <message>
+        <source>{output}: there is no folder {parent}; make it first</source>
+        <translation>{output}: den Ordner {parent} gibt es nicht; erst anlegen</translation>
+    </message>
+    <message>
+        <source>{inverse}: an inverse of axis {axis}, and {options_axis} is to be tuned; name one that was trained on this axis</source>
+        <translation>{inverse}: eine Inverse von Achse {axis}, abgestimmt werden soll {options_axis}; eine nennen, die auf dieser Achse gelernt wurde</translation>
+    </message>
+    <message>
+        <source>--jobs {jobs}: must be 1 or more</source>
+        <translation>--jobs {jobs}: muss 1 oder größer sein</translation>
+    </message>
+    <message>
+        <source>--cluster {cluster}: Dask is not installed; install it by pip install &apos;rotemina[dask]&apos;, here and on the cluster&apos;s machines</source>
+        <translation>--cluster {cluster}: Dask ist nicht installiert; hier und auf den Rechnern des Clusters mit pip install &apos;rotemina[dask]&apos; installieren</translation>
+    </message>
+    <message>
+        <source>--cluster {cluster}: it cannot be reached ({error}); name the address of a running Dask scheduler</source>
+        <translation>--cluster {cluster}: nicht erreichbar ({error}); die Adresse eines laufenden Dask-Schedulers nennen</translation>
+    </message>
+    <message>
+        <source>--cluster {cluster}: it has no workers; start some by dask worker {cluster}</source>
+        <translation>--cluster {cluster}: er hat keine Worker; welche starten mit dask worker {cluster}</translation>
+    </message>
+    <message>
+        <source>--cluster: a worker of it died again and again at the same work ({error}); look at its memory and its log</source>
+        <translation>--cluster: ein Worker starb immer wieder an derselben Arbeit ({error}); seinen Speicher und sein Protokoll ansehen</translation>
+    </message>
+    <message>
+        <source>--cluster: work could not be sent: {said}</source>
+        <translation>--cluster: Arbeit ließ sich nicht verteilen: {said}</translation>
+    </message>
+    <message>
+        <source>{file}: {reason}; check its name and folder</source>
+        <translation>{file}: {reason}; Name und Ordner prüfen</translation>
+    </message>
+    <message>
+        <source>interrupted</source>
+        <translation>abgebrochen</translation>
+    </message>
+</context>
+</TS>

@@ -1,0 +1,4886 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de" sourcelanguage="en">
+<context>
+    <name>engine</name>
+    <message>
+        <source>the machine is still moving; change the model at rest</source>
+        <extracomment>What puts readings right, before anybody sees them. The one that is open, or was open last; exchanged on this worker&apos;s thread. What the tip&apos;s bounds are judged on beside commands. What the operator says of all that is played; replaced as a whole by any thread. Of axes that the device does not compensate by itself.</extracomment>
+        <translation>die Maschine bewegt sich noch; das Modell in Ruhe wechseln</translation>
+    </message>
+    <message>
+        <source>the model is not of this machine: {why}; diagnose this one</source>
+        <translation>das Modell gehört nicht zu dieser Maschine: {why}; diese hier diagnostizieren</translation>
+    </message>
+    <message>
+        <source>connecting; wait</source>
+        <translation>wird verbunden; warten</translation>
+    </message>
+    <message>
+        <source>stopped: {lock}</source>
+        <translation>angehalten: {lock}</translation>
+    </message>
+    <message>
+        <source>the device reports a fault</source>
+        <translation>das Gerät meldet einen Fehler</translation>
+    </message>
+    <message>
+        <source>the inverse of axis {axes} is off: where the axis is sent is what it is told</source>
+        <translation>die Inverse der Achse {axes} ist abgenommen: die Achse wird dorthin geschickt, wohin sie soll, ohne Kompensation</translation>
+    </message>
+    <message>
+        <source>unexpected {name} from the driver: {error}</source>
+        <translation>unerwartet {name} vom Treiber: {error}</translation>
+    </message>
+    <message>
+        <source>axis {axis} reads {much} beyond its range</source>
+        <translation>Achse {axis} misst {much} außerhalb ihres Bereichs</translation>
+    </message>
+    <message>
+        <source>axis {axis} reads {much} beyond its range, {most} at most</source>
+        <translation>Achse {axis} misst {much} außerhalb ihres Bereichs, höchstens {most}</translation>
+    </message>
+    <message>
+        <source>axis {axis} reads {much} from where it was sent, {most} at most</source>
+        <translation>Achse {axis} misst {much} Abstand zum Sollwert, höchstens {most}</translation>
+    </message>
+    <message>
+        <source>the session was started before; make another one</source>
+        <extracomment>Of the thread that shows this to an operator; once it beats, nothing moves without it. Of the worker.</extracomment>
+        <translation>die Sitzung wurde schon gestartet; eine neue anlegen</translation>
+    </message>
+    <message>
+        <source>the device is connected</source>
+        <translation>das Gerät ist verbunden</translation>
+    </message>
+    <message>
+        <source>the device is let go of</source>
+        <translation>das Gerät wird losgelassen</translation>
+    </message>
+    <message>
+        <source>driver {name} is for a robot with axes {axes}; this one has {these}; start the program with that robot</source>
+        <translation>Treiber {name} gehört zu einem Roboter mit den Achsen {axes}; dieser hat {these}; das Programm mit jenem Roboter starten</translation>
+    </message>
+    <message>
+        <source>another device is connected</source>
+        <translation>ein anderes Gerät wird verbunden</translation>
+    </message>
+    <message>
+        <source>the window does not answer</source>
+        <translation>das Fenster antwortet nicht</translation>
+    </message>
+    <message>
+        <source>another device is being connected; wait</source>
+        <translation>ein anderes Gerät wird verbunden; bitte warten</translation>
+    </message>
+    <message>
+        <source>{stop} is latched; release it first</source>
+        <extracomment>Why no motion is accepted on any path; None while it is. Host time of the latest stop, whoever asked for it; None before the first.</extracomment>
+        <translation>{stop} ist eingerastet; erst freigeben</translation>
+    </message>
+    <message>
+        <source>not connected</source>
+        <translation>nicht verbunden</translation>
+    </message>
+    <message>
+        <source>an axis is driven by {other}</source>
+        <translation>eine Achse wird von {other} bewegt</translation>
+    </message>
+    <message>
+        <source>the device has sent nothing for {seconds} s; wait, or reconnect</source>
+        <translation>das Gerät hat seit {seconds} s nichts gesendet; warten oder wieder verbinden</translation>
+    </message>
+    <message>
+        <source>not connected; connect first</source>
+        <translation>nicht verbunden; erst verbinden</translation>
+    </message>
+    <message>
+        <source>a penetration is {phase}; end it first</source>
+        <translation>eine Penetration ist in Phase {phase}; zuerst beenden</translation>
+    </message>
+    <message>
+        <source>a penetration is in {phase}; stop it first</source>
+        <translation>eine Penetration ist in der Phase {phase}; erst anhalten</translation>
+    </message>
+    <message>
+        <source>the program let go of it</source>
+        <translation>das Programm hat sie losgelassen</translation>
+    </message>
+    <message>
+        <source>the penetration is not armed; arm it first</source>
+        <translation>die Penetration ist nicht scharf; erst scharf schalten</translation>
+    </message>
+    <message>
+        <source>the retraction was stopped by the button</source>
+        <translation>der Rückzug wurde per Taste angehalten</translation>
+    </message>
+    <message>
+        <source>stopped by the button in {phase}</source>
+        <translation>per Taste angehalten, Phase {phase}</translation>
+    </message>
+    <message>
+        <source>nobody started it in time</source>
+        <translation>nicht rechtzeitig gestartet</translation>
+    </message>
+    <message>
+        <source>the penetration cannot start: {broken}</source>
+        <translation>die Penetration kann nicht beginnen: {broken}</translation>
+    </message>
+    <message>
+        <source>the axis has moved since it was armed; arm it again</source>
+        <translation>die Achse hat sich seit dem Scharfstellen bewegt; erneut scharfstellen</translation>
+    </message>
+    <message>
+        <source>the held tip cannot be moved: {locked}</source>
+        <translation>die gehaltene Spitze kann nicht bewegt werden: {locked}</translation>
+    </message>
+    <message>
+        <source>the axes are not the penetration&apos;s any more; move them by hand</source>
+        <translation>die Achsen gehören nicht mehr der Penetration; von Hand bewegen</translation>
+    </message>
+    <message>
+        <source>retracted by the button; before: {reason}</source>
+        <translation>per Taste zurückgezogen; zuvor: {reason}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: only {nano} can be moved back while the tip stays; move {axis} back yourself, or shorten the way</source>
+        <translation>Achse {axis}: nur {nano} kann zurückgefahren werden, während die Spitze stehen bleibt; fahren Sie {axis} selbst zurück, oder kürzen Sie den Weg</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {needed} are needed, its whole range is {range}; shorten approach_distance or depth</source>
+        <translation>Achse {axis}: {needed} werden gebraucht, ihr ganzer Bereich ist {range}; approach_distance oder depth verkürzen</translation>
+    </message>
+    <message>
+        <source>driver {driver} cannot run profiles by itself; a thrust needs that</source>
+        <translation>Treiber {driver} kann keine Profile selbst ausführen; ein Einstich braucht das</translation>
+    </message>
+    <message>
+        <source>driver {driver} cannot move at a speed; the approach needs that</source>
+        <translation>Treiber {driver} kann nicht mit einer Geschwindigkeit fahren; die Anfahrt braucht das</translation>
+    </message>
+    <message>
+        <source>driver {driver} has no tool that could inject; set inject_s to 0</source>
+        <translation>Treiber {driver} hat kein Werkzeug zum Injizieren; Injektion auf 0 setzen</translation>
+    </message>
+    <message>
+        <source>robot {name} has no axis {axis} to penetrate with; it has {axes}</source>
+        <translation>Roboter {name} hat keine Achse {axis} für die Penetration; er hat {axes}</translation>
+    </message>
+    <message>
+        <source>axis {axis} of {robot} turns; a penetration needs a way in m</source>
+        <translation>Achse {axis} von {robot} dreht; eine Penetration braucht einen Weg in m</translation>
+    </message>
+    <message>
+        <source>approach_speed = {approach_speed}: axis {name} goes at {max_speed} at most</source>
+        <translation>approach_speed = {approach_speed}: Achse {name} fährt höchstens {max_speed}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {left} of its range are left {direction}wards, {needed} are needed ({approach} to approach, {halt} to halt, {thrust} to thrust); move the axis back first, or shorten them</source>
+        <translation>Achse {axis}: {direction} sind {left} frei, {needed} nötig ({approach} Anfahrt, {halt} Anhalten, {thrust} Einstich); die Achse zurückfahren oder kürzen</translation>
+    </message>
+    <message>
+        <source>the device sends too few samples</source>
+        <translation>das Gerät sendet zu wenige Messwerte</translation>
+    </message>
+    <message>
+        <source>no contact within {distance}; start nearer to the cell</source>
+        <translation>kein Kontakt auf {distance}; näher an der Zelle beginnen</translation>
+    </message>
+    <message>
+        <source>the axis did not come to rest</source>
+        <translation>die Achse kam nicht zur Ruhe</translation>
+    </message>
+    <message>
+        <source>the device did not run the thrust</source>
+        <translation>das Gerät führte den Einstich nicht aus</translation>
+    </message>
+    <message>
+        <source>too few samples of the thrust</source>
+        <translation>zu wenige Messwerte vom Einstich</translation>
+    </message>
+    <message>
+        <source>the thrust went {depth}: must be {asked} within {tolerance} %</source>
+        <translation>der Einstich ging {depth}: verlangt sind {asked} auf {tolerance} %</translation>
+    </message>
+    <message>
+        <source>the axis did not come back</source>
+        <translation>die Achse kam nicht zurück</translation>
+    </message>
+    <message>
+        <source>overload: the axis is {load} from where it should be, {most} at most</source>
+        <translation>Überlast: die Achse ist {load} von ihrem Sollort entfernt, höchstens {most}</translation>
+    </message>
+    <message>
+        <source>a stop was asked for</source>
+        <translation>ein Halt wurde verlangt</translation>
+    </message>
+    <message>
+        <source>somebody took an axis over</source>
+        <translation>eine Achse wurde übernommen</translation>
+    </message>
+    <message>
+        <source>shaping = {shaping}: axis {axis} of {robot} has no resonance in its robot file; choose &apos;none&apos;</source>
+        <translation>Formung {shaping}: Achse {axis} von {robot} hat keine Resonanz in der Roboterdatei; „keine“ wählen</translation>
+    </message>
+    <message>
+        <source>duration_s = {duration} s: input shaping {shaping} takes {taken} s of it; at least {least} s, or another shaping</source>
+        <translation>Dauer {duration} s: die Impulsformung {shaping} braucht davon {taken} s; mindestens {least} s oder eine andere Formung</translation>
+    </message>
+    <message>
+        <source>thrust: none of {count} samples is behind it</source>
+        <translation>Stoß: keiner von {count} Abtastwerten liegt dahinter</translation>
+    </message>
+    <message>
+        <source>thrust: none of {count} samples is before it</source>
+        <translation>Stoß: keiner von {count} Abtastwerten liegt davor</translation>
+    </message>
+    <message>
+        <source>{capacity} commands are waiting already and the device does not keep up; wait, or stop</source>
+        <translation>{capacity} Befehle warten schon, das Gerät kommt nicht nach; warten oder anhalten</translation>
+    </message>
+    <message>
+        <source>{path}: positions of robot {robot}, not of {name}; put the file away</source>
+        <extracomment>Names of places that have buttons of their own.</extracomment>
+        <translation>{path}: Positionen des Roboters {robot}, nicht von {name}; die Datei anderswo ablegen</translation>
+    </message>
+    <message>
+        <source>there are {most} positions, no more are kept; delete some</source>
+        <translation>es gibt {most} Positionen, mehr werden nicht aufbewahrt; einige löschen</translation>
+    </message>
+    <message>
+        <source>there is no position {name}</source>
+        <translation>es gibt keine Position {name}</translation>
+    </message>
+    <message>
+        <source>{where}{name} is no name for a position; use 1 to {longest} letters without blanks at the ends</source>
+        <translation>{where}{name} ist kein Name für eine Position; 1 bis {longest} Zeichen ohne Leerzeichen an den Enden verwenden</translation>
+    </message>
+    <message>
+        <source>axis {missing} is missing</source>
+        <translation>Achse {missing} fehlt</translation>
+    </message>
+    <message>
+        <source>there is no axis {other}</source>
+        <translation>es gibt keine Achse {other}</translation>
+    </message>
+    <message>
+        <source>{where}position {name}: {what}; it needs {axes}</source>
+        <translation>{where}Position {name}: {what}; sie braucht {axes}</translation>
+    </message>
+    <message>
+        <source>{where}position {name}: {error}</source>
+        <translation>{where}Position {name}: {error}</translation>
+    </message>
+    <message>
+        <source>playback: a speed of {speed}: must be {slowest} to {fastest} times that of the trajectory</source>
+        <translation>Wiedergabe: Tempo {speed}: muss das {slowest}- bis {fastest}-Fache der Trajektorie sein</translation>
+    </message>
+    <message>
+        <source>playback: row {row}: the trajectory has rows 0 to {rows}</source>
+        <translation>Wiedergabe: Zeile {row}: die Trajektorie hat die Zeilen 0 bis {rows}</translation>
+    </message>
+    <message>
+        <source>{names} moved together; move one only</source>
+        <translation>{names} zugleich bewegt; nur eines bewegen</translation>
+    </message>
+    <message>
+        <source>move the {what} now</source>
+        <translation>jetzt bewegen: {what}</translation>
+    </message>
+    <message>
+        <source>{kind} {control} of {device}</source>
+        <translation>{kind} {control} von {device}</translation>
+    </message>
+    <message>
+        <source>another profile is used</source>
+        <translation>ein anderes Profil ist in Gebrauch</translation>
+    </message>
+    <message>
+        <source>device {key} is not plugged in; its calibration has no use</source>
+        <translation>Gerät {key} ist nicht angesteckt; seine Kalibrierung nützt nichts</translation>
+    </message>
+    <message>
+        <source>a calibration of {device} is not for {key}</source>
+        <translation>eine Kalibrierung von {device} ist nicht für {key}</translation>
+    </message>
+    <message>
+        <source>calibrated anew</source>
+        <translation>neu kalibriert</translation>
+    </message>
+    <message>
+        <source>input devices are being set up</source>
+        <translation>Eingabegeräte werden eingerichtet</translation>
+    </message>
+    <message>
+        <source>no profile is chosen: the input devices do nothing</source>
+        <translation>kein Profil gewählt: die Eingabegeräte tun nichts</translation>
+    </message>
+    <message>
+        <source>another device is gone ({why}): let go of it</source>
+        <translation>ein anderes Gerät ist weg ({why}): loslassen</translation>
+    </message>
+    <message>
+        <source>{reason}: let go of it first</source>
+        <translation>{reason}: zuerst loslassen</translation>
+    </message>
+    <message>
+        <source>the machine is being stopped</source>
+        <translation>die Maschine wird angehalten</translation>
+    </message>
+    <message>
+        <source>there is no mode {name}; use {names}</source>
+        <translation>den Modus {name} gibt es nicht; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>the scales were changed</source>
+        <translation>die Maßstäbe wurden geändert</translation>
+    </message>
+    <message>
+        <source>the joystick&apos;s stop and lock</source>
+        <translation>Halt und sperren am Joystick</translation>
+    </message>
+    <message>
+        <source>the joystick&apos;s stop</source>
+        <translation>das Stopp des Joysticks</translation>
+    </message>
+    <message>
+        <source>the machine is {activity}</source>
+        <translation>Maschine: {activity}</translation>
+    </message>
+    <message>
+        <source>driver {driver} cannot move at a speed</source>
+        <translation>Treiber {driver} kann nicht mit einer Geschwindigkeit fahren</translation>
+    </message>
+    <message>
+        <source>no stick is active: let go of it, and hold its dead-man switch if it has one</source>
+        <translation>kein verlässlicher Knüppel: loslassen; Zustimmtaster halten, falls vorhanden</translation>
+    </message>
+    <message>
+        <source>axes are moved by {owner}</source>
+        <translation>Achsen werden bewegt durch: {owner}</translation>
+    </message>
+    <message>
+        <source>axis {axis} does not follow the stick</source>
+        <translation>Achse {axis} folgt dem Knüppel nicht</translation>
+    </message>
+    <message>
+        <source>slowed: the tip is close to its bounds</source>
+        <translation>verlangsamt: die Spitze ist nahe an ihren Grenzen</translation>
+    </message>
+    <message>
+        <source>a reading of {axes} axes and {buttons} buttons came from a device with {known} and {others}: replug it</source>
+        <extracomment>Actions that work from every device, whoever drives, and while mappings are made. Actions that last as long as they are held, and are never *pressed*. What it said last; None as long as it has said nothing that still holds. Why nothing can be made of what it says; None: something can. Why it was lost in the last step; None: it was not. Actions pressed in the last step, and those held.</extracomment>
+        <translation>eine Meldung mit {axes} Achsen und {buttons} Tasten kam von einem Gerät mit {known} und {others}: neu anstecken</translation>
+    </message>
+    <message>
+        <source>silent, though it streams: nothing has come from it; replug it, or look at its cable</source>
+        <translation>stumm, obwohl es laufend sendet: nichts kam an; neu anstecken oder Kabel prüfen</translation>
+    </message>
+    <message>
+        <source>the trainer&apos;s device is not there: the trainee does not drive alone</source>
+        <translation>das Gerät des Trainers fehlt: der Trainee steuert nicht allein</translation>
+    </message>
+    <message>
+        <source>the trainer has taken over</source>
+        <translation>der Trainer hat übernommen</translation>
+    </message>
+    <message>
+        <source>the trainee has taken over</source>
+        <translation>der Trainee hat übernommen</translation>
+    </message>
+    <message>
+        <source>profile {name}: robot axis {axis} would have two owners, {owner} and {other_owner}; let one of them drive something else</source>
+        <translation>Profil {name}: Roboterachse {axis} hätte zwei Besitzer, {owner} und {other_owner}; einen davon etwas anderes bewegen lassen</translation>
+    </message>
+    <message>
+        <source>profile {name}: every device has seat = &apos;trainee&apos;; one must have &apos;trainer&apos;</source>
+        <translation>Profil {name}: jedes Gerät hat seat = &apos;trainee&apos;; eines muss &apos;trainer&apos; haben</translation>
+    </message>
+    <message>
+        <source>profile {name} is for {gone}, not plugged in; plugged in: {present}. Plug it in, or choose or make a profile for what is there</source>
+        <translation>Profil {name} ist für {gone}, nicht angesteckt; angesteckt: {present}. Anstecken oder ein Profil für das Vorhandene wählen oder anlegen</translation>
+    </message>
+    <message>
+        <source>an axis needs at = …</source>
+        <translation>eine Achse braucht at = …</translation>
+    </message>
+    <message>
+        <source>{control} of {key} (drives {drives})</source>
+        <translation>{control} von {key} (bewegt {drives})</translation>
+    </message>
+    <message>
+        <source>profile {name}: {control} drives {drives}, which the robot does not have; known: {names}</source>
+        <translation>Profil {name}: {control} bewegt {drives}, das der Roboter nicht hat; bekannt: {names}</translation>
+    </message>
+    <message>
+        <source>drives {drives}</source>
+        <translation>bewegt {drives}</translation>
+    </message>
+    <message>
+        <source>profile {name}: control {control} of {key} would do two things, {found} and {use}; leave one out</source>
+        <translation>Profil {name}: Bedienelement {control} von {key} täte zweierlei, {found} und {use}; eines weglassen</translation>
+    </message>
+    <message>
+        <source>{device} has no {kind} {control}; it has {known}. Choose one of these, or a profile for this device</source>
+        <translation>{device} hat {kind} {control} nicht; vorhanden: {known}. Eines davon wählen oder ein Profil für dieses Gerät</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>nichts</translation>
+    </message>
+    <message>
+        <source>not yet seen at rest: let go of it</source>
+        <translation>noch nicht in Ruhe gesehen: loslassen</translation>
+    </message>
+    <message>
+        <source>has said nothing yet: move it, and let go of it</source>
+        <translation>hat noch nichts gemeldet: bewegen und loslassen</translation>
+    </message>
+    <message>
+        <source>says {raw}, which is not in −1 to 1: disconnect it and look at it</source>
+        <translation>meldet {raw}, nicht in −1 bis 1: abstecken und prüfen</translation>
+    </message>
+    <message>
+        <source>jitters from end to end: its potentiometer or cable is bad</source>
+        <translation>springt von Ende zu Ende: Potentiometer oder Kabel schadhaft</translation>
+    </message>
+    <message>
+        <source>has stood at its end from the first moment: free it; if it rests there, calibrate it as one-sided</source>
+        <translation>steht von Anfang an am Ende: lösen; ruht sie dort, als einseitig kalibrieren</translation>
+    </message>
+    <message>
+        <source>axis {axis}: the device has none of that name; it has {value}</source>
+        <translation>Achse {axis}: das Gerät hat keine dieses Namens; vorhanden: {value}</translation>
+    </message>
+    <message>
+        <source>axis {axis} has said nothing at rest; move it once, let go, and begin again</source>
+        <translation>Achse {axis} hat in Ruhe nichts gemeldet; einmal bewegen, loslassen, neu beginnen</translation>
+    </message>
+    <message>
+        <source>axis {axis} hardly moved: {low} to {high} of −1 to 1, at least {least} is needed; move it to all its ends</source>
+        <translation>Achse {axis} kaum bewegt: {low} bis {high} von −1 bis 1, mindestens {least} nötig; an alle Enden bewegen</translation>
+    </message>
+    <message>
+        <source>rest {centre}, ends {low} and {high}</source>
+        <translation>Ruhelage {centre}, Enden {low} und {high}</translation>
+    </message>
+    <message>
+        <source>axis {axis} does not rest at an end: {where}; calibrate it as a stick</source>
+        <translation>Achse {axis} ruht nicht am Ende: {where}; als Knüppel kalibrieren</translation>
+    </message>
+    <message>
+        <source>axis {axis} rests at an end: {where}; move it both ways, or declare it one-sided (a trigger)</source>
+        <translation>Achse {axis} ruht am Ende: {where}; in beide Richtungen bewegen oder als einseitig angeben (Abzug)</translation>
+    </message>
+    <message>
+        <source>axis {axis} jitters at rest, or was moved: {low} to {high} asks for a dead zone of {zone}, at most {most} is good; leave it alone, and if it stays so have it repaired</source>
+        <translation>Achse {axis} zittert in Ruhe oder wurde bewegt: {low} bis {high} verlangt eine Totzone von {zone}, gut ist höchstens {most}; ruhen lassen, und wenn es so bleibt, reparieren lassen</translation>
+    </message>
+    <message>
+        <source>axis {axis} is driven by {other}; stop it, or take over first</source>
+        <translation>Achse {axis} wird von {other} bewegt; erst anhalten oder übernehmen</translation>
+    </message>
+    <message>
+        <source>driver {name} closes no loop: its samples come too seldom and too late for one; use feed-forward, or the simulator</source>
+        <translation>Treiber {name} schließt keinen Regelkreis: seine Messwerte kommen dafür zu selten und zu spät; Vorsteuerung oder den Simulator verwenden</translation>
+    </message>
+    <message>
+        <source>axis {axis} is under no loop that could be taken off</source>
+        <translation>Achse {axis} hat keinen Regelkreis, der sich abschalten ließe</translation>
+    </message>
+    <message>
+        <source>{name}: tuned for robot {robot}, not for {this}; tune on this robot</source>
+        <translation>{name}: für Roboter {robot} eingestellt, nicht für {this}; an diesem Roboter einstellen</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} is no piezo in open loop of robot {this}; a loop is for one that is</source>
+        <translation>{name}: Achse {axis} ist kein ungeregeltes Piezo des Roboters {this}; nur ein solches bekommt einen Regelkreis</translation>
+    </message>
+    <message>
+        <source>{name}: tuned for outputs that come {delay} intervals late, and a device&apos;s loop puts them out at once; tune with a delay of 0</source>
+        <translation>{name}: für Ausgaben eingestellt, die {delay} Takte verspätet kommen; der Regelkreis eines Geräts gibt sie sofort aus; mit Verzögerung 0 einstellen</translation>
+    </message>
+    <message>
+        <source>{number}: {error}</source>
+        <translation>{number}: {error}</translation>
+    </message>
+    <message>
+        <source>robot {name} has no tip that a floor could hold</source>
+        <extracomment>To what ranges of axes were narrowed; replaced as a whole.</extracomment>
+        <translation>Roboter {name} hat keine Spitze, für die ein Boden gelten könnte</translation>
+    </message>
+    <message>
+        <source>{out}; axis {axes} brings it no nearer that way</source>
+        <translation>{out}; Achse {axes} bringt sie so nicht näher heran</translation>
+    </message>
+    <message>
+        <source>tip: a profile at {speed} within {height} of its floor: {most} at most; only an armed penetration may be faster there</source>
+        <translation>Spitze: ein Profil mit {speed} weniger als {height} über dem Boden: höchstens {most}; schneller darf dort nur eine scharfe Penetration sein</translation>
+    </message>
+    <message>
+        <source>tip: a thrust of {way} within {height} of its floor: {most} at most</source>
+        <translation>Spitze: ein Stoß von {way} weniger als {height} über dem Boden: höchstens {most}</translation>
+    </message>
+    <message>
+        <source>tip: too fast so close above its floor; go slower</source>
+        <translation>Spitze: so dicht über dem Boden zu schnell; langsamer fahren</translation>
+    </message>
+    <message>
+        <source>{much} below its floor</source>
+        <translation>{much} unter ihrem Boden</translation>
+    </message>
+    <message>
+        <source>{much} above the objective&apos;s height</source>
+        <translation>{much} über der Höhe des Objektivs</translation>
+    </message>
+    <message>
+        <source>{much} outside its radius</source>
+        <translation>{much} außerhalb ihres Radius</translation>
+    </message>
+    <message>
+        <source>tip: {told}, as commanded or as read: it only moves back in, slowly and confirmed, by axes that each bring it nearer; bring it back, or mend the sensor that reads wrong</source>
+        <translation>Spitze: {told}, nach Sollwert oder Messwert: sie bewegt sich nur noch zurück, langsam und bestätigt, mit Achsen, von denen jede sie näher bringt; zurückfahren oder den falsch messenden Sensor instand setzen</translation>
+    </message>
+    <message>
+        <source>this is a replay; nothing moves</source>
+        <translation>dies ist eine Wiedergabe; nichts bewegt sich</translation>
+    </message>
+    <message>
+        <source>driver {name} is a real machine: its effects are its own; connect to the simulator</source>
+        <translation>Treiber {name} ist eine echte Maschine mit eigenen Effekten; mit dem Simulator verbinden</translation>
+    </message>
+    <message>
+        <source>driver {name} keeps no parameters</source>
+        <translation>Treiber {name} speichert keine Parameter</translation>
+    </message>
+    <message>
+        <source>the device failed ({fault}); reconnect, then check where it stands</source>
+        <translation>das Gerät ist ausgefallen ({fault}); wieder verbinden, dann prüfen, wo es steht</translation>
+    </message>
+    <message>
+        <source>the device reports a fault ({fault}); clear it first</source>
+        <translation>das Gerät meldet einen Fehler ({fault}); erst quittieren</translation>
+    </message>
+    <message>
+        <source>the device does not answer; wait until it does</source>
+        <translation>das Gerät antwortet nicht; warten, bis es antwortet</translation>
+    </message>
+    <message>
+        <source>the device&apos;s parameters are not those of the robot file ({difference}); write or accept them first</source>
+        <translation>die Parameter des Geräts sind nicht die der Roboterdatei ({difference}); erst schreiben oder übernehmen</translation>
+    </message>
+    <message>
+        <source>the position is not known yet</source>
+        <translation>die Position ist noch nicht bekannt</translation>
+    </message>
+    <message>
+        <source>the position of {axes} is not known; home first</source>
+        <translation>die Position von {axes} ist unbekannt; erst Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>{reason}: the position may be wrong; home, or confirm it</source>
+        <translation>{reason}: die Position kann falsch sein; Referenzfahrt oder bestätigen</translation>
+    </message>
+    <message>
+        <source>the connection was lost</source>
+        <translation>die Verbindung ging verloren</translation>
+    </message>
+    <message>
+        <source>axis {axis} has no inverse that could be taken off</source>
+        <translation>Achse {axis} hat kein inverses Modell, das sich abschalten ließe</translation>
+    </message>
+    <message>
+        <source>axis {axis}: target {target} is beyond {low} to {high}, which its inverse was trained on; stay inside, or switch the compensation off</source>
+        <translation>Achse {axis}: Ziel {target} liegt außerhalb von {low} bis {high}, worauf ihr inverses Modell trainiert ist; innerhalb bleiben oder die Kompensation abschalten</translation>
+    </message>
+    <message>
+        <source>compensated trajectory: {error}; what brings the wanted path about is beyond a limit: make it slower, smoother, or smaller</source>
+        <translation>kompensierte Trajektorie: {error}; was die gewünschte Bahn bewirkt, überschreitet eine Grenze: langsamer, glatter oder kleiner machen</translation>
+    </message>
+    <message>
+        <source>{name}: it was trained for robot {robot}, not for {this}; train one on this robot</source>
+        <translation>{name}: für Roboter {robot} trainiert, nicht für {this}; eines an diesem Roboter trainieren</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} is no piezo in open loop of robot {this}</source>
+        <translation>{name}: Achse {axis} ist kein ungeregeltes Piezo des Roboters {this}</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} had another range; train it anew</source>
+        <translation>{name}: Achse {axis} hatte einen anderen Bereich; neu trainieren</translation>
+    </message>
+    <message>
+        <source>the input devices are let go of</source>
+        <extracomment>What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man of the pad would only keep it from acting. What is wrong with files of the user&apos;s, told at the start. Calibrations of sensors: those that are on correct readings from the start. The pad on the screen and its keys: a device like any other.</extracomment>
+        <translation>die Eingabegeräte werden losgelassen</translation>
+    </message>
+    <message>
+        <source>motion is locked: {locked}</source>
+        <extracomment>Held while a request is checked and queued; never while the driver is called. Where axes were sent last by way of a one-sided approach; replaced as a whole.</extracomment>
+        <translation>Bewegung gesperrt: {locked}</translation>
+    </message>
+    <message>
+        <source>a motion of the nano stage is being planned; wait</source>
+        <translation>eine Bewegung der Nanostufe wird geplant; bitte warten</translation>
+    </message>
+    <message>
+        <source>the machine is still moving; release the stick first</source>
+        <translation>die Maschine bewegt sich noch; erst den Joystick loslassen</translation>
+    </message>
+    <message>
+        <source>the machine has moved meanwhile; ask once more</source>
+        <translation>die Maschine hat sich inzwischen bewegt; noch einmal anfordern</translation>
+    </message>
+    <message>
+        <source>{what}: {error}</source>
+        <translation>{what}: {error}</translation>
+    </message>
+    <message>
+        <source>the program is being closed</source>
+        <translation>das Programm wird gerade beendet</translation>
+    </message>
+    <message>
+        <source>a recording is running; end it first</source>
+        <translation>eine Aufnahme läuft; erst beenden</translation>
+    </message>
+    <message>
+        <source>{folder}: the folder cannot be made ({reason})</source>
+        <translation>{folder}: der Ordner lässt sich nicht anlegen ({reason})</translation>
+    </message>
+    <message>
+        <source>nothing is being recorded</source>
+        <translation>es läuft keine Aufnahme</translation>
+    </message>
+    <message>
+        <source>Recorder: {message}</source>
+        <translation>Aufzeichnung: {message}</translation>
+    </message>
+    <message>
+        <source>The loop of the input devices failed: {name}: {error}</source>
+        <translation>Die Schleife der Eingabegeräte ist ausgefallen: {name}: {error}</translation>
+    </message>
+    <message>
+        <source>{error}; presets are used</source>
+        <translation>{error}; Vorgaben werden verwendet</translation>
+    </message>
+    <message>
+        <source>driver {name} cannot move at a speed; send targets</source>
+        <translation>Treiber {name} kann nicht mit einer Geschwindigkeit fahren; Ziele senden</translation>
+    </message>
+    <message>
+        <source>driver {name} has no switches to be found</source>
+        <translation>Treiber {name} hat keine Schalter für eine Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>the machine is still moving; stop it or wait before homing</source>
+        <translation>die Maschine bewegt sich noch; vor der Referenzfahrt anhalten oder warten</translation>
+    </message>
+    <message>
+        <source>driver {name} cannot play trajectories</source>
+        <translation>Treiber {name} kann keine Trajektorien abspielen</translation>
+    </message>
+    <message>
+        <source>the machine or the tip&apos;s bounds have changed; play once more</source>
+        <translation>die Maschine oder die Grenzen der Spitze haben sich geändert; noch einmal abspielen</translation>
+    </message>
+    <message>
+        <source>tip: a floor {clearance} m below the tip: must be a finite number, 0 or more</source>
+        <translation>Spitze: ein Boden {clearance} m unter der Spitze: muss eine endliche Zahl sein, 0 oder mehr</translation>
+    </message>
+    <message>
+        <source>the machine looks for its switches; wait, or stop it first</source>
+        <translation>die Maschine sucht ihre Schalter; warten oder erst anhalten</translation>
+    </message>
+    <message>
+        <source>a trajectory is playing and owns every axis; stop it first</source>
+        <translation>eine Trajektorie läuft und belegt alle Achsen; zuerst anhalten</translation>
+    </message>
+    <message>
+        <source>the machine is still moving; stop it or wait before {what}</source>
+        <translation>die Maschine bewegt sich noch; erst anhalten oder warten, dann: {what}</translation>
+    </message>
+    <message>
+        <source>no profile was uploaded; upload one first</source>
+        <translation>es wurde kein Profil geladen; erst eines laden</translation>
+    </message>
+    <message>
+        <source>axis {axis} has moved since its profile was uploaded; upload it again</source>
+        <translation>Achse {axis} hat sich bewegt, seit ihr Profil geladen wurde; erneut laden</translation>
+    </message>
+    <message>
+        <source>driver {name} cannot capture</source>
+        <translation>Treiber {name} kann nicht schnell aufzeichnen</translation>
+    </message>
+    <message>
+        <source>driver {name} cannot put out a voltage</source>
+        <translation>Treiber {name} kann keine Spannung ausgeben</translation>
+    </message>
+    <message>
+        <source>axis {axis} has no amplifier that could be given a voltage</source>
+        <translation>Achse {axis} hat keinen Verstärker, der eine Spannung annehmen könnte</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {voltage} V: must be {low} to {high} V</source>
+        <translation>Achse {axis}: {voltage} V: muss {low} bis {high} V sein</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a voltage acts at once, too fast so close above the tip&apos;s floor; move it instead</source>
+        <translation>Achse {axis}: eine Spannung wirkt sofort, so dicht über dem Boden der Spitze zu schnell; stattdessen verfahren</translation>
+    </message>
+    <message>
+        <source>driver {name} has no tool that could be switched</source>
+        <translation>Treiber {name} hat kein Werkzeug, das sich schalten ließe</translation>
+    </message>
+    <message>
+        <source>driver {name} cannot run profiles by itself</source>
+        <translation>Treiber {name} kann Profile nicht selbst ausführen</translation>
+    </message>
+    <message>
+        <source>deviation: there is no axis {axis}</source>
+        <translation>Abweichung: es gibt keine Achse {axis}</translation>
+    </message>
+    <message>
+        <source>deviation: axis {axis}: a bound of {bound}: must be above 0</source>
+        <translation>Abweichung: Achse {axis}: Grenze {bound}: muss über 0 liegen</translation>
+    </message>
+    <message>
+        <source>axis {axis} is {deviation} from where the model expects it, for more than {time} ms: at most {bound}</source>
+        <translation>Achse {axis} ist länger als {time} ms um {deviation} von dort entfernt, wo das Modell sie erwartet: höchstens {bound}</translation>
+    </message>
+    <message>
+        <source>{name}: playback ended early: {reason}</source>
+        <translation>{name}: die Wiedergabe endete vorzeitig: {reason}</translation>
+    </message>
+    <message>
+        <source>driver {name} cannot compensate; use the simulator</source>
+        <translation>Treiber {name} kann nicht kompensieren; den Simulator verwenden</translation>
+    </message>
+    <message>
+        <source>driver {name} closes no loop; use the simulator</source>
+        <translation>Treiber {name} schließt keinen Regelkreis; den Simulator verwenden</translation>
+    </message>
+    <message>
+        <source>driver {name} cannot play faster than real time; use the simulator</source>
+        <translation>Treiber {name} kann nicht schneller als in Echtzeit abspielen; den Simulator verwenden</translation>
+    </message>
+    <message>
+        <source>nothing plays that could be paused</source>
+        <translation>es läuft nichts, was sich anhalten ließe</translation>
+    </message>
+    <message>
+        <source>the playback is paused</source>
+        <translation>das Abspielen ist angehalten</translation>
+    </message>
+    <message>
+        <source>a trajectory is playing; pause or stop it first</source>
+        <translation>eine Trajektorie läuft; erst pausieren oder anhalten</translation>
+    </message>
+    <message>
+        <source>the playback is ended</source>
+        <translation>das Abspielen ist beendet</translation>
+    </message>
+    <message>
+        <source>nothing is paused that one could {what}</source>
+        <translation>nichts ist pausiert, was sich {what} ließe</translation>
+    </message>
+    <message>
+        <source>the camera is {state}: {reason}</source>
+        <translation>Kamera {state}: {reason}</translation>
+    </message>
+    <message>
+        <source>it was stopped</source>
+        <translation>es wurde angehalten</translation>
+    </message>
+    <message>
+        <source>measure: a pixel is not a finite number; draw the line again</source>
+        <translation>Messen: ein Bildpunkt ist keine endliche Zahl; die Linie neu ziehen</translation>
+    </message>
+    <message>
+        <source>a {activity} is under way; wait, or stop it first</source>
+        <translation>{activity} läuft; warten oder erst anhalten</translation>
+    </message>
+    <message>
+        <source>The microscope failed: {name}: {error}</source>
+        <translation>Das Mikroskop ist ausgefallen: {name}: {error}</translation>
+    </message>
+    <message>
+        <source>the tip is {distance} px from where it should be, must be at most {most} px after a move; the calibration does not hold: calibrate anew</source>
+        <translation>die Spitze ist {distance} px von ihrem Sollort, nach einer Fahrt höchstens {most} px; die Kalibrierung stimmt nicht: neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>the tip is still {distance} px off after {n} corrections, must be at most {most} px; the stage resolves no finer, or drifts</source>
+        <translation>die Spitze liegt nach {n} Korrekturen noch {distance} px daneben, höchstens {most} px; der Tisch löst nicht feiner auf oder driftet</translation>
+    </message>
+    <message>
+        <source>the tip is not seen near {column}, {row} px, where it should be; nothing more is moved: look at the picture</source>
+        <translation>die Spitze ist nahe {column}, {row} px, wo sie sein sollte, nicht zu sehen; nichts wird mehr bewegt: Bild prüfen</translation>
+    </message>
+    <message>
+        <source>{trouble}; nothing is moved</source>
+        <extracomment>Why the latest run was ended from here; empty if it was not.</extracomment>
+        <translation>{trouble}; nichts wird bewegt</translation>
+    </message>
+    <message>
+        <source>there is no picture; open a camera and wait for the first one</source>
+        <translation>kein Bild; eine Kamera öffnen und das erste abwarten</translation>
+    </message>
+    <message>
+        <source>there is no camera {key}; there is: {known}</source>
+        <extracomment>Whether somebody looks; until then nothing is looked for, and nothing opens by itself.</extracomment>
+        <translation>die Kamera {key} gibt es nicht; vorhanden: {known}</translation>
+    </message>
+    <message>
+        <source>no camera is open; choose one first</source>
+        <translation>keine Kamera ist geöffnet; erst eine wählen</translation>
+    </message>
+    <message>
+        <source>{camera} ({key}), the camera used last, is not there; plug it in, or choose another</source>
+        <translation>{camera} ({key}), die zuletzt benutzte Kamera, fehlt; anstecken oder eine andere wählen</translation>
+    </message>
+    <message>
+        <source>the calibration was stopped</source>
+        <translation>die Kalibrierung wurde angehalten</translation>
+    </message>
+    <message>
+        <source>{reason}; it could not go back: {error}</source>
+        <translation>{reason}; Rückfahrt nicht möglich: {error}</translation>
+    </message>
+    <message>
+        <source>the picture drifted by {drift} px during the calibration, must be at most {most} px; let stage and camera settle, see to backlash, and begin again</source>
+        <translation>das Bild driftete während der Kalibrierung um {drift} px, höchstens {most} px; Tisch und Kamera ruhen lassen, Umkehrspiel prüfen, neu beginnen</translation>
+    </message>
+    <message>
+        <source>the machine did not come to rest within {rest_patience_s} s; look what drives it, and begin again</source>
+        <extracomment>Return the newest picture, or None while there is none; never waits. Drawn when it began; every move of what looks goes with it, and a stop ends them all.</extracomment>
+        <translation>die Maschine kam in {rest_patience_s} s nicht zur Ruhe; nachsehen, was sie bewegt, und neu beginnen</translation>
+    </message>
+    <message>
+        <source>frozen: it gives the same picture again</source>
+        <translation>eingefroren: sie liefert immer wieder dasselbe Bild</translation>
+    </message>
+    <message>
+        <source>the camera is {what}; {count} of {pictures} new pictures came within {waited_s} s. Nothing is moved: see to the camera and begin again</source>
+        <translation>die Kamera ist {what}; {count} von {pictures} neuen Bildern kamen in {waited_s} s. Nichts wird bewegt: nach der Kamera sehen und neu beginnen</translation>
+    </message>
+    <message>
+        <source>the camera shows {size} now, and {before} when this began; keep its settings and begin again</source>
+        <translation>die Kamera zeigt jetzt {size}, am Anfang waren es {before}; ihre Einstellungen lassen und neu beginnen</translation>
+    </message>
+    <message>
+        <source>the picture is black; look at lamp, shutter and exposure. Nothing is moved</source>
+        <translation>das Bild ist schwarz; Lampe, Blende und Belichtung prüfen. Nichts wird bewegt</translation>
+    </message>
+    <message>
+        <source>somebody stopped the machine; it stays where it is</source>
+        <translation>die Maschine wurde angehalten; sie bleibt, wo sie ist</translation>
+    </message>
+    <message>
+        <source>it is not connected</source>
+        <translation>sie ist nicht verbunden</translation>
+    </message>
+    <message>
+        <source>the machine does not move any more: {reason}</source>
+        <translation>die Maschine bewegt sich nicht mehr: {reason}</translation>
+    </message>
+    <message>
+        <source>{width} × {height} px from {left}, {top}</source>
+        <translation>{width} × {height} px ab {left}, {top}</translation>
+    </message>
+    <message>
+        <source>waiting for a trigger</source>
+        <translation>wartet auf Auslöser</translation>
+    </message>
+    <message>
+        <source>no picture for {seconds} s; check the camera and its cable, or open it again</source>
+        <translation>seit {seconds} s kein Bild; Kamera und Kabel prüfen oder neu öffnen</translation>
+    </message>
+    <message>
+        <source>{name}: its thread is still running; close it first</source>
+        <translation>{name}: ihr Thread läuft noch; erst schließen</translation>
+    </message>
+    <message>
+        <source>every picture has been the same for more than {seconds} s; open it again, and do not trust what it shows</source>
+        <translation>seit über {seconds} s immer dasselbe Bild; neu öffnen und dem Gezeigten nicht trauen</translation>
+    </message>
+    <message>
+        <source>the picture is black; check lamp, shutter, lens cap and exposure</source>
+        <translation>das Bild ist schwarz; Lampe, Verschluss, Kappe und Belichtung prüfen</translation>
+    </message>
+    <message>
+        <source>the device tells no laser&apos;s readings; record the laser with its own program, play the motion from its file, and fit both records (rotemina calibrate fit --laser)</source>
+        <translation>das Gerät liefert keine Laserwerte; den Laser mit seinem eigenen Programm aufzeichnen, die Bewegung aus ihrer Datei abspielen und beide Aufzeichnungen anpassen (rotemina calibrate fit --laser)</translation>
+    </message>
+    <message>
+        <source>this run was begun before; plan another one</source>
+        <translation>dieser Lauf wurde schon begonnen; einen neuen planen</translation>
+    </message>
+    <message>
+        <source>the motion was refused</source>
+        <translation>die Bewegung wurde abgelehnt</translation>
+    </message>
+    <message>
+        <source>the calibration is given up</source>
+        <translation>die Kalibrierung wird aufgegeben</translation>
+    </message>
+    <message>
+        <source>stopped; nothing of it is kept</source>
+        <translation>angehalten; nichts davon bleibt</translation>
+    </message>
+    <message>
+        <source>the connection was lost; nothing of it is kept</source>
+        <translation>die Verbindung ging verloren; nichts davon bleibt</translation>
+    </message>
+    <message>
+        <source>the motion ended early; nothing of it is kept</source>
+        <translation>die Bewegung endete vorzeitig; nichts davon bleibt</translation>
+    </message>
+    <message>
+        <source>{name}: it is open already; close it first</source>
+        <extracomment>The version of this interface that the class was written for. How screens and records call the device. Whether the device lives on ``clock`` alone, and so can run faster than real time. How often the driver wants to be read, s; one that feeds a serial line has no other chance. By how much the time of a sample may be wrong where the device has no clock of its own, s. What every motion passes; a program that owns the driver puts its own gate here.</extracomment>
+        <translation>{name}: schon geöffnet; erst schließen</translation>
+    </message>
+    <message>
+        <source>{name}: samples of {count} axes, expected {axes}</source>
+        <translation>{name}: Messwerte von {count} Achsen, erwartet {axes}</translation>
+    </message>
+    <message>
+        <source>{name}: device time went from {last_time_s} s back to {device_time_s} s; was the device reset?</source>
+        <translation>{name}: die Gerätezeit sprang von {last_time_s} s zurück auf {device_time_s} s; wurde das Gerät zurückgesetzt?</translation>
+    </message>
+    <message>
+        <source>{name}: cannot {action} while closed; open it first</source>
+        <translation>{name}: geschlossen, kann nicht {action}; erst öffnen</translation>
+    </message>
+    <message>
+        <source>{name}: cannot {action}: the device has said nothing for {silent} s; wait until it answers</source>
+        <translation>{name}: kann nicht {action}: das Gerät schweigt seit {silent} s; warten, bis es antwortet</translation>
+    </message>
+    <message>
+        <source>{name}: cannot {action} in a fault ({fault}); clear it</source>
+        <translation>{name}: kann im Fehlerzustand ({fault}) nicht {action}; quittieren</translation>
+    </message>
+    <message>
+        <source>{name}: cannot {action} while the position is unknown; home first</source>
+        <translation>{name}: kann bei unbekannter Position nicht {action}; erst Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>{name}: cannot {action} while the position of {axes} is unknown; home first</source>
+        <translation>{name}: kann bei unbekannter Position von {axes} nicht {action}; erst Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>{name}: cannot {action} while it is {state}; stop it first</source>
+        <translation>{name}: kann im Zustand {state} nicht {action}; erst anhalten</translation>
+    </message>
+    <message>
+        <source>pip install &apos;rotemina[micromanager]&apos;, then mmcore install</source>
+        <translation>pip install &apos;rotemina[micromanager]&apos;, dann mmcore install</translation>
+    </message>
+    <message>
+        <source>Micro-Manager cannot be used: {error}; {install}</source>
+        <translation>Micro-Manager ist nicht nutzbar: {error}; {install}</translation>
+    </message>
+    <message>
+        <source>configuration file of Micro-Manager (.cfg)</source>
+        <translation>Konfigurationsdatei von Micro-Manager (.cfg)</translation>
+    </message>
+    <message>
+        <source>pymmcore-plus is not installed: {install}</source>
+        <translation>pymmcore-plus ist nicht installiert: {install}</translation>
+    </message>
+    <message>
+        <source>{name}: {address}: type a {address_hint}</source>
+        <translation>{name}: {address}: einzugeben ist: {address_hint}</translation>
+    </message>
+    <message>
+        <source>{path}: there is no such file; choose another configuration</source>
+        <translation>{path}: diese Datei gibt es nicht; eine andere Konfiguration wählen</translation>
+    </message>
+    <message>
+        <source>{path}: it names no camera; add one with Micro-Manager&apos;s wizard</source>
+        <translation>{path}: darin steht keine Kamera; mit dem Assistenten von Micro-Manager eine hinzufügen</translation>
+    </message>
+    <message>
+        <source>{path}: Micro-Manager cannot open it: {error}</source>
+        <translation>{path}: Micro-Manager kann sie nicht öffnen: {error}</translation>
+    </message>
+    <message>
+        <source>{name}: pixels of {getbytesperpixel} bytes: must be grey of 8 or 16 bits, or colour; set the camera&apos;s pixel type in its configuration</source>
+        <translation>{name}: Bildpunkte von {getbytesperpixel} Byte: muss Grau mit 8 oder 16 Bit oder Farbe sein; den Pixeltyp der Kamera in ihrer Konfiguration setzen</translation>
+    </message>
+    <message>
+        <source>{name}: it does not take that: {error}</source>
+        <translation>{name}: das nimmt sie nicht an: {error}</translation>
+    </message>
+    <message>
+        <source>{name}: it has stopped taking pictures; was it unplugged? Open it again</source>
+        <translation>{name}: sie nimmt keine Bilder mehr auf; wurde sie abgesteckt? Wieder öffnen</translation>
+    </message>
+    <message>
+        <source>{name}: Micro-Manager has lost it: {error}; open it again</source>
+        <translation>{name}: Micro-Manager hat sie verloren: {error}; wieder öffnen</translation>
+    </message>
+    <message>
+        <source>profile of {axis}: {segments} segments: 1 to {most_segments}</source>
+        <translation>Profil von {axis}: {segments} Abschnitte: 1 bis {most_segments}</translation>
+    </message>
+    <message>
+        <source>{where}: duration and coefficients must be finite, time positive</source>
+        <translation>{where}: Dauer und Koeffizienten müssen endlich sein, die Zeit positiv</translation>
+    </message>
+    <message>
+        <source>{where}: {error}</source>
+        <translation>{where}: {error}</translation>
+    </message>
+    <message>
+        <source>{where}: {speed}: at most {most}</source>
+        <translation>{where}: {speed}: höchstens {most}</translation>
+    </message>
+    <message>
+        <source>{where}: {acceleration}: at most {most}</source>
+        <translation>{where}: {acceleration}: höchstens {most}</translation>
+    </message>
+    <message>
+        <source>{name}: a lease of {lease} s: must be more than 0 s, at most {longest} s</source>
+        <translation>{name}: Gültigkeit {lease} s: muss mehr als 0 s und höchstens {longest} s sein</translation>
+    </message>
+    <message>
+        <source>{name}: no such axis {axis}; it has {axes}</source>
+        <translation>{name}: keine Achse {axis}; es gibt {axes}</translation>
+    </message>
+    <message>
+        <source>a finite number</source>
+        <translation>eine endliche Zahl</translation>
+    </message>
+    <message>
+        <source>{most} at most</source>
+        <translation>höchstens {most}</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis}: a speed of {speed} {unit}/s: must be {bound}</source>
+        <translation>{name}: Achse {axis}: Geschwindigkeit {speed} {unit}/s: muss {bound} sein</translation>
+    </message>
+    <message>
+        <source>a fault ({fault})</source>
+        <translation>ein Fehler ({fault})</translation>
+    </message>
+    <message>
+        <source>{name}: cannot home in {why}; wait, stop or clear it first</source>
+        <translation>{name}: keine Referenzfahrt möglich: {why}; erst warten, anhalten oder quittieren</translation>
+    </message>
+    <message>
+        <source>no axis has any</source>
+        <translation>keine Achse hat einen</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} has no limit switch; these: {have}</source>
+        <translation>{name}: Achse {axis} hat keinen Endschalter; diese haben einen: {have}</translation>
+    </message>
+    <message>
+        <source>{name}: cannot put out a voltage while it is {state}; stop it or wait</source>
+        <translation>{name}: kann im Zustand {state} keine Spannung ausgeben; anhalten oder warten</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} has no amplifier with a voltage range</source>
+        <translation>{name}: Achse {axis} hat keinen Verstärker mit Spannungsbereich</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis}: {voltage} V: must be {low} to {high} V</source>
+        <translation>{name}: Achse {axis}: {voltage} V: muss {low} bis {high} V sein</translation>
+    </message>
+    <message>
+        <source>{name}: a capture of {axes} axes: 1 to {most}</source>
+        <translation>{name}: schnelle Aufzeichnung von {axes} Achsen: 1 bis {most}</translation>
+    </message>
+    <message>
+        <source>{name}: a capture of {axes} axes at {rate_hz} Hz: {most} Hz at most</source>
+        <translation>{name}: schnelle Aufzeichnung von {axes} Achsen mit {rate_hz} Hz: höchstens {most} Hz</translation>
+    </message>
+    <message>
+        <source>{name}: a capture of {count} samples: 1 to {most}</source>
+        <translation>{name}: schnelle Aufzeichnung von {count} Messwerten: 1 bis {most}</translation>
+    </message>
+    <message>
+        <source>{name}: cannot take a profile while it is {state}</source>
+        <translation>{name}: nimmt im Zustand {state} kein Profil an</translation>
+    </message>
+    <message>
+        <source>{name}: row {row} of the display: 0 or {last}</source>
+        <translation>{name}: Zeile {row} der Anzeige: 0 oder {last}</translation>
+    </message>
+    <message>
+        <source>{name}: cannot write its parameters while it is {state}</source>
+        <translation>{name}: kann seine Parameter im Zustand {state} nicht schreiben</translation>
+    </message>
+    <message>
+        <source>{name}: it is still {state}; stop it or wait before playing</source>
+        <translation>{name}: noch im Zustand {state}; vor der Wiedergabe anhalten oder warten</translation>
+    </message>
+    <message>
+        <source>robot {name}: pin_length {pin_length} must be greater than the end of zn&apos;s range, {end}</source>
+        <translation>Roboter {name}: pin_length {pin_length} muss größer sein als das Ende des Bereichs von zn, {end}</translation>
+    </message>
+    <message>
+        <source>robot {name}: axis {axis} may tilt from {low} rad to {high} rad; the chain holds for tilts below {most} rad</source>
+        <translation>Roboter {name}: Achse {axis} darf von {low} rad bis {high} rad kippen; die Kette gilt für Kippwinkel unter {most} rad</translation>
+    </message>
+    <message>
+        <source>axis {axis}: position {value} is outside {low} to {high}, where it may go; choose a tip position or a tilt inside the workspace</source>
+        <translation>Achse {axis}: Position {value} liegt außerhalb von {low} bis {high}, wo sie sein darf; eine Spitzenposition oder einen Kippwinkel im Arbeitsraum wählen</translation>
+    </message>
+    <message>
+        <source>axis {axis}: position {value} at row {row} is outside {low} to {high}, where it may go; choose a tip position or a tilt inside the workspace</source>
+        <translation>Achse {axis}: Position {value} in Zeile {row} liegt außerhalb von {low} bis {high}, wo sie sein darf; eine Spitzenposition oder einen Kippwinkel im Arbeitsraum wählen</translation>
+    </message>
+    <message>
+        <source>robot {name}: axis {missing} missing; the hybrid chain needs axes named {joints}, and this robot has {axes}</source>
+        <translation>Roboter {name}: Achse {missing} fehlt; die hybride Kette braucht die Achsen {joints}, dieser Roboter hat {axes}</translation>
+    </message>
+    <message>
+        <source>robot {name}: axis {axis} moves in {unit}; the hybrid chain needs {needed}</source>
+        <translation>Roboter {name}: Achse {axis} bewegt sich in {unit}; die hybride Kette braucht {needed}</translation>
+    </message>
+    <message>
+        <source>robot {name}: pin_length missing; the hybrid chain needs the length from the pivot to the tip, [robot] pin_length in m</source>
+        <translation>Roboter {name}: pin_length fehlt; die hybride Kette braucht die Länge vom Drehpunkt zur Spitze, [robot] pin_length in m</translation>
+    </message>
+    <message>
+        <source>{error}; its [keep_out] can bound no tip</source>
+        <translation>{error}; sein [keep_out] kann keine Spitze begrenzen</translation>
+    </message>
+    <message>
+        <source>tip: a floor at {floor} mm: must be between {low} and {high}, where the tip can be; teach it where the tip touches</source>
+        <translation>Spitze: Boden bei {floor} mm: muss zwischen {low} und {high} liegen, wo die Spitze sein kann; dort einlernen, wo die Spitze berührt</translation>
+    </message>
+    <message>
+        <source>on the way</source>
+        <translation>unterwegs</translation>
+    </message>
+    <message>
+        <source>at {time} s</source>
+        <translation>bei {time} s</translation>
+    </message>
+    <message>
+        <source>tip: goes down at {speed} at {time} s, {height} high: within {near} of its floor {floor} at most {most}; make the approach slower</source>
+        <translation>Spitze: sinkt bei {time} s mit {speed} in der Höhe {height}: weniger als {near} über ihrem Boden {floor} höchstens {most}; langsamer annähern</translation>
+    </message>
+    <message>
+        <source>tip: {lowest} high {where}: its floor is {floor}; move elsewhere first, or teach the floor</source>
+        <translation>Spitze: {where} in der Höhe {lowest}: ihr Boden liegt bei {floor}; erst anderswohin fahren oder den Boden einlernen</translation>
+    </message>
+    <message>
+        <source>tip: {lowest} high {where}: its floor is {low}, where the objective is; stay above it</source>
+        <translation>Spitze: {where} in der Höhe {lowest}: ihr Boden liegt bei {low}, wo das Objektiv ist; darüber bleiben</translation>
+    </message>
+    <message>
+        <source>tip: {highest} high {where}: the objective is at {high}; stay below it</source>
+        <translation>Spitze: {where} in der Höhe {highest}: das Objektiv ist bei {high}; darunter bleiben</translation>
+    </message>
+    <message>
+        <source>tip: {away} from the middle {where}: at most {radius}; move one axis after the other, or less far</source>
+        <translation>Spitze: {where} {away} von der Mitte entfernt: höchstens {radius}; eine Achse nach der anderen bewegen oder weniger weit</translation>
+    </message>
+    <message>
+        <source>registration: an image of {columns} × {rows} px against a reference of {other_columns} × {other_rows} px; use one camera setting for both</source>
+        <translation>Registrierung: ein Bild von {columns} × {rows} px gegen eine Referenz von {other_columns} × {other_rows} px; für beide dieselbe Kameraeinstellung verwenden</translation>
+    </message>
+    <message>
+        <source>registration: peak-to-sidelobe ratio {ratio}, must be at least {least_peak_to_sidelobe}; the images show too little common detail, or detail that repeats: focus, give more light, make the move smaller, or bring another object into view</source>
+        <translation>Registrierung: Verhältnis von Hauptmaximum zu Nebenmaximum {ratio}, muss mindestens {least_peak_to_sidelobe} sein; die Bilder zeigen zu wenig gemeinsame Einzelheiten oder solche, die sich wiederholen: scharf stellen, mehr Licht geben, die Bewegung verkleinern oder ein anderes Objekt ins Bild bringen</translation>
+    </message>
+    <message>
+        <source>registration: a second shift fits {rival} % as well, must be at most {most_second_peak} %; the picture repeats itself (a grating?): use another object or smaller moves</source>
+        <translation>Registrierung: eine zweite Verschiebung passt zu {rival} % ebenso, höchstens {most_second_peak} % sind erlaubt; das Bild wiederholt sich (ein Gitter?): ein anderes Objekt oder kleinere Bewegungen verwenden</translation>
+    </message>
+    <message>
+        <source>registration: the picture moved by {right}, {down} px and hardly overlaps the one before; make the move smaller</source>
+        <translation>Registrierung: das Bild bewegte sich um {right}, {down} px und überlappt das vorige kaum; kleiner bewegen</translation>
+    </message>
+    <message>
+        <source>registration: the images cannot be laid over one another; they differ by more than a shift (turned, other focus, or only a part of the scene moved)</source>
+        <translation>Registrierung: die Bilder lassen sich nicht übereinanderlegen; sie unterscheiden sich um mehr als eine Verschiebung (gedreht, anders scharf gestellt, oder nur ein Teil der Szene hat sich bewegt)</translation>
+    </message>
+    <message>
+        <source>calibration: moves of shape {shape} against shifts of shape {shifts_shape}; both must be (moves, 2)</source>
+        <translation>Kalibrierung: Bewegungen der Form {shape} gegen Verschiebungen der Form {shifts_shape}; beide müssen (Bewegungen, 2) sein</translation>
+    </message>
+    <message>
+        <source>calibration: {n} moves, must be at least {least}; allow more of them</source>
+        <translation>Kalibrierung: {n} Bewegungen, mindestens {least}; mehr erlauben</translation>
+    </message>
+    <message>
+        <source>calibration: a move or shift is not a finite number; begin again</source>
+        <translation>Kalibrierung: eine Bewegung oder Verschiebung ist keine endliche Zahl; neu beginnen</translation>
+    </message>
+    <message>
+        <source>calibration: the moves do not span the plane: across their main direction they reach {part} % of the way along it, must be at least {least} %; move both axes</source>
+        <translation>Kalibrierung: die Bewegungen spannen die Ebene nicht auf: quer reichen sie {part} % des Wegs, mindestens {least} %; beide Achsen bewegen</translation>
+    </message>
+    <message>
+        <source>calibration: {bad} of {n} moves do not fit, must be at most {most} %; something else moved, or the tracking slipped: look at the picture and begin again</source>
+        <translation>Kalibrierung: {bad} von {n} Bewegungen passen nicht, höchstens {most} %; anderes bewegte sich oder die Verfolgung verrutschte: Bild prüfen, neu beginnen</translation>
+    </message>
+    <message>
+        <source>calibration: residuals of {rms} px rms (greatest at move {worst}), must be at most {most} px; backlash, drift or a loose tool: let the stage settle, home it, and begin again</source>
+        <translation>Kalibrierung: Restfehler {rms} px effektiv (größter bei Bewegung {worst}), höchstens {most} px; Umkehrspiel, Drift oder loses Werkzeug: Tisch ruhen lassen, Referenzfahrt, neu beginnen</translation>
+    </message>
+    <message>
+        <source>calibration: both axes move the picture in nearly the same direction ({angle}° apart, must be at least {least}°); one of them does not move, or moves along the view</source>
+        <translation>Kalibrierung: beide Achsen bewegen das Bild fast gleich gerichtet ({angle}° auseinander, mindestens {least}°); eine bewegt sich nicht oder entlang der Blickrichtung</translation>
+    </message>
+    <message>
+        <source>calibration: the pixel size is known within {known} %, must be {asked} %; make larger moves, or more of them</source>
+        <translation>Kalibrierung: die Pixelgröße ist auf {known} % bekannt, verlangt {asked} %; größere oder mehr Bewegungen machen</translation>
+    </message>
+    <message>
+        <source>focus: {count} looks, must be at least {least_looks} with finite sharpness; look at more places</source>
+        <translation>Autofokus: {count} Blicke, nötig sind mindestens {least_looks} mit endlicher Schärfe; an mehr Stellen schauen</translation>
+    </message>
+    <message>
+        <source>focus: every look is as sharp as the others; bring detail into view</source>
+        <translation>Fokus: jeder Blick ist gleich scharf; Zeichnung in Sicht bringen</translation>
+    </message>
+    <message>
+        <source>focus: no peak of the sharpness stands out; bring detail into view, give more light, or search a larger range</source>
+        <translation>Fokus: kein Maximum der Schärfe hebt sich ab; Zeichnung in Sicht bringen, mehr Licht geben oder weiter suchen</translation>
+    </message>
+    <message>
+        <source>focus: the peak, {width} µm wide, is narrower than the looks are apart; it is noise, or they must be closer</source>
+        <translation>Autofokus: das Maximum, {width} µm breit, ist schmaler als der Abstand der Blicke; das ist Rauschen, oder sie müssen dichter liegen</translation>
+    </message>
+    <message>
+        <source>focus: it would be sharpest at {place} µm, outside the searched {low} to {high} µm; search there</source>
+        <translation>Fokus: am schärfsten wäre es bei {place} µm, außerhalb der abgesuchten {low} bis {high} µm; dort suchen</translation>
+    </message>
+    <message>
+        <source>focus: from {low} m to {high} m is no range; give low below high</source>
+        <translation>Autofokus: von {low} m bis {high} m ist kein Bereich; das untere Ende unter dem oberen nennen</translation>
+    </message>
+    <message>
+        <source>focus: the search is over; begin another</source>
+        <translation>Autofokus: die Suche ist zu Ende; eine neue beginnen</translation>
+    </message>
+    <message>
+        <source>tip: nothing looks like it (greatest likeness {likeness}); bring the tip into view and near focus, or correct its direction in the image</source>
+        <translation>Spitze: nichts sieht ihr ähnlich (größte Ähnlichkeit {likeness}); in Sicht und nahe an den Fokus bringen oder ihre Richtung im Bild berichtigen</translation>
+    </message>
+    <message>
+        <source>tip: nothing in the picture looks like a pipette, in whatever direction; bring the tip into view and near focus</source>
+        <translation>Spitze: nichts im Bild gleicht einer Pipette, in keiner Richtung; die Spitze in Sicht und nahe an den Fokus bringen</translation>
+    </message>
+    <message>
+        <source>drift: {most} of {count} parts of the picture agree on a shift, must be at least {least} and half of the {seen} that show enough; bring a background with detail into view and focus</source>
+        <translation>Drift: {most} von {count} Teilen des Bilds zeigen dieselbe Verschiebung, mindestens {least} und die Hälfte der {seen} mit genug Zeichnung; einen Hintergrund mit Zeichnung in Sicht und Fokus bringen</translation>
+    </message>
+    <message>
+        <source>cell: radii {low} to {high} px; must be more than 2 and growing</source>
+        <translation>Zelle: Radien {low} bis {high} px; müssen größer als 2 und ansteigend sein</translation>
+    </message>
+    <message>
+        <source>cell: the line about {column}, {row} px takes {darker} % of the light, must be at least {least} %; focus on the membrane, or point into the cell</source>
+        <translation>Zelle: die Linie um {column}, {row} px nimmt {darker} % des Lichts, mindestens {least} %; auf die Membran fokussieren oder in die Zelle zeigen</translation>
+    </message>
+    <message>
+        <source>cell: its outline is {rms} px rms off an ellipse, must be at most {most} % of its radius; point into the middle of one cell</source>
+        <translation>Zelle: ihr Umriss weicht {rms} px effektiv von einer Ellipse ab, höchstens {most} % des Radius; in die Mitte einer Zelle zeigen</translation>
+    </message>
+    <message>
+        <source>nothing like it where it should be</source>
+        <translation>nichts Ähnliches, wo sie sein sollte</translation>
+    </message>
+    <message>
+        <source>only {part} % of its surroundings look as they should</source>
+        <translation>nur {part} % ihrer Umgebung sehen aus wie erwartet</translation>
+    </message>
+    <message>
+        <source>its place is uncertain by {doubt} px</source>
+        <translation>ihr Ort ist auf {doubt} px unsicher</translation>
+    </message>
+    <message>
+        <source>what is there takes {part} % of the light</source>
+        <translation>was dort ist, nimmt {part} % des Lichts</translation>
+    </message>
+    <message>
+        <source>its contrast is {part} % of what it was</source>
+        <translation>ihr Kontrast ist {part} % des früheren</translation>
+    </message>
+    <message>
+        <source>stop and lock</source>
+        <translation>Halt und sperren</translation>
+    </message>
+    <message>
+        <source>Stopped by the {who} at {time}: {why}</source>
+        <translation>Angehalten durch {who} um {time}: {why}</translation>
+    </message>
+    <message>
+        <source>Stopped by the {who} at {time}</source>
+        <translation>Angehalten durch {who} um {time}</translation>
+    </message>
+    <message>
+        <source>no penetration&apos;s run: {error}</source>
+        <translation>kein Lauf einer Penetration: {error}</translation>
+    </message>
+    <message>
+        <source>{path}: cannot be written: {strerror}</source>
+        <translation>{path}: kann nicht geschrieben werden: {strerror}</translation>
+    </message>
+    <message>
+        <source>{path}: the run is not whole there; the disk may be full</source>
+        <translation>{path}: der Lauf steht dort nicht ganz; die Platte ist vielleicht voll</translation>
+    </message>
+    <message>
+        <source>axis = {axis}: must be the name of an axis</source>
+        <translation>axis = {axis}: muss der Name einer Achse sein</translation>
+    </message>
+    <message>
+        <source>table: needed for a thrust of shape &apos;table&apos;, and for no other (shape is {shape}, the table has {count} points)</source>
+        <translation>Tabelle: nötig für einen Stoß der Form &apos;table&apos; und für keinen anderen (die Form ist {shape}, die Tabelle hat {count} Punkte)</translation>
+    </message>
+    <message>
+        <source>{name}: {error}</source>
+        <translation>{name}: {error}</translation>
+    </message>
+    <message>
+        <source>{key} = {value}: unknown key</source>
+        <translation>{key} = {value}: unbekannter Schlüssel</translation>
+    </message>
+    <message>
+        <source>{name} = {value}: must be one of {known}</source>
+        <translation>{name} = {value}: muss eines von {known} sein</translation>
+    </message>
+    <message>
+        <source>{name} = {value}: must be a finite number</source>
+        <translation>{name} = {value}: muss eine endliche Zahl sein</translation>
+    </message>
+    <message>
+        <source>{name} = {value}: must be {least} to {most}</source>
+        <translation>{name} = {value}: muss zwischen {least} und {most} liegen</translation>
+    </message>
+    <message>
+        <source>table: must be a list of at most {most_points} points</source>
+        <translation>Tabelle: muss eine Liste von höchstens {most_points} Punkten sein</translation>
+    </message>
+    <message>
+        <source>table, point {number} = {row}: must be [time, depth]</source>
+        <translation>Tabelle, Punkt {number} = {row}: muss [Zeit, Tiefe] sein</translation>
+    </message>
+    <message>
+        <source>table: must go from [0, 0] to [1, 1]</source>
+        <translation>Tabelle: muss von [0, 0] bis [1, 1] reichen</translation>
+    </message>
+    <message>
+        <source>contact: {count} samples at rest, at least {least_samples} are needed to know the noise; wait</source>
+        <translation>Kontakt: {count} Abtastwerte in Ruhe, mindestens {least_samples} sind nötig, um das Rauschen zu kennen; warten</translation>
+    </message>
+    <message>
+        <source>bounds: range {low} to {high}, speed {max_speed}, acceleration {max_acceleration}: they must be finite, the range not empty, speed and acceleration above 0</source>
+        <translation>Grenzen: Bereich {low} bis {high}, Geschwindigkeit {max_speed}, Beschleunigung {max_acceleration}: sie müssen endlich sein, der Bereich nicht leer, Geschwindigkeit und Beschleunigung über 0</translation>
+    </message>
+    <message>
+        <source>impedance: forces of up to {force} could accelerate the mass of {mass} by {reached} per s², the axis allows {max_acceleration}; lower the force, or use a mass of about {wanted} with the same damping ratio or time constant</source>
+        <translation>Impedanz: Kräfte bis {force} könnten die Masse {mass} mit {reached} je s² beschleunigen, die Achse erlaubt {max_acceleration}; die Kraft verringern oder eine Masse von etwa {wanted} mit demselben Dämpfungsgrad oder derselben Zeitkonstante verwenden</translation>
+    </message>
+    <message>
+        <source>{path}: device = {device}: this is the file of {key}; calibrate the device again</source>
+        <translation>{path}: device = {device}: dies ist die Datei von {key}; das Gerät neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>a calibration of {device} cannot be kept for {key}</source>
+        <translation>eine Kalibrierung von {device} kann nicht für {key} gespeichert werden</translation>
+    </message>
+    <message>
+        <source>mode {name}: robot {robot} has no such mode (it needs the axes of the hybrid chain); use one of {names}</source>
+        <extracomment>Modes of a robot with a tip. One mode holds at a time, so fine and pivot exclude one another.</extracomment>
+        <translation>Modus {name}: Roboter {robot} hat ihn nicht (er braucht die Achsen der Hybridkette); möglich: {names}</translation>
+    </message>
+    <message>
+        <source>mode {name}: robot {robot} has no such mode; use one of {names}</source>
+        <translation>Modus {name}: Roboter {robot} hat ihn nicht; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>contact: gain {gain}, noise {noise}, greatest force {most}, slope {slope}, step {longest_step_s} s, delay {delay_s} s: all must be finite and not below 0, slope and step above 0</source>
+        <translation>Kontakt: Verstärkung {gain}, Rauschen {noise}, größte Kraft {most}, Steigung {slope}, Schritt {longest_step_s} s, Verzögerung {delay_s} s: alle müssen endlich und nicht kleiner als 0 sein, Steigung und Schritt über 0</translation>
+    </message>
+    <message>
+        <source>contact: gain {gain} might let the stick&apos;s mechanism give more energy than it was given: at most {most} with a damping of {damping} N s/m and readings {delay_s} ms old; lower the gain or raise the damping</source>
+        <translation>Kontakt: mit Verstärkung {gain} könnte die Mechanik des Joysticks mehr Energie abgeben, als sie bekam: höchstens {most} bei einer Dämpfung von {damping} N s/m und {delay_s} ms alten Messwerten; die Verstärkung verringern oder die Dämpfung erhöhen</translation>
+    </message>
+    <message>
+        <source>{device} has neither axes nor buttons that could be mapped</source>
+        <extracomment>Of a stick: the first button is under the finger that holds it. Of a device with few: the paper&apos;s start/stop button, and its mode button.</extracomment>
+        <translation>{device} hat weder Achsen noch Tasten, die sich zuordnen ließen</translation>
+    </message>
+    <message>
+        <source>the program lets go of it</source>
+        <translation>das Programm lässt es los</translation>
+    </message>
+    <message>
+        <source>re-centring: {value} is none of thx, thy, zn, which have a middle to come back to</source>
+        <translation>Zurückstellen: {value} gehört nicht zu thx, thy, zn, die eine Mitte haben</translation>
+    </message>
+    <message>
+        <source>no joint</source>
+        <translation>keine Achse</translation>
+    </message>
+    <message>
+        <source>re-centring: the position of axis {names} is not known; connect and home first</source>
+        <translation>Zurückstellen: die Position der Achse {names} ist nicht bekannt; erst verbinden und referenzieren</translation>
+    </message>
+    <message>
+        <source>{source}: {problem}</source>
+        <translation>{source}: {problem}</translation>
+    </message>
+    <message>
+        <source>{parent}: the folder cannot be made ({strerror}); choose another</source>
+        <translation>{parent}: der Ordner lässt sich nicht anlegen ({strerror}); einen anderen wählen</translation>
+    </message>
+    <message>
+        <source>{key}: missing; {need}</source>
+        <translation>{key}: fehlt; {need}</translation>
+    </message>
+    <message>
+        <source>the file needs it</source>
+        <translation>die Datei braucht es</translation>
+    </message>
+    <message>
+        <source>{key}: unknown key</source>
+        <translation>{key}: unbekannter Schlüssel</translation>
+    </message>
+    <message>
+        <source>{key}: {bound}</source>
+        <translation>{key}: {bound}</translation>
+    </message>
+    <message>
+        <source>mode: the position of axis {names} is not known; connect and home first</source>
+        <translation>Modus: die Position der Achse {names} ist nicht bekannt; erst verbinden und referenzieren</translation>
+    </message>
+    <message>
+        <source>not below 0</source>
+        <translation>nicht kleiner als 0</translation>
+    </message>
+    <message>
+        <source>above 0</source>
+        <translation>größer als 0</translation>
+    </message>
+    <message>
+        <source>impedance: {name} {value}: it must be finite and {least}</source>
+        <translation>Impedanz: {name} {value}: muss endlich und {least} sein</translation>
+    </message>
+    <message>
+        <source>impedance: stiffness {stiffness} lets the force {force} reach {travel} m (or rad), at most {most_travel}; use 0 for none</source>
+        <translation>Impedanz: mit Steifigkeit {stiffness} reicht die Kraft {force} bis {travel} m (oder rad), höchstens {most_travel} sind erlaubt; 0 bedeutet keine</translation>
+    </message>
+    <message>
+        <source>impedance: damping ratio {damping_ratio} is below {least_damping_ratio}, it would ring; use a damping of {least_damping} or more</source>
+        <translation>Impedanz: Dämpfungsgrad {damping_ratio} liegt unter {least_damping_ratio}, sie würde schwingen; eine Dämpfung von mindestens {least_damping} verwenden</translation>
+    </message>
+    <message>
+        <source>scaling: step of {dt} s with a reaction of {reaction}: both must be finite, the step not below 0</source>
+        <extracomment>Factors on a law&apos;s own scale that an operator steps through.</extracomment>
+        <translation>Maßstab: Schritt von {dt} s bei einer Reaktion von {reaction}: beide müssen endlich sein, der Schritt nicht kleiner als 0</translation>
+    </message>
+    <message>
+        <source>scaling: factor {factor}: it must be finite and above 0</source>
+        <translation>Maßstab: Faktor {factor}: muss endlich und größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>{what}: scale {scale}: it must be finite and not 0</source>
+        <translation>{what}: Maßstab {scale}: muss endlich und nicht 0 sein</translation>
+    </message>
+    <message>
+        <source>scaling: the deflection {value} is not a finite number</source>
+        <translation>Maßstab: die Auslenkung {value} ist keine endliche Zahl</translation>
+    </message>
+    <message>
+        <source>{path}: a recording that was cut off ends with {unfinished}</source>
+        <translation>{path}: eine abgebrochene Aufzeichnung endet auf {unfinished}</translation>
+    </message>
+    <message>
+        <source>{error}; what was recorded is in {source}</source>
+        <translation>{error}; das Aufgezeichnete steht in {source}</translation>
+    </message>
+    <message>
+        <source>{source}: it was cut off before anything was recorded; delete it</source>
+        <translation>{source}: abgebrochen, bevor etwas aufgezeichnet war; löschen</translation>
+    </message>
+    <message>
+        <source>{source}: of version {get}; this program reads {version}: recover it with the program that recorded it</source>
+        <translation>{source}: von Version {get}; dieses Programm liest {version}: mit dem Programm wiederherstellen, das sie aufgezeichnet hat</translation>
+    </message>
+    <message>
+        <source>{target}: it is there already and is another recording; rename it, then recover {source}</source>
+        <translation>{target}: gibt es schon und ist eine andere Aufzeichnung; umbenennen, dann {source} wiederherstellen</translation>
+    </message>
+    <message>
+        <source>{path}: it was not ended; recover it first</source>
+        <translation>{path}: sie wurde nicht beendet; erst wiederherstellen</translation>
+    </message>
+    <message>
+        <source>name a recording</source>
+        <translation>eine Aufzeichnung nennen</translation>
+    </message>
+    <message>
+        <source>{path}: no recording of this program, or a damaged one ({error})</source>
+        <translation>{path}: keine Aufzeichnung dieses Programms oder eine beschädigte ({error})</translation>
+    </message>
+    <message>
+        <source>{path}: no recording of this program</source>
+        <translation>{path}: keine Aufzeichnung dieses Programms</translation>
+    </message>
+    <message>
+        <source>{path}: a recording of version {decode}; this program reads {version}</source>
+        <translation>{path}: eine Aufzeichnung der Version {decode}; dieses Programm liest {version}</translation>
+    </message>
+    <message>
+        <source>{path}: damaged, it no longer says its {names}</source>
+        <translation>{path}: beschädigt, sie nennt nicht mehr: {names}</translation>
+    </message>
+    <message>
+        <source>{path}: damaged, began_s is {about}</source>
+        <translation>{path}: beschädigt, began_s ist {about}</translation>
+    </message>
+    <message>
+        <source>{path}: damaged, table {name} is none of a recording</source>
+        <translation>{path}: beschädigt, Tabelle {name} gehört zu keiner Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>{path}: it is there already; record to another name</source>
+        <translation>{path}: gibt es schon; unter anderem Namen aufzeichnen</translation>
+    </message>
+    <message>
+        <source>{path}: cannot be written ({reason}); make room, or choose another folder</source>
+        <extracomment>Host time, s.</extracomment>
+        <translation>{path}: kann nicht geschrieben werden ({reason}); Platz schaffen oder einen anderen Ordner wählen</translation>
+    </message>
+    <message>
+        <source>{name}: its end could not be written ({failure})</source>
+        <translation>{name}: das Ende konnte nicht geschrieben werden ({failure})</translation>
+    </message>
+    <message>
+        <source>{samples} samples and {others} other entries are missing</source>
+        <translation>{samples} Abtastwerte und {others} andere Einträge fehlen</translation>
+    </message>
+    <message>
+        <source>{name}: nothing more can be recorded ({reason}): motion goes on, what was recorded until now is safe in {path}; make room</source>
+        <translation>{name}: es kann nichts mehr aufgezeichnet werden ({reason}): die Bewegung geht weiter, das bisher Aufgezeichnete ist sicher in {path}; Platz schaffen</translation>
+    </message>
+    <message>
+        <source>nothing is missing</source>
+        <translation>es fehlt nichts</translation>
+    </message>
+    <message>
+        <source>{file}: recording goes on; {what}</source>
+        <translation>{file}: die Aufzeichnung geht weiter; {what}</translation>
+    </message>
+    <message>
+        <source>{name}: the disk took {took_s} s for a segment: a crash or a power cut now could lose more than a second; record to a faster one</source>
+        <translation>{name}: der Datenträger brauchte {took_s} s für ein Segment: bei einem Absturz oder Stromausfall ginge jetzt mehr als eine Sekunde verloren; auf einen schnelleren aufzeichnen</translation>
+    </message>
+    <message>
+        <source>{path}: no axis was sent anywhere from there to there</source>
+        <extracomment>Metadata of a recording that stand in what is exported of it as well.</extracomment>
+        <translation>{path}: in diesem Abschnitt wurde keine Achse bewegt</translation>
+    </message>
+    <message>
+        <source>{path}: the device was connected anew {at_s} s after the begin, with a time of its own; choose what is before or after that</source>
+        <translation>{path}: das Gerät wurde {at_s} s nach dem Beginn neu verbunden und hat seitdem eine eigene Zeit; den Teil davor oder danach wählen</translation>
+    </message>
+    <message>
+        <source>{path}: no samples from there to there; it lasts {whole_s} s</source>
+        <translation>{path}: keine Abtastwerte in diesem Abschnitt; sie dauert {whole_s} s</translation>
+    </message>
+    <message>
+        <source>{path}: axis {axes} moves at the {end}; every axis must stand there for {rest_s} s: choose {advice}</source>
+        <translation>{path}: Achse {axes} bewegt sich am Rand ({end}); dort muss jede Achse {rest_s} s stehen: {advice} wählen</translation>
+    </message>
+    <message>
+        <source>{path}: {steps_s} ms of samples are missing in mid-move {at_s} s after the begin: at most {rest_s} ms; choose what is before or after that</source>
+        <translation>{path}: mitten in der Bewegung, {at_s} s nach dem Beginn, fehlen {steps_s} ms an Abtastwerten: höchstens {rest_s} ms; den Teil davor oder danach wählen</translation>
+    </message>
+    <message>
+        <source>{path}: it is there already, being recorded or left by a crash; record to another name, or recover it</source>
+        <translation>{path}: gibt es schon, wird gerade aufgezeichnet oder blieb von einem Absturz; unter anderem Namen aufzeichnen oder wiederherstellen</translation>
+    </message>
+    <message>
+        <source>{path}: cannot be made ({reason}); choose another folder</source>
+        <translation>{path}: kann nicht angelegt werden ({reason}); einen anderen Ordner wählen</translation>
+    </message>
+    <message>
+        <source>{path}: another program has it; record to another name</source>
+        <translation>{path}: ein anderes Programm hat sie; unter anderem Namen aufzeichnen</translation>
+    </message>
+    <message>
+        <source>{path}: cannot be read ({reason})</source>
+        <translation>{path}: kann nicht gelesen werden ({reason})</translation>
+    </message>
+    <message>
+        <source>{path}: it is still being recorded; end that first</source>
+        <translation>{path}: wird noch aufgezeichnet; das erst beenden</translation>
+    </message>
+    <message>
+        <source>{path}: it was cut off before anything was recorded; delete it</source>
+        <translation>{path}: abgebrochen, bevor etwas aufgezeichnet war; löschen</translation>
+    </message>
+    <message>
+        <source>{path}: of version {version}; this program reads {known}: recover it with the program that recorded it</source>
+        <translation>{path}: von Version {version}; dieses Programm liest {known}: mit dem Programm wiederherstellen, das sie aufgezeichnet hat</translation>
+    </message>
+    <message>
+        <source>{path}: no recording of this program that was cut off</source>
+        <translation>{path}: keine abgebrochene Aufzeichnung dieses Programms</translation>
+    </message>
+    <message>
+        <source>the robot file has changed</source>
+        <extracomment>Of a record&apos;s metadata: faults and contacts while it was taken. What may be a cell, a dish or a stop that was leant on when the model was learned. What no command foretells, beside effects that are random or locked to time.</extracomment>
+        <translation>die Roboterdatei hat sich geändert</translation>
+    </message>
+    <message>
+        <source>it was made for driver {driver}, this is {other_driver}</source>
+        <translation>es wurde für Treiber {driver} gemacht, dies ist {other_driver}</translation>
+    </message>
+    <message>
+        <source>the boards&apos; parameters have changed</source>
+        <translation>die Parameter der Karten haben sich geändert</translation>
+    </message>
+    <message>
+        <source>the diagnosis is of the robot file {name} as it was then; the one in use, {robot_name}, is another: choose the model in use as the model, and diagnose again</source>
+        <translation>die Diagnose gilt für die damalige Roboterdatei {name}; die jetzige, {robot_name}, ist eine andere: das Modell in Gebrauch als Modell wählen und neu diagnostizieren</translation>
+    </message>
+    <message>
+        <source>the diagnosis found nothing that commands foretell: the nominal model is as good</source>
+        <translation>die Diagnose fand nichts, was Befehle vorhersagen; das nominale Modell ist ebenso gut</translation>
+    </message>
+    <message>
+        <source>playback: the device went from row {from_row} to row {to_row} of a trajectory whose rows are 0 to {last}</source>
+        <translation>Abspielen: das Gerät sprang von Zeile {from_row} zu Zeile {to_row} einer Trajektorie mit den Zeilen 0 bis {last}</translation>
+    </message>
+    <message>
+        <source>robot {name}: [microscope] pixel_size and magnification are missing; the tip&apos;s shape cannot be known without them</source>
+        <translation>Roboter {name}: [microscope] pixel_size und magnification fehlen; ohne sie ist die Form der Spitze nicht bekannt</translation>
+    </message>
+    <message>
+        <source>objective: the name is empty; give one, such as &quot;20x&quot;</source>
+        <extracomment>Why what is kept cannot be used.</extracomment>
+        <translation>Objektiv: der Name ist leer; einen angeben, etwa &quot;20x&quot;</translation>
+    </message>
+    <message>
+        <source>the tip would go {distance}, more than {confirm_m}; confirm the move first</source>
+        <translation>die Spitze würde {distance} weit fahren, mehr als {confirm_m}; die Bewegung erst bestätigen</translation>
+    </message>
+    <message>
+        <source>the camera is not calibrated with this objective; calibrate it before clicking</source>
+        <translation>die Kamera ist mit diesem Objektiv nicht kalibriert; vor dem Klicken kalibrieren</translation>
+    </message>
+    <message>
+        <source>no position is known; connect the machine first</source>
+        <translation>keine Position ist bekannt; erst die Maschine verbinden</translation>
+    </message>
+    <message>
+        <source>the camera shows {width} × {height} px from {left}, {top}, calibrated is {view_width} × {view_height} px from {view_left}, {view_top}; set the camera back, or calibrate anew</source>
+        <translation>die Kamera zeigt {width} × {height} px ab {left}, {top}, kalibriert sind {view_width} × {view_height} px ab {view_left}, {view_top}; die Kamera zurückstellen oder neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>the click at {x}, {y} px is outside the calibrated field, 0 to {width} and 0 to {height} px; click inside</source>
+        <translation>der Klick bei {x}, {y} px liegt außerhalb des kalibrierten Felds, 0 bis {width} und 0 bis {height} px; innerhalb klicken</translation>
+    </message>
+    <message>
+        <source>the {name} stage is not calibrated for objective {objective} on camera {camera}; calibrate it first</source>
+        <translation>der Tisch {name} ist für Objektiv {objective} an Kamera {camera} nicht kalibriert; erst kalibrieren</translation>
+    </message>
+    <message>
+        <source>{path}: it is of camera {camera} with objective {objective}, not of {other_camera} with {other_objective}; move it away and calibrate anew</source>
+        <translation>{path}: gehört zu Kamera {camera} mit Objektiv {objective}, nicht zu {other_camera} mit {other_objective}; verschieben und neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>every target has been visited; mark further ones</source>
+        <translation>alle Ziele wurden besucht; weitere markieren</translation>
+    </message>
+    <message>
+        <source>there is no target {index}; there are {count}</source>
+        <translation>das Ziel {index} gibt es nicht; vorhanden: {count}</translation>
+    </message>
+    <message>
+        <source>the tip is on its way to a target; wait, or stop it first</source>
+        <translation>die Spitze ist unterwegs zu einem Ziel; warten oder erst anhalten</translation>
+    </message>
+    <message>
+        <source>axis {axis}: the microscope tells the places of {names} only; depth has no zero</source>
+        <extracomment>Axes whose motion is across the view. Depth comes from blur, without its zero.</extracomment>
+        <translation>Achse {axis}: das Mikroskop zeigt nur die Orte von {names}; die Tiefe hat keinen Nullpunkt</translation>
+    </message>
+    <message>
+        <source>{path}: no tip is in it; calibrate, and track the tip while it is recorded</source>
+        <translation>{path}: darin ist keine Spitze; kalibrieren und die Spitze beim Aufzeichnen verfolgen</translation>
+    </message>
+    <message>
+        <source>{path}: {count} pictures, and none of them tells where the tip is; calibrate the tables before recording</source>
+        <translation>{path}: {count} Bilder, und keines zeigt, wo die Spitze ist; vor dem Aufzeichnen die Tische kalibrieren</translation>
+    </message>
+    <message>
+        <source>{name}: its place is not known; connect the machine first</source>
+        <extracomment>The present ones, or the latest.</extracomment>
+        <translation>{name}: der Ort ist nicht bekannt; erst die Maschine verbinden</translation>
+    </message>
+    <message>
+        <source>z-stack: {name} at {place}: must be {low} to {high}</source>
+        <translation>Z-Stapel: {name} bei {place}: muss {low} bis {high} sein</translation>
+    </message>
+    <message>
+        <source>this microscope has no motor at its focus; use an axis, or turn</source>
+        <translation>dieses Mikroskop hat keinen Fokusmotor; eine Achse verwenden oder von Hand drehen</translation>
+    </message>
+    <message>
+        <source>{name} does not focus here; there is: {known}</source>
+        <translation>{name} fokussiert hier nicht; möglich: {known}</translation>
+    </message>
+    <message>
+        <source>Microscope: {error}</source>
+        <translation>Mikroskop: {error}</translation>
+    </message>
+    <message>
+        <source>axis {axis} does not move the tip; choose one of {joints}</source>
+        <translation>Achse {axis} bewegt die Spitze nicht; möglich: {joints}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: the tip was seen farther from the pivot than the pin is long; the calibration is of another machine or place: calibrate anew</source>
+        <translation>Achse {axis}: die Spitze war weiter vom Drehpunkt entfernt, als der Stift lang ist; die Kalibrierung gehört zu einer anderen Maschine oder Stelle: neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>the record has a reference of axis {axis}; it needs one of {names} without its ref</source>
+        <translation>die Aufzeichnung hat schon eine Referenz von Achse {axis}; sie braucht eine von {names} ohne deren ref</translation>
+    </message>
+    <message>
+        <source>the record has no axis {axis}; it needs one of {names} without its ref</source>
+        <translation>die Aufzeichnung hat keine Achse {axis}; sie braucht eine von {names} ohne deren ref</translation>
+    </message>
+    <message>
+        <source>{count} frames show the tip and none of the record&apos;s times lies between them; record frames and samples together, on one clock</source>
+        <translation>{count} Bilder zeigen die Spitze, und keine Zeit der Aufzeichnung liegt dazwischen; Bilder und Messwerte zusammen mit einer Uhr aufzeichnen</translation>
+    </message>
+    <message>
+        <source>no move is planned; click in the picture first</source>
+        <extracomment>The present visit, or the latest one.</extracomment>
+        <translation>keine Bewegung ist geplant; erst ins Bild klicken</translation>
+    </message>
+    <message>
+        <source>the tip is lost: {reason}</source>
+        <translation>die Spitze ist verloren: {reason}</translation>
+    </message>
+    <message>
+        <source>no tip can be moved by a click: {error}</source>
+        <translation>keine Spitze kann durch einen Klick bewegt werden: {error}</translation>
+    </message>
+    <message>
+        <source>the tip is not tracked; switch tracking on, so that the move can be looked at</source>
+        <translation>die Spitze wird nicht verfolgt; die Verfolgung einschalten, damit die Bewegung zu sehen ist</translation>
+    </message>
+    <message>
+        <source>{path}: the disk has not taken the last pictures within {timeout_s} s; {pictures} pictures are kept</source>
+        <translation>{path}: der Datenträger hat die letzten Bilder in {timeout_s} s nicht aufgenommen; {pictures} Bilder bleiben</translation>
+    </message>
+    <message>
+        <source>{path}: the video has ended ({why}); {kept} pictures are kept. Make room, or choose another folder, and begin another one</source>
+        <translation>{path}: das Video ist zu Ende ({why}); {kept} Bilder bleiben. Platz schaffen oder einen anderen Ordner wählen und ein neues beginnen</translation>
+    </message>
+    <message>
+        <source>{name}: the video leaves pictures out: the disk is too slow, or the camera&apos;s settings were changed. Use a smaller region, fewer pictures a second, or another disk; begin another video after a change of settings</source>
+        <translation>{name}: im Video fehlen Bilder: der Datenträger ist zu langsam, oder die Einstellungen der Kamera wurden geändert. Einen kleineren Ausschnitt, weniger Bilder je Sekunde oder einen anderen Datenträger verwenden; nach geänderten Einstellungen ein neues Video beginnen</translation>
+    </message>
+    <message>
+        <source>{path}: the card cannot be kept ({strerror}); make room</source>
+        <translation>{path}: die Karte kann nicht gespeichert werden ({strerror}); Platz schaffen</translation>
+    </message>
+    <message>
+        <source>health card: the record has no {axis}.{tap}</source>
+        <translation>Zustandskarte: die Aufzeichnung hat kein {axis}.{tap}</translation>
+    </message>
+    <message>
+        <source>health card: the record tells no figure of {axis}: {names}</source>
+        <translation>Zustandskarte: die Aufzeichnung liefert keinen Wert von {axis}: {names}</translation>
+    </message>
+    <message>
+        <source>a model of second order fits {fit_percent} % alone</source>
+        <translation>ein Modell zweiter Ordnung allein passt zu {fit_percent} %</translation>
+    </message>
+    <message>
+        <source>{axis}.cmd rests nowhere after a move</source>
+        <translation>{axis}.cmd ruht nach keiner Bewegung</translation>
+    </message>
+    <message>
+        <source>{path}: it is of axis {axis} of robot {robot}, not of {name}; calibrate this one</source>
+        <translation>{path}: gehört zu Achse {axis} von Roboter {robot}, nicht von {name}; diese hier kalibrieren</translation>
+    </message>
+    <message>
+        <source>{path}: unit = {unit}: axis {axis} has another</source>
+        <translation>{path}: unit = {unit}: Achse {axis} hat eine andere</translation>
+    </message>
+    <message>
+        <source>setting {name}: {text} is no switch; write true or false</source>
+        <translation>Einstellung {name}: {text} ist kein Schalter; true oder false schreiben</translation>
+    </message>
+    <message>
+        <source>setting {name}: {text} is no whole number</source>
+        <translation>Einstellung {name}: {text} ist keine ganze Zahl</translation>
+    </message>
+    <message>
+        <source>setting {name}: {text} is no number; write one with a decimal point</source>
+        <translation>Einstellung {name}: {text} ist keine Zahl; mit Dezimalpunkt schreiben</translation>
+    </message>
+    <message>
+        <source>--set {text}: write it as name=value, such as baud=9600</source>
+        <translation>--set {text}: als name=value schreiben, etwa baud=9600</translation>
+    </message>
+    <message>
+        <source>driver {driver} has no setting {setting}; it knows {known}</source>
+        <translation>Treiber {driver} hat keine Einstellung {setting}; bekannt: {known}</translation>
+    </message>
+    <message>
+        <source>{path}: it holds no table of preferences</source>
+        <translation>{path}: enthält keine Tabelle mit Einstellungen</translation>
+    </message>
+    <message>
+        <source>fault {strip}: there is no such command; say {known}</source>
+        <translation>fault {strip}: diesen Befehl gibt es nicht; möglich: {known}</translation>
+    </message>
+    <message>
+        <source>fault {strip}: {error}</source>
+        <translation>fault {strip}: {error}</translation>
+    </message>
+    <message>
+        <source>{names} is no stepper: it has no steps</source>
+        <translation>{names} ist kein Schrittmotor: er hat keine Schritte</translation>
+    </message>
+    <message>
+        <source>there must be three readings, 0 to {most_reading}, and after them buttons, 0 to {most_buttons}, or none</source>
+        <translation>es müssen drei Messwerte sein, 0 bis {most_reading}, danach Tasten, 0 bis {most_buttons}, oder keine</translation>
+    </message>
+    <message>
+        <source>there must be an axis: one of {names}</source>
+        <translation>eine Achse muss dabei sein: eine von {names}</translation>
+    </message>
+    <message>
+        <source>{word} must be a number from 1 to {most}</source>
+        <translation>{word} muss eine Zahl von 1 bis {most} sein</translation>
+    </message>
+    <message>
+        <source>there must be a time as &apos;5 ms&apos; or &apos;2 s&apos;, of {most_s} s at most</source>
+        <translation>eine Zeit muss dabei sein, etwa &apos;5 ms&apos; oder &apos;2 s&apos;, höchstens {most_s} s</translation>
+    </message>
+    <message>
+        <source>{names} has no place here</source>
+        <translation>{names} gehört nicht hierher</translation>
+    </message>
+    <message>
+        <source>baud {baud}: must be one of {names}</source>
+        <translation>baud {baud}: muss eine von {names} sein</translation>
+    </message>
+    <message>
+        <source>robot {name}: its {count} axes take one board, which has one port; leave out the second one</source>
+        <translation>Roboter {name}: seine {count} Achsen brauchen eine Karte, und die hat einen Anschluss; den zweiten weglassen</translation>
+    </message>
+    <message>
+        <source>frame: address = {address}: must be 1 to {broadcast}</source>
+        <translation>Rahmen: Adresse = {address}: muss 1 bis {broadcast} sein</translation>
+    </message>
+    <message>
+        <source>frame: {name} = {value}: must be 0 to 255</source>
+        <translation>Rahmen: {name} = {value}: muss 0 bis 255 sein</translation>
+    </message>
+    <message>
+        <source>frame: a payload of {count} bytes: at most {max_payload}</source>
+        <translation>Rahmen: Nutzdaten von {count} Byte: höchstens {max_payload}</translation>
+    </message>
+    <message>
+        <source>frame of type 0x{type}: no message of this protocol</source>
+        <translation>Rahmen vom Typ 0x{type}: keine Nachricht dieses Protokolls</translation>
+    </message>
+    <message>
+        <source>board {address}: {count} requests wait for it; wait</source>
+        <translation>Karte {address}: {count} Anfragen warten auf sie; warten</translation>
+    </message>
+    <message>
+        <source>{what}: a number does not fit: {error}</source>
+        <translation>{what}: eine Zahl passt nicht: {error}</translation>
+    </message>
+    <message>
+        <source>{name}: a payload of {count} bytes: must be {size}{more}</source>
+        <translation>{name}: Nutzdaten von {count} Byte: müssen {size}{more} sein</translation>
+    </message>
+    <message>
+        <source>to tell all parameters</source>
+        <translation>um alle Parameter zu nennen</translation>
+    </message>
+    <message>
+        <source>board&apos;s program</source>
+        <translation>Programm der Karte</translation>
+    </message>
+    <message>
+        <source>program on this computer</source>
+        <translation>Programm auf diesem Rechner</translation>
+    </message>
+    <message>
+        <source>{where} speaks version {version} of the protocol, this program {own}; update the {older}</source>
+        <translation>{where} spricht Version {version} des Protokolls, dieses Programm {own}; das {older} aktualisieren</translation>
+    </message>
+    <message>
+        <source>{where} has {axes} axes, robot {name} wants {count} there ({names}); choose the robot file of this machine</source>
+        <translation>{where} hat {axes} Achsen, Roboter {name} will dort {count} ({names}); die Roboterdatei dieser Maschine wählen</translation>
+    </message>
+    <message>
+        <source>to describe its axes</source>
+        <translation>um ihre Achsen zu beschreiben</translation>
+    </message>
+    <message>
+        <source>{wrong}; choose the robot file of this machine</source>
+        <translation>{wrong}; die Roboterdatei dieser Maschine wählen</translation>
+    </message>
+    <message>
+        <source>{where}: {what} of axis {axis} is {told}, the robot file says {wanted}</source>
+        <translation>{where}: {what} von Achse {axis} ist {told}, die Roboterdatei sagt {wanted}</translation>
+    </message>
+    <message>
+        <source>{where}: a step of axis {axis} is {step}, by the robot file {wanted}</source>
+        <translation>{where}: ein Schritt von Achse {axis} ist {step}, laut Roboterdatei {wanted}</translation>
+    </message>
+    <message>
+        <source>to tell where it is</source>
+        <translation>um zu melden, wo sie steht</translation>
+    </message>
+    <message>
+        <source>to come to rest</source>
+        <translation>um zur Ruhe zu kommen</translation>
+    </message>
+    <message>
+        <source>to forget its fault</source>
+        <translation>um ihren Fehler zu vergessen</translation>
+    </message>
+    <message>
+        <source>to send telemetry</source>
+        <translation>um Telemetrie zu senden</translation>
+    </message>
+    <message>
+        <source>{where} announces no rate of telemetry or segments</source>
+        <translation>{where} meldet keine Rate für Telemetrie oder Segmente</translation>
+    </message>
+    <message>
+        <source>{where} announces {tick} ticks a second: none, or no whole number of them in the {period_ms} ms between two samples</source>
+        <translation>{where} nennt {tick} Takte je Sekunde: keinen oder keine ganze Zahl davon in den {period_ms} ms zwischen zwei Abtastwerten</translation>
+    </message>
+    <message>
+        <source>{who}: it took longer than {limit_s} s {what}; check cable and supply</source>
+        <translation>{who}: brauchte länger als {limit_s} s, {what}; Kabel und Versorgung prüfen</translation>
+    </message>
+    <message>
+        <source>{where}: what comes from there at {baud} baud is no frame of a board; is the baud rate another one ({others}), or the device at this port no MC68HC11 board?</source>
+        <translation>{where}: was dort mit {baud} Baud ankommt, ist kein Rahmen einer Karte; ist die Baudrate eine andere ({others}), oder das Gerät an diesem Anschluss keine MC68HC11-Karte?</translation>
+    </message>
+    <message>
+        <source>{where}: nobody answers at {baud} baud; is the board switched on, its cable at this port and not at the other board&apos;s, the baud rate another one ({others})?</source>
+        <translation>{where}: bei {baud} Baud antwortet niemand; ist die Karte eingeschaltet, ihr Kabel an diesem Anschluss und nicht an dem der anderen Karte, die Baudrate eine andere ({others})?</translation>
+    </message>
+    <message>
+        <source>low</source>
+        <translation>unten</translation>
+    </message>
+    <message>
+        <source>high</source>
+        <translation>oben</translation>
+    </message>
+    <message>
+        <source>stopped, and not by this program: a stop came over the line; is it sound?</source>
+        <translation>angehalten, und nicht von diesem Programm: ein Halt kam über die Leitung; ist sie in Ordnung?</translation>
+    </message>
+    <message>
+        <source>the host was silent for too long; the board halted</source>
+        <translation>der Rechner schwieg zu lange; die Karte hat angehalten</translation>
+    </message>
+    <message>
+        <source>a limit switch was met</source>
+        <translation>ein Endschalter wurde erreicht</translation>
+    </message>
+    <message>
+        <source>an axis met an end of its range</source>
+        <translation>eine Achse erreichte ein Ende ihres Bereichs</translation>
+    </message>
+    <message>
+        <source>a position sensor failed</source>
+        <translation>ein Positionssensor ist ausgefallen</translation>
+    </message>
+    <message>
+        <source>the supply voltage broke down; home it again</source>
+        <translation>die Versorgungsspannung brach ein; neu referenzieren</translation>
+    </message>
+    <message>
+        <source>the board was reset; home it again</source>
+        <translation>die Karte wurde zurückgesetzt; neu referenzieren</translation>
+    </message>
+    <message>
+        <source>a set-point came too late; the trajectory ended there</source>
+        <translation>ein Sollwert kam zu spät; dort endete die Trajektorie</translation>
+    </message>
+    <message>
+        <source>the profile could not be run</source>
+        <translation>das Profil konnte nicht gefahren werden</translation>
+    </message>
+    <message>
+        <source>a set-point was farther away than the axis goes in that time; it was refused</source>
+        <translation>ein Sollwert war weiter entfernt, als die Achse in dieser Zeit kommt; er wurde abgelehnt</translation>
+    </message>
+    <message>
+        <source>board {address} on {url}</source>
+        <translation>Karte {address} an {url}</translation>
+    </message>
+    <message>
+        <source>limit switch met: {switches}</source>
+        <translation>Endschalter erreicht: {switches}</translation>
+    </message>
+    <message>
+        <source>board {address}: {words}</source>
+        <translation>Karte {address}: {words}</translation>
+    </message>
+    <message>
+        <source>{name} {end}</source>
+        <translation>{name} {end}</translation>
+    </message>
+    <message>
+        <source>low limit</source>
+        <translation>untere Grenze</translation>
+    </message>
+    <message>
+        <source>high limit</source>
+        <translation>obere Grenze</translation>
+    </message>
+    <message>
+        <source>greatest speed</source>
+        <translation>größte Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>greatest acceleration</source>
+        <translation>größte Beschleunigung</translation>
+    </message>
+    <message>
+        <source>microsteps a revolution</source>
+        <translation>Mikroschritte je Umdrehung</translation>
+    </message>
+    <message>
+        <source>homing speed</source>
+        <translation>Geschwindigkeit beim Referenzieren</translation>
+    </message>
+    <message>
+        <source>way from the low switch to zero</source>
+        <translation>Weg vom unteren Schalter bis null</translation>
+    </message>
+    <message>
+        <source>voltage at code 0</source>
+        <translation>Spannung beim Code 0</translation>
+    </message>
+    <message>
+        <source>voltage at the last code</source>
+        <translation>Spannung beim letzten Code</translation>
+    </message>
+    <message>
+        <source>greatest slew of the converter</source>
+        <translation>größte Anstiegsrate des Wandlers</translation>
+    </message>
+    <message>
+        <source>{axis}: {parameter}</source>
+        <translation>{axis}: {parameter}</translation>
+    </message>
+    <message>
+        <source>{name}: robot {robot_name} has one board; leave second_port empty</source>
+        <translation>{name}: Roboter {robot_name} hat eine Karte; second_port leer lassen</translation>
+    </message>
+    <message>
+        <source>{name}: {lost}</source>
+        <translation>{name}: {lost}</translation>
+    </message>
+    <message>
+        <source>{name}: setting {setting} = {value} is not between {least} and {greatest}</source>
+        <translation>{name}: Einstellung {setting} = {value} liegt nicht zwischen {least} und {greatest}</translation>
+    </message>
+    <message>
+        <source>a stop cut the writing off</source>
+        <translation>ein Halt brach das Schreiben ab</translation>
+    </message>
+    <message>
+        <source>{name}: cannot {action} while its parameters are written; wait</source>
+        <translation>{name}: {action} ist nicht möglich, während die Parameter geschrieben werden; warten</translation>
+    </message>
+    <message>
+        <source>and {count} more</source>
+        <translation>und {count} weitere</translation>
+    </message>
+    <message>
+        <source>{name}: cannot {action}: the boards&apos; parameters are not those of the robot file ({differences}); accept_parameters or write_parameters first</source>
+        <translation>{name}: {action} ist nicht möglich: die Parameter der Karten sind nicht die der Roboterdatei ({differences}); erst accept_parameters oder write_parameters</translation>
+    </message>
+    <message>
+        <source>board {address} did not keep what was written</source>
+        <translation>Karte {address} behielt nicht, was geschrieben wurde</translation>
+    </message>
+    <message>
+        <source>board {address} refused to be given {what} (reason {reason})</source>
+        <translation>Karte {address} nahm {what} nicht an (Grund {reason})</translation>
+    </message>
+    <message>
+        <source>no serial port is set; set port to a device, for example /dev/ttyUSB0</source>
+        <translation>kein serieller Anschluss eingestellt; port auf ein Gerät setzen, zum Beispiel /dev/ttyUSB0</translation>
+    </message>
+    <message>
+        <source>{url}: it takes no more bytes; is the line blocked?</source>
+        <translation>{url}: nimmt keine Bytes mehr an; ist die Leitung blockiert?</translation>
+    </message>
+    <message>
+        <source>{url}: the port is gone ({error}); is it unplugged? Plug it in and connect again, then check where the machine stands</source>
+        <translation>{url}: der Anschluss ist weg ({error}); abgesteckt? Anstecken und wieder verbinden, dann prüfen, wo die Maschine steht</translation>
+    </message>
+    <message>
+        <source>{url}: no permission to open it; add the user to the group that owns the device (dialout on most systems) and log in again</source>
+        <translation>{url}: keine Berechtigung zum Öffnen; den Benutzer in die Gruppe des Geräts aufnehmen (meist dialout) und neu anmelden</translation>
+    </message>
+    <message>
+        <source>{url}: another program uses it; close that program</source>
+        <translation>{url}: ein anderes Programm verwendet ihn; jenes Programm schließen</translation>
+    </message>
+    <message>
+        <source>{url}: there is no such port ({said}); is the adapter plugged in, the name right?</source>
+        <translation>{url}: diesen Anschluss gibt es nicht ({said}); ist der Adapter angesteckt, der Name richtig?</translation>
+    </message>
+    <message>
+        <source>{url}: it cannot be opened: {said}</source>
+        <translation>{url}: lässt sich nicht öffnen: {said}</translation>
+    </message>
+    <message>
+        <source>telemetry: a reading of {reading} steps: 24 bits at most</source>
+        <translation>Telemetrie: ein Messwert von {reading} Schritten: höchstens 24 Bit</translation>
+    </message>
+    <message>
+        <source>telemetry: {count} bytes: must be {axis_bytes} an axis</source>
+        <translation>Telemetrie: {count} Byte: müssen {axis_bytes} je Achse sein</translation>
+    </message>
+    <message>
+        <source>inputs: a reading of {reading}: must be 0 to 4095</source>
+        <translation>Eingänge: ein Messwert von {reading}: muss 0 bis 4095 sein</translation>
+    </message>
+    <message>
+        <source>a motion was not sent: {error}</source>
+        <translation>eine Bewegung wurde nicht gesendet: {error}</translation>
+    </message>
+    <message>
+        <source>{where} was reset: it does not know where it stands; connect again, and home it</source>
+        <translation>{where} wurde zurückgesetzt und weiß nicht, wo sie steht; wieder verbinden und referenzieren</translation>
+    </message>
+    <message>
+        <source>{where} has said nothing for {quiet_s} s; check cable and supply, connect again, then check where the machine stands</source>
+        <translation>{where} hat seit {quiet_s} s nichts gesagt; Kabel und Versorgung prüfen, wieder verbinden, dann prüfen, wo die Maschine steht</translation>
+    </message>
+    <message>
+        <source>{name}: {where} cannot play trajectories</source>
+        <translation>{name}: {where} kann keine Trajektorien abspielen</translation>
+    </message>
+    <message>
+        <source>it does not know that message</source>
+        <translation>sie kennt die Nachricht nicht</translation>
+    </message>
+    <message>
+        <source>the message has another length there</source>
+        <translation>die Nachricht hat dort eine andere Länge</translation>
+    </message>
+    <message>
+        <source>a value is beyond what it accepts; compare its parameters</source>
+        <translation>ein Wert liegt außerhalb dessen, was sie annimmt; ihre Parameter vergleichen</translation>
+    </message>
+    <message>
+        <source>it is not homed</source>
+        <translation>sie ist nicht referenziert</translation>
+    </message>
+    <message>
+        <source>it is busy</source>
+        <translation>sie ist beschäftigt</translation>
+    </message>
+    <message>
+        <source>its queue is full</source>
+        <translation>ihre Warteschlange ist voll</translation>
+    </message>
+    <message>
+        <source>it is not able to</source>
+        <translation>sie kann das nicht</translation>
+    </message>
+    <message>
+        <source>it came out of order</source>
+        <translation>sie kam außer der Reihe</translation>
+    </message>
+    <message>
+        <source>board {address} refused a motion: {why}; nothing more was sent to it</source>
+        <translation>Karte {address} lehnte eine Bewegung ab: {why}; es wurde ihr nichts weiter gesendet</translation>
+    </message>
+    <message>
+        <source>reason {number}</source>
+        <translation>Grund {number}</translation>
+    </message>
+    <message>
+        <source>{name}: {names} are not all on one board</source>
+        <translation>{name}: {names} sind nicht alle auf einer Karte</translation>
+    </message>
+    <message>
+        <source>{name}: a capture at {rate_hz} Hz: {most_period_us} Hz at least</source>
+        <translation>{name}: eine Erfassung mit {rate_hz} Hz: mindestens {most_period_us} Hz</translation>
+    </message>
+    <message>
+        <source>{name}: {where} cannot run profiles</source>
+        <translation>{name}: {where} kann keine Profile fahren</translation>
+    </message>
+    <message>
+        <source>{name}: there is no profile to run; upload one first</source>
+        <translation>{name}: es gibt kein Profil zu fahren; erst eines hochladen</translation>
+    </message>
+    <message>
+        <source>{name}: no board has a display</source>
+        <translation>{name}: keine Karte hat eine Anzeige</translation>
+    </message>
+    <message>
+        <source>axis {name} did not reach the trajectory&apos;s first row</source>
+        <translation>Achse {name} erreichte die erste Zeile der Trajektorie nicht</translation>
+    </message>
+    <message>
+        <source>board {address} refused to begin the trajectory ({reason})</source>
+        <translation>Karte {address} wollte die Trajektorie nicht beginnen ({reason})</translation>
+    </message>
+    <message>
+        <source>board {address} refused a set-point ({refusal})</source>
+        <translation>Karte {address} lehnte einen Sollwert ab ({refusal})</translation>
+    </message>
+    <message>
+        <source>robot {robot}: axis {axis} is moved by a {kind}; the MC68HC11 boards move stepping motors and piezos</source>
+        <translation>Roboter {robot}: Achse {axis} wird von {kind} bewegt; die MC68HC11-Karten bewegen Schrittmotoren und Piezos</translation>
+    </message>
+    <message>
+        <source>robot {name}: {count} axes: two boards have {axes} at most</source>
+        <translation>Roboter {name}: {count} Achsen: zwei Karten haben höchstens {axes}</translation>
+    </message>
+    <message>
+        <source>a step of {size}: its power of ten takes more than 8 bits</source>
+        <translation>ein Schritt von {size}: seine Zehnerpotenz braucht mehr als 8 Bit</translation>
+    </message>
+    <message>
+        <source>{name}: cannot change a compensation while it is {state}; stop it or wait</source>
+        <translation>{name}: eine Kompensation lässt sich nicht ändern, während der Zustand {state} ist; anhalten oder warten</translation>
+    </message>
+    <message>
+        <source>{name}: no such axis {axis}; it has {names}</source>
+        <translation>{name}: keine Achse {axis}; vorhanden: {names}</translation>
+    </message>
+    <message>
+        <source>{name}: an inverse of axis {axis} is none of {other}</source>
+        <translation>{name}: eine Inverse von Achse {axis} ist keine von {other}</translation>
+    </message>
+    <message>
+        <source>{name}: cannot change a loop while it is {state}; stop it or wait</source>
+        <translation>{name}: ein Regelkreis lässt sich nicht ändern, während der Zustand {state} ist; anhalten oder warten</translation>
+    </message>
+    <message>
+        <source>{name}: a loop of axis {axis} is none of {other}</source>
+        <translation>{name}: ein Regelkreis von Achse {axis} ist keiner von {other}</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis}: the loop was found stable on robot {robot_name} with another such axis; check it on this one</source>
+        <translation>{name}: Achse {axis}: der Regelkreis war an Roboter {robot_name} stabil, dessen Achse eine andere ist; an diesem hier prüfen</translation>
+    </message>
+    <message>
+        <source>samples: arrays of shapes {shapes} for {count} times</source>
+        <translation>Abtastwerte: Felder der Formen {shapes} für {count} Zeiten</translation>
+    </message>
+    <message>
+        <source>samples: {rows} rows for {times} times</source>
+        <translation>Abtastwerte: {rows} Zeilen für {times} Zeiten</translation>
+    </message>
+    <message>
+        <source>samples: the device&apos;s time does not increase</source>
+        <translation>Abtastwerte: die Zeit des Geräts nimmt nicht zu</translation>
+    </message>
+    <message>
+        <source>samples: a command or reading is not a finite number</source>
+        <translation>Abtastwerte: ein Befehl oder Messwert ist keine endliche Zahl</translation>
+    </message>
+    <message>
+        <source>{name}: it is closed; open it first</source>
+        <translation>{name}: geschlossen; erst öffnen</translation>
+    </message>
+    <message>
+        <source>{name}: it runs freely; configure a software trigger first</source>
+        <translation>{name}: läuft frei; erst einen Software-Trigger einstellen</translation>
+    </message>
+    <message>
+        <source>{name}: a picture of {columns} × {rows} px, expected {width} × {height}: its resolution has changed; close it and open it again, and calibrate anew</source>
+        <translation>{name}: ein Bild von {columns} × {rows} px statt {width} × {height}: die Auflösung hat sich geändert; schließen, wieder öffnen und neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>Simulated microscope</source>
+        <translation>Simuliertes Mikroskop</translation>
+    </message>
+    <message>
+        <source>{name}: only a simulated machine can be seen; connect the simulator</source>
+        <translation>{name}: nur eine simulierte Maschine lässt sich sehen; den Simulator verbinden</translation>
+    </message>
+    <message>
+        <source>{name}: focus at {focus_m} µm: must be {low} to {high} µm</source>
+        <translation>{name}: Fokus bei {focus_m} µm: muss {low} bis {high} µm sein</translation>
+    </message>
+    <message>
+        <source>{name}: there is no simulated machine to look at; connect the simulator</source>
+        <translation>{name}: keine simulierte Maschine zum Ansehen; den Simulator verbinden</translation>
+    </message>
+    <message>
+        <source>{name}: robot {robot_name} is in use now, not the one that it was opened on; close it and open it again</source>
+        <translation>{name}: jetzt ist Roboter {robot_name} in Gebrauch, nicht der, mit dem sie geöffnet wurde; schließen und wieder öffnen</translation>
+    </message>
+    <message>
+        <source>USB camera, video file or stream</source>
+        <translation>USB-Kamera, Videodatei oder Datenstrom</translation>
+    </message>
+    <message>
+        <source>number of a device, path of a video file, or address such as rtsp://…</source>
+        <translation>Nummer eines Geräts, Pfad einer Videodatei oder Adresse wie rtsp://…</translation>
+    </message>
+    <message>
+        <source>{name}: nothing was named; type a {address_hint}</source>
+        <translation>{name}: nichts genannt; einzugeben ist: {address_hint}</translation>
+    </message>
+    <message>
+        <source>{name}: there is no camera {address}, or another program uses it, or you may not read it (group &apos;video&apos; on Linux)</source>
+        <translation>{name}: die Kamera {address} gibt es nicht, ein anderes Programm verwendet sie, oder sie darf nicht gelesen werden (Gruppe &apos;video&apos; unter Linux)</translation>
+    </message>
+    <message>
+        <source>{name}: it gives no picture; unplug it and plug it in</source>
+        <translation>{name}: sie liefert kein Bild; abstecken und wieder anstecken</translation>
+    </message>
+    <message>
+        <source>a manual exposure</source>
+        <translation>manuelle Belichtung</translation>
+    </message>
+    <message>
+        <source>an exposure of {exposure_s} s</source>
+        <translation>eine Belichtung von {exposure_s} s</translation>
+    </message>
+    <message>
+        <source>a gain of {gain}</source>
+        <translation>eine Verstärkung von {gain}</translation>
+    </message>
+    <message>
+        <source>{name}: it does not take {what}; leave it as it is</source>
+        <translation>{name}: {what} nimmt sie nicht an; so lassen</translation>
+    </message>
+    <message>
+        <source>{name}: it gives no picture any more; was it unplugged? Open it again</source>
+        <translation>{name}: sie liefert kein Bild mehr; wurde sie abgesteckt? Wieder öffnen</translation>
+    </message>
+    <message>
+        <source>{address}: there is no such file; choose another one</source>
+        <translation>{address}: diese Datei gibt es nicht; eine andere wählen</translation>
+    </message>
+    <message>
+        <source>{address}: it is no video, or one that was cut off or is of an unknown kind; choose another file</source>
+        <translation>{address}: kein Video, ein abgeschnittenes oder eines von unbekannter Art; eine andere Datei wählen</translation>
+    </message>
+    <message>
+        <source>{address}: no video came from there within {timeout_ms} s; check the address and the network</source>
+        <translation>{address}: von dort kam in {timeout_ms} s kein Video; Adresse und Netz prüfen</translation>
+    </message>
+    <message>
+        <source>{address}: {reason}; choose another file</source>
+        <translation>{address}: {reason}; eine andere Datei wählen</translation>
+    </message>
+    <message>
+        <source>{name}: it has ended; open it again, or let it repeat</source>
+        <translation>{name}: zu Ende; wieder öffnen oder wiederholen lassen</translation>
+    </message>
+    <message>
+        <source>{name}: it has ended; open it again</source>
+        <translation>{name}: zu Ende; wieder öffnen</translation>
+    </message>
+    <message>
+        <source>{name}: pixel type {pixel_type}: it has {known}</source>
+        <translation>{name}: Pixeltyp {pixel_type}: möglich: {known}</translation>
+    </message>
+    <message>
+        <source>{name}: trigger {trigger}: it has {known}</source>
+        <translation>{name}: Trigger {trigger}: möglich: {known}</translation>
+    </message>
+    <message>
+        <source>{name}: {what} = {value}{unit}: it cannot be set; leave it</source>
+        <translation>{name}: {what} = {value}{unit}: nicht einstellbar; so lassen</translation>
+    </message>
+    <message>
+        <source>{name}: {what} = {value}{unit}: must be {least} to {most}{unit}</source>
+        <translation>{name}: {what} = {value}{unit}: muss zwischen {least} und {most}{unit} liegen</translation>
+    </message>
+    <message>
+        <source>{name}: region of {width} × {height} px from column {left}, row {top}: must lie in the sensor&apos;s {can_width} × {can_height} px</source>
+        <translation>{name}: Ausschnitt von {width} × {height} px ab Spalte {left}, Zeile {top}: muss innerhalb der {can_width} × {can_height} px des Sensors liegen</translation>
+    </message>
+    <message>
+        <source>{name}: {address}: choose one that is listed</source>
+        <extracomment>The version of this interface that the class was written for. How screens call this kind of camera. What can be typed to name a camera that no list shows; empty: nothing.</extracomment>
+        <translation>{name}: {address}: eine aus der Liste wählen</translation>
+    </message>
+    <message>
+        <source>Image sequence</source>
+        <translation>Bildfolge</translation>
+    </message>
+    <message>
+        <source>folder of TIFF or PNG files, or TIFF file with several pages</source>
+        <translation>Ordner mit TIFF- oder PNG-Dateien oder TIFF-Datei mit mehreren Seiten</translation>
+    </message>
+    <message>
+        <source>{name}: it has ended after {count} pictures; open it again, or let it repeat</source>
+        <translation>{name}: nach {count} Bildern zu Ende; wieder öffnen oder wiederholen lassen</translation>
+    </message>
+    <message>
+        <source>{file}: a picture of type {pixel_type_of}, expected {pixel_types} as the first; convert it</source>
+        <translation>{file}: ein Bild vom Typ {pixel_type_of} statt {pixel_types} wie das erste; umwandeln</translation>
+    </message>
+    <message>
+        <source>{path}: there is no TIFF or PNG file in this folder; choose another one</source>
+        <translation>{path}: in diesem Ordner ist keine TIFF- oder PNG-Datei; einen anderen wählen</translation>
+    </message>
+    <message>
+        <source>{path}: there is no such folder or file; choose another one</source>
+        <translation>{path}: diesen Ordner oder diese Datei gibt es nicht; eine andere Angabe wählen</translation>
+    </message>
+    <message>
+        <source>{path}: it is no picture; choose a TIFF or PNG file</source>
+        <translation>{path}: kein Bild; eine TIFF- oder PNG-Datei wählen</translation>
+    </message>
+    <message>
+        <source>is it cut off, or gone?</source>
+        <translation>ist sie abgeschnitten oder weg?</translation>
+    </message>
+    <message>
+        <source>{file}: page {page} cannot be read: {error}</source>
+        <translation>{file}: Seite {page} kann nicht gelesen werden: {error}</translation>
+    </message>
+    <message>
+        <source>{file}: page {page} cannot be read; it is cut off, or gone</source>
+        <translation>{file}: Seite {page} kann nicht gelesen werden; abgeschnitten oder weg</translation>
+    </message>
+    <message>
+        <source>{file}: pixels of type {dtype} with {ndim} dimensions: must be grey of 8 or 16 bits, or colour of 8; convert it</source>
+        <translation>{file}: Bildpunkte vom Typ {dtype} mit {ndim} Dimensionen: muss Grau mit 8 oder 16 Bit oder Farbe mit 8 sein; umwandeln</translation>
+    </message>
+    <message>
+        <source>{name}: there is no source {source} of cameras; installed: {known}</source>
+        <translation>{name}: die Kameraquelle {source} gibt es nicht; installiert: {known}</translation>
+    </message>
+    <message>
+        <source>there is no source {source} of cameras; there is: {known}</source>
+        <translation>die Kameraquelle {source} gibt es nicht; vorhanden: {known}</translation>
+    </message>
+    <message>
+        <source>axis {name} at {at}, not at {end}, as the controller counts</source>
+        <translation>Achse {name} bei {at}, nicht bei {end}, nach Zählung der Steuerung</translation>
+    </message>
+    <message>
+        <source>{where}: its reports have no machine position; send it $10=1</source>
+        <translation>{where}: in den Berichten fehlt die Maschinenposition; $10=1 senden</translation>
+    </message>
+    <message>
+        <source>{where}: it reports inches; send it $13=0</source>
+        <translation>{where}: meldet Zoll; $13=0 senden</translation>
+    </message>
+    <message>
+        <source>did not reset</source>
+        <translation>setzte sich nicht zurück</translation>
+    </message>
+    <message>
+        <source>{where}: its axes still move {rest_s} s after a feed hold; use the machine&apos;s emergency switch</source>
+        <translation>{where}: die Achsen bewegen sich {rest_s} s nach einem Vorschubhalt noch; den Notschalter der Maschine benutzen</translation>
+    </message>
+    <message>
+        <source>{where}: no answer to &apos;?&apos; in {limit_s} s; is it a GRBL controller, is it switched on, is the baud rate right?</source>
+        <translation>{where}: keine Antwort auf &apos;?&apos; in {limit_s} s; ist es eine GRBL-Steuerung, ist sie eingeschaltet, stimmt die Baudrate?</translation>
+    </message>
+    <message>
+        <source>{where}: it {what} within {limit_s} s</source>
+        <translation>{where}: {what} innerhalb von {limit_s} s</translation>
+    </message>
+    <message>
+        <source>did not answer {line}</source>
+        <translation>beantwortete {line} nicht</translation>
+    </message>
+    <message>
+        <source>hard limit: a limit switch was hit</source>
+        <translation>harte Grenze: ein Endschalter wurde erreicht</translation>
+    </message>
+    <message>
+        <source>soft limit: a target lies beyond the travel</source>
+        <translation>weiche Grenze: ein Ziel liegt außerhalb des Verfahrwegs</translation>
+    </message>
+    <message>
+        <source>it was reset in motion</source>
+        <translation>sie wurde in Bewegung zurückgesetzt</translation>
+    </message>
+    <message>
+        <source>homing was ended by a reset</source>
+        <translation>ein Zurücksetzen beendete die Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>the door was opened while homing</source>
+        <translation>die Tür wurde bei der Referenzfahrt geöffnet</translation>
+    </message>
+    <message>
+        <source>homing: pulling off did not clear the limit switch</source>
+        <translation>Referenzfahrt: beim Zurückfahren wurde der Endschalter nicht frei</translation>
+    </message>
+    <message>
+        <source>homing is not enabled ($22)</source>
+        <extracomment>Of alarms after which the controller still knows where it is. Of alarms after which the controller answers nothing but a reset.</extracomment>
+        <translation>die Referenzfahrt ist nicht freigegeben ($22)</translation>
+    </message>
+    <message>
+        <source>it is not idle</source>
+        <translation>sie ist nicht in Ruhe</translation>
+    </message>
+    <message>
+        <source>it is locked by an alarm</source>
+        <translation>sie ist durch einen Alarm gesperrt</translation>
+    </message>
+    <message>
+        <source>the line is too long</source>
+        <translation>die Zeile ist zu lang</translation>
+    </message>
+    <message>
+        <source>the target lies beyond the travel</source>
+        <translation>das Ziel liegt außerhalb des Verfahrwegs</translation>
+    </message>
+    <message>
+        <source>no jog command</source>
+        <translation>kein Tippbefehl</translation>
+    </message>
+    <message>
+        <source>unsupported G-code</source>
+        <translation>nicht unterstützter G-Code</translation>
+    </message>
+    <message>
+        <source>{what}:{number}, {meaning}</source>
+        <translation>{what}:{number}, {meaning}</translation>
+    </message>
+    <message>
+        <source>see the manual</source>
+        <translation>siehe Handbuch</translation>
+    </message>
+    <message>
+        <source>axis {name}: the controller has no setting ${first}; it needs one for each of the {count} axes</source>
+        <translation>Achse {name}: die Steuerung hat keine Einstellung ${first}; sie braucht eine für jede der {count} Achsen</translation>
+    </message>
+    <message>
+        <source>axis {name}: the controller&apos;s ${first} = {settings} does not agree with the robot file; send it ${first}={wanted} ({unit}), or correct the file</source>
+        <translation>Achse {name}: ${first} = {settings} in der Steuerung passt nicht zur Roboterdatei; ${first}={wanted} ({unit}) senden oder die Datei berichtigen</translation>
+    </message>
+    <message>
+        <source>robot {name} has {count} axes; the letters {letters} name {letter_count}</source>
+        <translation>Roboter {name} hat {count} Achsen; die Buchstaben {letters} nennen {letter_count}</translation>
+    </message>
+    <message>
+        <source>robot {robot}: axis {axis} is moved by a {kind}; a G-code controller moves stepping motors: take a robot file that has such axes only, as xyz</source>
+        <translation>Roboter {robot}: Achse {axis} wird von {kind} bewegt; eine G-Code-Steuerung bewegt Schrittmotoren: eine Roboterdatei nur mit solchen Achsen nehmen, etwa xyz</translation>
+    </message>
+    <message>
+        <source>gcode: letters = {letters}: must be different ones of XYZABCUVW</source>
+        <translation>gcode: letters = {letters}: müssen verschiedene aus XYZABCUVW sein</translation>
+    </message>
+    <message>
+        <source>{url}: the controller has {count} axes, robot {robot} {wanted}; take the robot file of this stage</source>
+        <translation>{url}: die Steuerung hat {count} Achsen, Roboter {robot} {wanted}; die Roboterdatei dieses Tischs nehmen</translation>
+    </message>
+    <message>
+        <source>{url}: {error}</source>
+        <translation>{url}: {error}</translation>
+    </message>
+    <message>
+        <source>{name}: its axes still brake; clear the fault when they rest</source>
+        <translation>{name}: die Achsen bremsen noch; den Fehler quittieren, wenn sie ruhen</translation>
+    </message>
+    <message>
+        <source>{name}: this controller homes all axes together; home all {count}, or build it with single-axis homing</source>
+        <translation>{name}: diese Steuerung referenziert alle Achsen zusammen; alle {count} referenzieren oder sie mit Einzelreferenzierung bauen</translation>
+    </message>
+    <message>
+        <source>{name}: it is still busy with a stop; ask again</source>
+        <translation>{name}: noch mit einem Halt beschäftigt; noch einmal anfordern</translation>
+    </message>
+    <message>
+        <source>it came to rest before its end: {short}</source>
+        <translation>sie kam vor dem Ende zur Ruhe: {short}</translation>
+    </message>
+    <message>
+        <source>the controller refused {line}: {text}</source>
+        <translation>die Steuerung lehnte {line} ab: {text}</translation>
+    </message>
+    <message>
+        <source>the controller was reset by somebody else, or lost its supply</source>
+        <translation>die Steuerung wurde von anderer Seite zurückgesetzt oder verlor ihre Versorgung</translation>
+    </message>
+    <message>
+        <source>no answer to {line} within {limit_s} s</source>
+        <translation>keine Antwort auf {line} in {limit_s} s</translation>
+    </message>
+    <message>
+        <source>{port}: the controller has said nothing for {seconds} s; it ends what it was told within half a second and braking. Look at the machine, then connect again</source>
+        <translation>{port}: die Steuerung hat seit {seconds} s nichts gesagt; sie beendet binnen einer halben Sekunde und des Bremswegs, was ihr gesagt wurde. Nach der Maschine sehen, dann wieder verbinden</translation>
+    </message>
+    <message>
+        <source>gcode: {name} = {value}: must be {low} to {high}</source>
+        <translation>gcode: {name} = {value}: muss {low} bis {high} sein</translation>
+    </message>
+    <message>
+        <source>simulator: robot {name} has an axis moved by a force that no controller holds; give it one in the robot file</source>
+        <translation>Simulator: Roboter {name} hat eine Achse, die von einer Kraft bewegt und von keinem Regler gehalten wird; ihr in der Roboterdatei einen geben</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} is no piezo in open loop; {what} is for one that is</source>
+        <translation>{name}: Achse {axis} ist kein ungeregelter Piezo; nur für einen solchen ist {what}</translation>
+    </message>
+    <message>
+        <source>simulator: setting {name} = {value} is not between {least} and {greatest}</source>
+        <translation>Simulator: Einstellung {name} = {value} liegt nicht zwischen {least} und {greatest}</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} runs under a controller, which alone sets its voltage</source>
+        <translation>{name}: Achse {axis} läuft unter einem Regler, der allein ihre Spannung stellt</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} is compensated, which sets its voltage; switch the compensation off first</source>
+        <translation>{name}: Achse {axis} ist kompensiert, das stellt ihre Spannung; erst die Kompensation ausschalten</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} is under a loop, which sets its voltage; take it off first</source>
+        <translation>{name}: Achse {axis} hat einen Regelkreis, der ihre Spannung stellt; ihn erst öffnen</translation>
+    </message>
+    <message>
+        <source>{name}: the axis of the profile has moved since; wait until it rests, and upload the profile again</source>
+        <translation>{name}: die Achse des Profils hat sich seither bewegt; warten, bis sie ruht, und das Profil neu hochladen</translation>
+    </message>
+    <message>
+        <source>simulator: rows of the trajectory follow at {rate_hz} Hz; it plays {max_rate_hz} Hz at most; resample the trajectory</source>
+        <translation>Simulator: die Zeilen der Trajektorie folgen mit {rate_hz} Hz; er spielt höchstens {max_rate_hz} Hz; die Trajektorie neu abtasten</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a loop at {rate_hz} Hz</source>
+        <extracomment>Replaced as a whole, so that any thread may look.</extracomment>
+        <translation>Achse {axis}: ein Regelkreis mit {rate_hz} Hz</translation>
+    </message>
+    <message>
+        <source>{where}: the simulated machine samples at {sample_s} Hz, and a loop&apos;s rate must be a whole multiple of that; tune it for such a rate</source>
+        <translation>{where}: die simulierte Maschine tastet mit {sample_s} Hz ab, und die Rate eines Regelkreises muss ein ganzes Vielfaches davon sein; für eine solche Rate abstimmen</translation>
+    </message>
+    <message>
+        <source>{where}: that of axis {axis} runs at {rate_hz} Hz, and all must run at one rate; take the other one off, or tune for its rate</source>
+        <translation>{where}: der von Achse {axis} läuft mit {rate_hz} Hz, und alle müssen mit einer Rate laufen; den anderen öffnen oder für dessen Rate abstimmen</translation>
+    </message>
+    <message>
+        <source>{where}: the robot&apos;s own controllers run at {sample_s} Hz; tune it for that rate, or set the simulator&apos;s sample_rate_hz to the loop&apos;s</source>
+        <translation>{where}: die eigenen Regler des Roboters laufen mit {sample_s} Hz; für diese Rate abstimmen oder sample_rate_hz des Simulators auf die des Regelkreises setzen</translation>
+    </message>
+    <message>
+        <source>{name}: a potentiometer at {reading}: must be 0 to 1</source>
+        <translation>{name}: ein Potentiometer bei {reading}: muss 0 bis 1 sein</translation>
+    </message>
+    <message>
+        <source>{name}: {device} {unit}, robot file {robot} {unit}</source>
+        <translation>{name}: {device} {unit}, Roboterdatei {robot} {unit}</translation>
+    </message>
+    <message>
+        <source>none at all</source>
+        <translation>gar keine</translation>
+    </message>
+    <message>
+        <source>{owner}: unknown setting {unknown}; it knows {known}</source>
+        <translation>{owner}: unbekannte Einstellung {unknown}; bekannt: {known}</translation>
+    </message>
+    <message>
+        <source>{where}: {value} is no {name}, like its default {default}</source>
+        <translation>{where}: {value} ist kein {name} wie die Vorgabe {default}</translation>
+    </message>
+    <message>
+        <source>{where}: {value} is not a finite number</source>
+        <translation>{where}: {value} ist keine endliche Zahl</translation>
+    </message>
+    <message>
+        <source>the connection is another one now; ask again</source>
+        <extracomment>Why what a permit is for cannot be now, or None; it is called under the gate&apos;s lock, and so neither waits nor takes another lock.</extracomment>
+        <translation>die Verbindung ist jetzt eine andere; noch einmal anfordern</translation>
+    </message>
+    <message>
+        <source>a stop came after this was asked for; ask again</source>
+        <translation>ein Halt kam nach dieser Anforderung; noch einmal anfordern</translation>
+    </message>
+    <message>
+        <source>its lease has run out; ask again</source>
+        <translation>ihre Frist ist abgelaufen; noch einmal anfordern</translation>
+    </message>
+    <message>
+        <source>driver {name} cannot be used: {broken}</source>
+        <translation>Treiber {name} ist nicht nutzbar: {broken}</translation>
+    </message>
+    <message>
+        <source>there is no driver {name}; installed: {names}</source>
+        <translation>den Treiber {name} gibt es nicht; installiert: {names}</translation>
+    </message>
+    <message>
+        <source>Keys and on-screen pad</source>
+        <translation>Tasten und Bedienfeld am Bildschirm</translation>
+    </message>
+    <message>
+        <source>{name}: {axis} at {deflection}: must be -1 to 1</source>
+        <translation>{name}: {axis} bei {deflection}: muss -1 bis 1 sein</translation>
+    </message>
+    <message>
+        <source>{name} ({key}): it is not there</source>
+        <translation>{name} ({key}): nicht vorhanden</translation>
+    </message>
+    <message>
+        <source>{name}: it was taken away</source>
+        <translation>{name}: weggenommen</translation>
+    </message>
+    <message>
+        <source>{name}: no {kind} {wanted}; it has {known}</source>
+        <translation>{name}: {kind} {wanted} gibt es nicht; vorhanden: {known}</translation>
+    </message>
+    <message>
+        <source>{name}: it was closed; open it again</source>
+        <extracomment>(host time, strength) of each call of :meth:`rumble`.</extracomment>
+        <translation>{name}: geschlossen; wieder öffnen</translation>
+    </message>
+    <message>
+        <source>Joystick of the controller</source>
+        <translation>Joystick der Steuerung</translation>
+    </message>
+    <message>
+        <source>{name}: the driver in use has none of this name</source>
+        <translation>{name}: der Treiber in Gebrauch hat keinen dieses Namens</translation>
+    </message>
+    <message>
+        <source>{name}: another driver is in use now</source>
+        <translation>{name}: jetzt ist ein anderer Treiber in Gebrauch</translation>
+    </message>
+    <message>
+        <source>{name}: it has {axes} axes and {buttons} buttons now, {axes_before} and {buttons_before} before; open it again</source>
+        <translation>{name}: hat jetzt {axes} Achsen und {buttons} Tasten, vorher {axes_before} und {buttons_before}; wieder öffnen</translation>
+    </message>
+    <message>
+        <source>{name}: its joystick tells nothing: {error}</source>
+        <translation>{name}: der Joystick meldet nichts: {error}</translation>
+    </message>
+    <message>
+        <source>{name}: it is not connected; connect it for its joystick</source>
+        <translation>{name}: nicht verbunden; für den Joystick verbinden</translation>
+    </message>
+    <message>
+        <source>{name}: its joystick is not trusted in a fault; clear it</source>
+        <translation>{name}: dem Joystick wird im Fehler nicht getraut; den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>{name}: nothing was heard of it and its joystick for a while</source>
+        <translation>{name}: von ihm und seinem Joystick kam eine Weile nichts</translation>
+    </message>
+    <message>
+        <source>{name}: no joystick has told anything; is one plugged in?</source>
+        <translation>{name}: kein Joystick hat etwas gemeldet; ist einer angesteckt?</translation>
+    </message>
+    <message>
+        <source>{name} ({key}): it is not plugged in</source>
+        <translation>{name} ({key}): nicht angesteckt</translation>
+    </message>
+    <message>
+        <source>{name}: it was unplugged, as its script says</source>
+        <translation>{name}: abgesteckt, wie sein Skript sagt</translation>
+    </message>
+    <message>
+        <source>{name}: a strength of {strength}: must be 0 to 1</source>
+        <translation>{name}: eine Stärke von {strength}: muss 0 bis 1 sein</translation>
+    </message>
+    <message>
+        <source>input device {key} is not plugged in; there are: {keys}</source>
+        <translation>Eingabegerät {key} ist nicht angesteckt; vorhanden: {keys}</translation>
+    </message>
+    <message>
+        <source>{name} ({key}) cannot be opened: {type_name}: {error}</source>
+        <translation>{name} ({key}) lässt sich nicht öffnen: {type_name}: {error}</translation>
+    </message>
+    <message>
+        <source>no permission to open it. On Linux, put the rule of docs/inputs.md into /etc/udev/rules.d/70-rotemina-inputs.rules, run `sudo udevadm control --reload`, and plug the device in again; elsewhere, allow this program to read input devices</source>
+        <translation>keine Berechtigung zum Öffnen. Unter Linux die Regel aus docs/inputs.md in /etc/udev/rules.d/70-rotemina-inputs.rules eintragen, `sudo udevadm control --reload` ausführen und das Gerät neu anstecken; sonst diesem Programm das Lesen von Eingabegeräten erlauben</translation>
+    </message>
+    <message>
+        <source>USB joysticks cannot be used: the library hidapi does not load ({failure}); install it with `pip install hidapi`, and libudev of the system</source>
+        <translation>USB-Joysticks sind nicht nutzbar: die Bibliothek hidapi lädt nicht ({failure}); mit `pip install hidapi` installieren, dazu libudev des Systems</translation>
+    </message>
+    <message>
+        <source>{error}: {said}</source>
+        <translation>{error}: {said}</translation>
+    </message>
+    <message>
+        <source>{who}: its report descriptor cannot be read ({error}); unplug it and plug it in again</source>
+        <translation>{who}: der Report-Deskriptor kann nicht gelesen werden ({error}); abstecken und wieder anstecken</translation>
+    </message>
+    <message>
+        <source>no reason given</source>
+        <translation>kein Grund genannt</translation>
+    </message>
+    <message>
+        <source>{where}: it is there no more; plug it in again</source>
+        <translation>{where}: nicht mehr da; wieder anstecken</translation>
+    </message>
+    <message>
+        <source>{where}: {permission} ({said})</source>
+        <translation>{where}: {permission} ({said})</translation>
+    </message>
+    <message>
+        <source>{where}: another program uses it; close that program ({said})</source>
+        <translation>{where}: ein anderes Programm verwendet es; jenes schließen ({said})</translation>
+    </message>
+    <message>
+        <source>{where}: it cannot be opened ({said}); unplug it and plug it in again; see docs/inputs.md</source>
+        <translation>{where}: lässt sich nicht öffnen ({said}); abstecken und wieder anstecken; siehe docs/inputs.md</translation>
+    </message>
+    <message>
+        <source>its report descriptor has no axis and no button of a joystick, gamepad or multi-axis controller</source>
+        <translation>der Report-Deskriptor enthält weder Achse noch Taste eines Joysticks, Gamepads oder Mehrachsreglers</translation>
+    </message>
+    <message>
+        <source>USB and Bluetooth joysticks</source>
+        <translation>USB- und Bluetooth-Joysticks</translation>
+    </message>
+    <message>
+        <source>hidapi finds {count} HID devices but does not tell which are joysticks: it was built on libusb; install one that uses hidraw (`pip install hidapi`)</source>
+        <translation>hidapi findet {count} HID-Geräte, sagt aber nicht, welche Joysticks sind: es ist mit libusb gebaut; eines installieren, das hidraw verwendet (`pip install hidapi`)</translation>
+    </message>
+    <message>
+        <source>{name}: {error}; it cannot be used</source>
+        <translation>{name}: {error}; nicht nutzbar</translation>
+    </message>
+    <message>
+        <source>its report descriptor makes no sense at byte {at}: {what}</source>
+        <translation>der Report-Deskriptor ergibt bei Byte {at} keinen Sinn: {what}</translation>
+    </message>
+    <message>
+        <source>{name}: it was unplugged, or has lost its power or radio link ({error})</source>
+        <translation>{name}: abgesteckt, oder Strom oder Funkverbindung verloren ({error})</translation>
+    </message>
+    <message>
+        <source>its report descriptor is cut off: byte {at} of {count} begins an item with {size} bytes of data</source>
+        <translation>der Report-Deskriptor ist abgeschnitten: Byte {at} von {count} beginnt ein Element mit {size} Datenbytes</translation>
+    </message>
+    <message>
+        <source>moment {number}</source>
+        <translation>Zeitpunkt {number}</translation>
+    </message>
+    <message>
+        <source>{where}: time {time_s} s: must be later than the one before ({before} s)</source>
+        <translation>{where}: Zeit {time_s} s: muss nach der vorigen liegen ({before} s)</translation>
+    </message>
+    <message>
+        <source>{where}: {axes} axes and {buttons} buttons: must be {axes_wanted} and {buttons_wanted}</source>
+        <translation>{where}: {axes} Achsen und {buttons} Tasten: müssen {axes_wanted} und {buttons_wanted} sein</translation>
+    </message>
+    <message>
+        <source>{where}: {name} at {deflection}: must be -1 to 1</source>
+        <translation>{where}: {name} bei {deflection}: muss -1 bis 1 sein</translation>
+    </message>
+    <message>
+        <source>name a CSV file</source>
+        <translation>eine CSV-Datei nennen</translation>
+    </message>
+    <message>
+        <source>{path}: cannot be read: {error}</source>
+        <translation>{path}: kann nicht gelesen werden: {error}</translation>
+    </message>
+    <message>
+        <source>{path}: {error}</source>
+        <translation>{path}: {error}</translation>
+    </message>
+    <message>
+        <source>{path}, line 1: there must be a column {time}</source>
+        <translation>{path}, Zeile 1: eine Spalte {time} muss dabei sein</translation>
+    </message>
+    <message>
+        <source>{path}, line 1: unknown column {name}; there can be {time}, {plugged}, &apos;axis NAME&apos; and &apos;button NAME&apos;</source>
+        <translation>{path}, Zeile 1: unbekannte Spalte {name}; möglich: {time}, {plugged}, &apos;axis NAME&apos; und &apos;button NAME&apos;</translation>
+    </message>
+    <message>
+        <source>{path}, line 1: column {name} is there twice</source>
+        <translation>{path}, Zeile 1: Spalte {name} kommt zweimal vor</translation>
+    </message>
+    <message>
+        <source>{where}: {count} values: must be {columns}, as in line 1</source>
+        <translation>{where}: {count} Werte: müssen {columns} sein wie in Zeile 1</translation>
+    </message>
+    <message>
+        <source>{where}, column {column}: {strip} is no number</source>
+        <translation>{where}, Spalte {column}: {strip} ist keine Zahl</translation>
+    </message>
+    <message>
+        <source>{where}, column {column}: {value}: must be 0 or 1</source>
+        <translation>{where}, Spalte {column}: {value}: muss 0 oder 1 sein</translation>
+    </message>
+    <message>
+        <source>the file</source>
+        <translation>die Datei</translation>
+    </message>
+    <message>
+        <source>{name}: {place}: {first}; train it anew, or take an unchanged copy</source>
+        <translation>{name}: {place}: {first}; neu lernen oder eine unveränderte Kopie nehmen</translation>
+    </message>
+    <message>
+        <source>axis {axis}: robot {name} has no such piezo axis; use one of {value}</source>
+        <translation>Achse {axis}: Roboter {name} hat keine solche Piezoachse; möglich: {value}</translation>
+    </message>
+    <message>
+        <source>another robot</source>
+        <translation>einen anderen Roboter</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} needs the columns {axis}.{source} and {axis}.{meas} or {axis}.{ref}; record them, or name an axis that has them</source>
+        <translation>{name}: Achse {axis} braucht die Spalten {axis}.{source} und {axis}.{meas} oder {axis}.{ref}; sie aufzeichnen oder eine Achse nennen, die sie hat</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} is commanded over {travel}, less than {least_travel} of its range of {span}; record larger motions</source>
+        <translation>{name}: Achse {axis} wird über {travel} bewegt, weniger als {least_travel} ihres Bereichs von {span}; größere Bewegungen aufzeichnen</translation>
+    </message>
+    <message>
+        <source>{name}: {count} rows are too few; {fewest} are needed</source>
+        <translation>{name}: {count} Zeilen sind zu wenig; nötig sind {fewest}</translation>
+    </message>
+    <message>
+        <source>{name}: row {row} comes {lengths} s after the one before, others {sample_s} s; an inverse needs even time: resample the record (rotemina convert)</source>
+        <translation>{name}: Zeile {row} kommt {lengths} s nach der vorigen, andere {sample_s} s; eine Inverse braucht gleichmäßige Zeit: die Aufzeichnung neu abtasten (rotemina convert)</translation>
+    </message>
+    <message>
+        <source>there is no record to train on; name at least one</source>
+        <translation>keine Aufzeichnung zum Lernen; mindestens eine nennen</translation>
+    </message>
+    <message>
+        <source>{name}: its rows come every {sample_s} s, those of {first_name} every {first_sample_s} s; resample them to one rate (rotemina convert)</source>
+        <translation>{name}: ihre Zeilen kommen alle {sample_s} s, die von {first_name} alle {first_sample_s} s; auf eine Rate neu abtasten (rotemina convert)</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: sample_s = {sample_s} s: must be finite, above 0</source>
+        <translation>Inverse von Achse {axis}: sample_s = {sample_s} s: muss endlich und größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: a state of shape {shape} with finite numbers must have shape {state_shape}; take one of this inverse</source>
+        <translation>Inverse von Achse {axis}: ein Zustand der Form {shape} aus endlichen Zahlen muss die Form {state_shape} haben; einen dieser Inverse nehmen</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: desired positions of shape {shape} must be one column of finite numbers</source>
+        <translation>Inverse von Achse {axis}: gewünschte Positionen der Form {shape} müssen eine Spalte endlicher Zahlen sein</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: desired position {desired} at sample {at} lies outside {low} to {high}, which the inverse was trained on; stay inside, or train it on a wider record</source>
+        <translation>Inverse von Achse {axis}: gewünschte Position {desired} beim Abtastwert {at} liegt außerhalb von {low} bis {high}, wo die Inverse gelernt wurde; innerhalb bleiben oder auf einer weiteren Aufzeichnung lernen</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: the axis stands at command {command}; the inverse reaches {low} to {high}: move the axis there first, or train it on a wider record</source>
+        <translation>Inverse von Achse {axis}: die Achse steht beim Befehl {command}; die Inverse reicht von {low} bis {high}: die Achse erst dorthin fahren oder auf einer weiteren Aufzeichnung lernen</translation>
+    </message>
+    <message>
+        <source>axis {axis}: robot {name} has no such piezo axis</source>
+        <translation>Achse {axis}: Roboter {name} hat keine solche Piezoachse</translation>
+    </message>
+    <message>
+        <source>ANFIS: the training did not converge: after {count} epochs it leaves {error} rms of commands that vary by {spread}; nothing was replaced. Record slower motions over the whole range, or take another kind</source>
+        <translation>ANFIS: das Training konvergierte nicht: nach {count} Epochen bleiben {error} rms von Befehlen, die um {spread} schwanken; nichts wurde ersetzt. Langsamere Bewegungen über den ganzen Bereich aufzeichnen oder eine andere Art nehmen</translation>
+    </message>
+    <message>
+        <source>lag and creep</source>
+        <translation>Nachlauf und Kriechen</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis}: less than {fewest} rows are left to train on, after the first swing over the whole range; record longer</source>
+        <translation>{name}: Achse {axis}: nach dem ersten Hub über den ganzen Bereich bleiben weniger als {fewest} Zeilen zum Lernen; länger aufzeichnen</translation>
+    </message>
+    <message>
+        <source>plays</source>
+        <translation>Spiele</translation>
+    </message>
+    <message>
+        <source>ANFIS, epoch {epoch}: {error} unseen</source>
+        <translation>ANFIS, Epoche {epoch}: {error} ungesehen</translation>
+    </message>
+    <message>
+        <source>done</source>
+        <translation>fertig</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: the trajectory commands {names}; it must command this piezo axis, or take the inverse of another one</source>
+        <translation>Inverse von Achse {axis}: die Trajektorie bewegt {names}; sie muss diese Piezoachse bewegen, oder die Inverse einer anderen nehmen</translation>
+    </message>
+    <message>
+        <source>axis {axis}: the trajectory went through an inverse before ({metadata}); take the one that was wanted at first</source>
+        <translation>Achse {axis}: die Trajektorie ging schon durch eine Inverse ({metadata}); die ursprünglich gewünschte nehmen</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: row {row} of the trajectory asks for a command beyond {low} to {high}, which is all the machine can be told; stay farther from the ends of the range</source>
+        <translation>Inverse von Achse {axis}: Zeile {row} der Trajektorie verlangt einen Befehl außerhalb von {low} bis {high}, mehr kann der Maschine nicht befohlen werden; von den Enden des Bereichs wegbleiben</translation>
+    </message>
+    <message>
+        <source>trajectory: it has one row; an inverse needs a path of several</source>
+        <translation>Trajektorie: sie hat eine Zeile; eine Inverse braucht einen Weg aus mehreren</translation>
+    </message>
+    <message>
+        <source>trajectory: row {row} comes {lengths} s after the one before, others {sample_s} s; an inverse needs even time: resample the trajectory</source>
+        <translation>Trajektorie: Zeile {row} kommt {lengths} s nach der vorigen, andere {sample_s} s; eine Inverse braucht gleichmäßige Zeit: die Trajektorie neu abtasten</translation>
+    </message>
+    <message>
+        <source>modified Prandtl–Ishlinskii</source>
+        <translation>modifiziertes Prandtl–Ishlinskii</translation>
+    </message>
+    <message>
+        <source>linear</source>
+        <translation>linear</translation>
+    </message>
+    <message>
+        <source>axis {axis}: no row lies within {low} to {high}, which the inverse was trained on; judge it on such a record, or train it on a wider one</source>
+        <translation>Achse {axis}: keine Zeile liegt zwischen {low} und {high}, wo die Inverse gelernt wurde; an einer solchen Aufzeichnung prüfen oder auf einer weiteren lernen</translation>
+    </message>
+    <message>
+        <source>{kind} {share}</source>
+        <translation>{kind} {share}</translation>
+    </message>
+    <message>
+        <source>{kind} leaves {share} of the range on rows that no inverse was trained on; {others}.</source>
+        <translation>{kind} lässt {share} des Bereichs übrig, auf Zeilen, mit denen keine Inverse gelernt wurde; {others}.</translation>
+    </message>
+    <message>
+        <source>All swings are of one size, so that richer kinds would guess at other sizes: train on swings that grow or fade.</source>
+        <translation>Alle Hübe sind gleich groß, so dass reichere Arten bei anderen Größen raten würden: mit wachsenden oder abklingenden Hüben lernen.</translation>
+    </message>
+    <message>
+        <source>It is the simplest of those within {share} of the least.</source>
+        <translation>Sie ist die einfachste von denen, die höchstens {share} über dem kleinsten Rest liegen.</translation>
+    </message>
+    <message>
+        <source>constant speed over half the stroke</source>
+        <translation>konstante Geschwindigkeit über den halben Hub</translation>
+    </message>
+    <message>
+        <source>a row at constant speed at least</source>
+        <translation>mindestens eine Zeile mit konstanter Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>axis {axis}: speed {speed} must be above 0</source>
+        <translation>Achse {axis}: Geschwindigkeit {speed} muss größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>whole rows between its corners</source>
+        <translation>ganze Zeilen zwischen seinen Ecken</translation>
+    </message>
+    <message>
+        <source>axis {axis}: it would take more than {most_rows} rows at {rate} Hz; shorten it, move faster or lower the rate</source>
+        <translation>Achse {axis}: es wären mehr als {most_rows} Zeilen bei {rate} Hz; kürzen, schneller fahren oder die Rate senken</translation>
+    </message>
+    <message>
+        <source>{text} is no amount; write it like 200urad, 5um or 30%</source>
+        <translation>{text} ist keine Größe; schreiben wie 200urad, 5um oder 30%</translation>
+    </message>
+    <message>
+        <source>{text} is not a finite number</source>
+        <translation>{text} ist keine endliche Zahl</translation>
+    </message>
+    <message>
+        <source>{text} has no unit; write it like 200urad, 5um or 30%</source>
+        <translation>{text} hat keine Einheit; schreiben wie 200urad, 5um oder 30%</translation>
+    </message>
+    <message>
+        <source>{text}: {error}</source>
+        <translation>{text}: {error}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {text} is in {unit}, not in {wanted}</source>
+        <translation>Achse {axis}: {text} ist in {unit}, nicht in {wanted}</translation>
+    </message>
+    <message>
+        <source>{name} = {value}: must be a finite number above 0</source>
+        <translation>{name} = {value}: muss eine endliche Zahl über 0 sein</translation>
+    </message>
+    <message>
+        <source>{name} = {value}: must lie between {least} and {most}</source>
+        <translation>{name} = {value}: muss zwischen {least} und {most} liegen</translation>
+    </message>
+    <message>
+        <source>axis {axis}: jerk {jerk} must be a value above 0</source>
+        <translation>Achse {axis}: Ruck {jerk} muss größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>axis {axis}: clock {asked} Hz must not exceed the rate {rate_hz} Hz</source>
+        <translation>Achse {axis}: Takt {asked} Hz darf die Rate {rate_hz} Hz nicht übersteigen</translation>
+    </message>
+    <message>
+        <source>whole rows in a chip</source>
+        <translation>ganze Zeilen je Chip</translation>
+    </message>
+    <message>
+        <source>excitation: no axis is named; name one at least</source>
+        <translation>Anregung: keine Achse genannt; mindestens eine nennen</translation>
+    </message>
+    <message>
+        <source>seed {seed}: must be 0 or more</source>
+        <translation>seed {seed}: muss 0 oder größer sein</translation>
+    </message>
+    <message>
+        <source>axis {name}: robot {robot_name} has no such axis; use one of {names}</source>
+        <translation>Achse {name}: Roboter {robot_name} hat keine solche Achse; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>rate {rate_hz} Hz: must lie above 0 and up to {fastest_hz} Hz</source>
+        <translation>Rate {rate_hz} Hz: muss über 0 liegen, höchstens {fastest_hz} Hz</translation>
+    </message>
+    <message>
+        <source>axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device would stand between rows and jump, beyond its speed and acceleration</source>
+        <translation>Achse {name}: Rate {rate_hz} Hz liegt unter {slowest_hz} Hz: das Gerät stünde zwischen den Zeilen und spränge, über seine Geschwindigkeit und Beschleunigung hinaus</translation>
+    </message>
+    <message>
+        <source>whole periods</source>
+        <translation>ganze Perioden</translation>
+    </message>
+    <message>
+        <source>axis {axis}: chirp from {low} Hz to {high} Hz has less than one period in {duration_s} s; lengthen it</source>
+        <translation>Achse {axis}: ein Chirp von {low} Hz bis {high} Hz hat in {duration_s} s weniger als eine Periode; verlängern</translation>
+    </message>
+    <message>
+        <source>end of the band</source>
+        <translation>Ende des Bands</translation>
+    </message>
+    <message>
+        <source>detection = 1: would leave out every line; use 0 or 2 and more</source>
+        <translation>detection = 1: ließe jede Linie aus; 0 oder ab 2 verwenden</translation>
+    </message>
+    <message>
+        <source>slope = {slope}: must lie between -4 and 4</source>
+        <translation>slope = {slope}: muss zwischen -4 und 4 liegen</translation>
+    </message>
+    <message>
+        <source>axis {axis}: no odd multiple of 1/period_s = {period_s} Hz lies in the band; widen it or lengthen the period</source>
+        <translation>Achse {axis}: kein ungerades Vielfaches von 1/period_s = {period_s} Hz liegt im Band; es verbreitern oder die Periode verlängern</translation>
+    </message>
+    <message>
+        <source>axis {axis}: band from {low} Hz to {high} Hz ends below its beginning</source>
+        <translation>Achse {axis}: das Band von {low} Hz bis {high} Hz endet unter seinem Anfang</translation>
+    </message>
+    <message>
+        <source>axis {axis}: offset {said} leaves no room to move between {low} and {high}</source>
+        <translation>Achse {axis}: Versatz {said} lässt keinen Platz zur Bewegung zwischen {low} und {high}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: amplitude {value} must be above 0</source>
+        <translation>Achse {axis}: Amplitude {value} muss größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {duration_s} s at {rate_hz} Hz is more than {most_rows} rows; shorten it or lower the rate</source>
+        <translation>Achse {axis}: {duration_s} s bei {rate_hz} Hz sind mehr als {most_rows} Zeilen; kürzen oder die Rate senken</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {name} {value} Hz must be below half the rate, {rate_hz} Hz</source>
+        <translation>Achse {axis}: {name} {value} Hz muss unter der halben Rate liegen, {rate_hz} Hz</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {parameter} {asked} is beyond {used}, the {side} within {cause}</source>
+        <translation>Achse {axis}: {parameter} {asked} liegt jenseits von {used}, dem {side} wegen {cause}</translation>
+    </message>
+    <message>
+        <source>excitation: {rows} rows of {count} axes are more than {most_rows} values; shorten it or lower the rate</source>
+        <translation>Anregung: {rows} Zeilen von {count} Achsen sind mehr als {most_rows} Werte; kürzen oder die Rate senken</translation>
+    </message>
+    <message>
+        <source>axis {axis}: loop at {interval_s} Hz</source>
+        <translation>Achse {axis}: Regelkreis mit {interval_s} Hz</translation>
+    </message>
+    <message>
+        <source>{where}: unstable, its largest pole {radius} is not inside the unit circle; lower the gains, or put a notch at the resonance; nothing was applied</source>
+        <translation>{where}: instabil, der größte Pol {radius} liegt nicht innerhalb des Einheitskreises; die Verstärkungen verringern oder ein Kerbfilter an die Resonanz setzen; nichts wurde angewendet</translation>
+    </message>
+    <message>
+        <source>{where}: peak sensitivity Ms = {peak} at {peak_hz} Hz, {most} at most; lower the gains; nothing was applied</source>
+        <translation>{where}: Empfindlichkeitsspitze Ms = {peak} bei {peak_hz} Hz, höchstens {most}; die Verstärkungen verringern; nichts wurde angewendet</translation>
+    </message>
+    <message>
+        <source>controller: reference {reference}, measured {measured}: both must be finite; hold the last output until the sensor answers again</source>
+        <extracomment>Of the recurrence, and what it remembers, which it moves on. What the integral added when it began, m or rad; for how many samples now the sensor has been too far off.</extracomment>
+        <translation>Regler: Sollwert {reference}, Messwert {measured}: beide müssen endlich sein; die letzte Ausgabe halten, bis der Sensor wieder antwortet</translation>
+    </message>
+    <message>
+        <source>loop interval {interval_s} s: must be positive and finite</source>
+        <translation>Intervall {interval_s} s des Regelkreises: muss positiv und endlich sein</translation>
+    </message>
+    <message>
+        <source>{name} at {frequency_hz} Hz: it must lie above 0 and below half the loop&apos;s rate, {rate_hz} Hz</source>
+        <translation>{name} bei {frequency_hz} Hz: muss über 0 und unter der halben Rate des Regelkreises liegen, {rate_hz} Hz</translation>
+    </message>
+    <message>
+        <source>notch frequency</source>
+        <translation>Frequenz des Kerbfilters</translation>
+    </message>
+    <message>
+        <source>notch damping</source>
+        <translation>Dämpfung des Kerbfilters</translation>
+    </message>
+    <message>
+        <source>notch depth</source>
+        <translation>Tiefe des Kerbfilters</translation>
+    </message>
+    <message>
+        <source>output limits: low {low}, high {high}: low must be less than high</source>
+        <translation>Grenzen der Ausgabe: unten {low}, oben {high}: die untere muss kleiner als die obere sein</translation>
+    </message>
+    <message>
+        <source>output limits: rate {rate} per s: must be more than 0</source>
+        <translation>Grenzen der Ausgabe: Rate {rate} je s: muss größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>{name} {value}: must be finite, more than {low}</source>
+        <translation>{name} {value}: muss endlich und größer als {low} sein</translation>
+    </message>
+    <message>
+        <source>{name} {value}: must be finite, at least {low}</source>
+        <translation>{name} {value}: muss endlich und mindestens {low} sein</translation>
+    </message>
+    <message>
+        <source>at most {high}</source>
+        <translation>höchstens {high}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: robot {name} has no such axis; use one of {names}</source>
+        <translation>Achse {axis}: Roboter {name} hat keine solche Achse; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>{name} = {value} is not between {least} and {most}</source>
+        <translation>{name} = {value} liegt nicht zwischen {least} und {most}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: it is moved by a force and keeps no position by itself; give it a cascade controller in the robot file</source>
+        <translation>Achse {axis}: eine Kraft bewegt sie, und sie hält von selbst keine Position; ihr in der Roboterdatei einen Kaskadenregler geben</translation>
+    </message>
+    <message>
+        <source>loop rate {rate_hz} Hz: must be more than 0, at most {fastest_hz} Hz</source>
+        <translation>Rate des Regelkreises {rate_hz} Hz: muss größer als 0 und höchstens {fastest_hz} Hz sein</translation>
+    </message>
+    <message>
+        <source>loop delay of {delay} intervals: must be 0 to {longest_delay}</source>
+        <translation>Totzeit des Regelkreises {delay} Intervalle: muss 0 bis {longest_delay} sein</translation>
+    </message>
+    <message>
+        <source>{error} (with gain or resonance off by {spread} %, as they may be)</source>
+        <translation>{error} (mit Verstärkung oder Resonanz um {spread} % daneben, wie es vorkommen kann)</translation>
+    </message>
+    <message>
+        <source>axis {axis}: effect delay of {delay_s} s is {intervals} intervals of a loop at {rate_hz} Hz, and must be a whole number of them; choose another rate or delay</source>
+        <translation>Achse {axis}: die Totzeit {delay_s} s ihres Effekts ist das {intervals}-Fache des Intervalls eines Regelkreises mit {rate_hz} Hz und muss ein ganzes Vielfaches sein; eine andere Rate oder Totzeit wählen</translation>
+    </message>
+    <message>
+        <source>its sensor is {much} away from where it should be ({share} of the range at most)</source>
+        <translation>ihr Sensor liegt {much} von der Sollposition entfernt (höchstens {share} des Bereichs)</translation>
+    </message>
+    <message>
+        <source>it has added {much} ({share} of the range at most)</source>
+        <translation>er hat {much} hinzugefügt (höchstens {share} des Bereichs)</translation>
+    </message>
+    <message>
+        <source>axis {name}: its loop was given up, as nothing answers it: {what}; check the sensor and the actuator, clear the fault, then close the loop again</source>
+        <translation>Achse {name}: ihr Regelkreis wurde aufgegeben, da nichts auf ihn antwortet: {what}; Sensor und Antrieb prüfen, den Fehler quittieren, dann wieder schließen</translation>
+    </message>
+    <message>
+        <source>axis {axes}: the response under a loop grows beyond what a number can hold; lower the gains</source>
+        <translation>Achse {axes}: die geregelte Antwort wächst über das hinaus, was eine Zahl fasst; die Verstärkungen verringern</translation>
+    </message>
+    <message>
+        <source>{name}: it cannot be read (there is no such file){then}</source>
+        <translation>{name}: kann nicht gelesen werden (diese Datei gibt es nicht){then}</translation>
+    </message>
+    <message>
+        <source>{name}: it cannot be read ({reason}){then}</source>
+        <translation>{name}: kann nicht gelesen werden ({reason}){then}</translation>
+    </message>
+    <message>
+        <source>{name}: not UTF-8 text (byte {start})</source>
+        <translation>{name}: kein UTF-8-Text (Byte {start})</translation>
+    </message>
+    <message>
+        <source>{source}: not valid TOML: {cause}</source>
+        <translation>{source}: kein gültiges TOML: {cause}</translation>
+    </message>
+    <message>
+        <source>{source}:{lineno}: not valid JSON: {msg}</source>
+        <translation>{source}:{lineno}: kein gültiges JSON: {msg}</translation>
+    </message>
+    <message>
+        <source>{source}: not valid JSON: {cause}</source>
+        <translation>{source}: kein gültiges JSON: {cause}</translation>
+    </message>
+    <message>
+        <source>it is a folder</source>
+        <translation>das ist ein Ordner</translation>
+    </message>
+    <message>
+        <source>it is a pipe or a device and no file</source>
+        <translation>das ist eine Pipe oder ein Gerät und keine Datei</translation>
+    </message>
+    <message>
+        <source>{name}: larger than {most_bytes} bytes, so it is another kind of file{then}</source>
+        <translation>{name}: größer als {most_bytes} Byte, also eine andere Art von Datei{then}</translation>
+    </message>
+    <message>
+        <source>{source}: tables or lists are nested too deeply, more than {deepest} in each other</source>
+        <translation>{source}: Tabellen oder Listen sind zu tief verschachtelt, mehr als {deepest} ineinander</translation>
+    </message>
+    <message>
+        <source>{source}: a whole number of {count} digits; 18 at most</source>
+        <translation>{source}: eine ganze Zahl mit {count} Ziffern; höchstens 18</translation>
+    </message>
+    <message>
+        <source>tip: the target is not a finite position; give x, y and z in m</source>
+        <translation>Spitze: das Ziel ist keine endliche Position; x, y und z in m angeben</translation>
+    </message>
+    <message>
+        <source>sample rate {rate_hz} Hz: must be positive and finite</source>
+        <translation>Abtastrate {rate_hz} Hz: muss positiv und endlich sein</translation>
+    </message>
+    <message>
+        <source>robot {name}: no axis has a controller; add [axis.….controller] to its file</source>
+        <translation>Roboter {name}: keine Achse hat einen Regler; in seiner Datei [axis.….controller] hinzufügen</translation>
+    </message>
+    <message>
+        <source>{name} has shape {shape}; give it ({n}, {n}) finite numbers, a row and a column for each of {names}</source>
+        <translation>{name} hat die Form {shape}; ({n}, {n}) endliche Zahlen angeben, je eine Zeile und Spalte für {names}</translation>
+    </message>
+    <message>
+        <source>accelerations under a perturbation by its rate have no finite response; ask for velocities</source>
+        <translation>Beschleunigungen bei einer Störung über deren Rate haben keine endliche Antwort; nach Geschwindigkeiten fragen</translation>
+    </message>
+    <message>
+        <source>the samples after t = {time_s} s are {apart_s} s apart, rounding there is {tick} s; count time from the start of the record</source>
+        <translation>die Abtastwerte nach t = {time_s} s liegen {apart_s} s auseinander, gerundet wird dort auf {tick} s; die Zeit ab dem Beginn der Aufzeichnung zählen</translation>
+    </message>
+    <message>
+        <source>period_samples = {period}: the record has only {rows} rows</source>
+        <translation>period_samples = {period}: die Aufzeichnung hat nur {rows} Zeilen</translation>
+    </message>
+    <message>
+        <source>the model does not come to a steady state within {most_periods} periods; use &apos;# history: unknown&apos;</source>
+        <translation>das Modell schwingt in {most_periods} Perioden nicht ein; &apos;# history: unknown&apos; verwenden</translation>
+    </message>
+    <message>
+        <source>axis {axes}: it has no steady state, nothing holds it; use &apos;# history: unknown&apos;</source>
+        <translation>Achse {axes}: sie hat keinen eingeschwungenen Zustand, nichts hält sie; &apos;# history: unknown&apos; verwenden</translation>
+    </message>
+    <message>
+        <source>perturbation: acceleration has shape {shape}; give it a row for each sample and a column for each axis</source>
+        <translation>Störung: acceleration hat die Form {shape}; eine Zeile je Abtastwert und eine Spalte je Achse angeben</translation>
+    </message>
+    <message>
+        <source>perturbation: {name} has shape {shape}; acceleration has {axes} axes, so it must be {wanted}</source>
+        <translation>Störung: {name} hat die Form {shape}; acceleration hat {axes} Achsen, also muss sie {wanted} sein</translation>
+    </message>
+    <message>
+        <source>perturbation: {name}{place} is not finite</source>
+        <translation>Störung: {name}{place} ist nicht endlich</translation>
+    </message>
+    <message>
+        <source>perturbation: it has {shape} axes; the plant has {count}: {names}</source>
+        <translation>Störung: sie hat {shape} Achsen; die Strecke hat {count}: {names}</translation>
+    </message>
+    <message>
+        <source>perturbation: it has {count} rows; the commands have {rows}</source>
+        <translation>Störung: sie hat {count} Zeilen; die Befehle haben {rows}</translation>
+    </message>
+    <message>
+        <source>{array}: it is no flat, contiguous array</source>
+        <translation>{array}: kein flaches, zusammenhängendes Feld</translation>
+    </message>
+    <message>
+        <source>perturbation: none is given, and Q of the row before still acts; give one for every piece of a run, with zeros where nothing shakes</source>
+        <translation>Störung: keine angegeben, und Q der vorigen Zeile wirkt noch; für jedes Stück eines Laufs eine angeben, mit Nullen, wo nichts rüttelt</translation>
+    </message>
+    <message>
+        <source>axis {axis}: the response grows beyond what a number can hold at t = {time_s} s; check the commands,{named} and the controller&apos;s gains</source>
+        <translation>Achse {axis}: die Antwort wächst bei t = {time_s} s über das hinaus, was eine Zahl fasst; die Befehle prüfen,{named} und die Verstärkungen des Reglers</translation>
+    </message>
+    <message>
+        <source>axis {axis} of the record: robot {name} has {known}</source>
+        <translation>Achse {axis} der Aufzeichnung: Roboter {name} hat {known}</translation>
+    </message>
+    <message>
+        <source>axis {quoted} of the record: it has no {axis}.cmd column to drive the model</source>
+        <translation>Achse {quoted} der Aufzeichnung: es fehlt die Spalte {axis}.cmd, die das Modell treibt</translation>
+    </message>
+    <message>
+        <source>axis {quoted} {reason}: an open-loop run needs a {axis}.u column in the record (&apos;# mode: closed_loop&apos; and a controller in the robot file do without)</source>
+        <translation>Achse {quoted} {reason}: ein ungeregelter Lauf braucht in der Aufzeichnung eine Spalte {axis}.u (&apos;# mode: closed_loop&apos; und ein Regler in der Roboterdatei kommen ohne aus)</translation>
+    </message>
+    <message>
+        <source>axis.{axis}.effect {id}: formulation {name}: {what}: {type_name}: {reason}</source>
+        <extracomment>The places in the signal chain at which step functions are called, in its order.</extracomment>
+        <translation>axis.{axis}.effect {id}: Formulierung {name}: {what}: {type_name}: {reason}</translation>
+    </message>
+    <message>
+        <source>axis {names}: unstable together, a motion grows by e every {fastest} s ({named}); change or remove one of them</source>
+        <translation>Achse {names}: zusammen instabil, eine Bewegung wächst alle {fastest} s um e ({named}); eines davon ändern oder entfernen</translation>
+    </message>
+    <message>
+        <source>{value} is not imported: {fault}</source>
+        <extracomment>The version of the interface that plugins of each group are written for. It grows when a plugin written for the one before would fail.</extracomment>
+        <translation>{value} wird nicht importiert: {fault}</translation>
+    </message>
+    <message>
+        <source>{value} cannot be imported: {name}: {error}</source>
+        <translation>{value} kann nicht importiert werden: {name}: {error}</translation>
+    </message>
+    <message>
+        <source>{value} is made for version {version} of the interface, this program has version {wanted}: install a version of the plugin that is made for it</source>
+        <translation>{value} ist für Version {version} der Schnittstelle gemacht, dieses Programm hat Version {wanted}: eine dafür gemachte Version des Plugins installieren</translation>
+    </message>
+    <message>
+        <source>record: it holds no rows</source>
+        <translation>Aufzeichnung: sie enthält keine Zeilen</translation>
+    </message>
+    <message>
+        <source>record: the piece from t = {time_s} s has other columns than the first</source>
+        <translation>Aufzeichnung: das Stück ab t = {time_s} s hat andere Spalten als das erste</translation>
+    </message>
+    <message>
+        <source>record: the piece from t = {time_s} s does not come after the one before, which ends at t = {last_s} s</source>
+        <translation>Aufzeichnung: das Stück ab t = {time_s} s folgt nicht auf das vorige, das bei t = {last_s} s endet</translation>
+    </message>
+    <message>
+        <source>units: the record has no axis {axis}; its axes are {names}</source>
+        <translation>Einheiten: die Aufzeichnung hat keine Achse {axis}; ihre Achsen sind {names}</translation>
+    </message>
+    <message>
+        <source>units:{axis}: {error}</source>
+        <translation>Einheiten:{axis}: {error}</translation>
+    </message>
+    <message>
+        <source>units:{axis}: {unit} cannot show units of {units}; use one of those</source>
+        <translation>Einheiten:{axis}: {unit} kann Einheiten von {units} nicht zeigen; eine von diesen verwenden</translation>
+    </message>
+    <message>
+        <source>record:{column}: too large for [{unit}]; choose a larger unit</source>
+        <translation>Aufzeichnung:{column}: zu groß für [{unit}]; eine größere Einheit wählen</translation>
+    </message>
+    <message>
+        <source>{fspath}: no header and no rows; the record is empty</source>
+        <translation>{fspath}: keine Kopfzeile und keine Zeilen; die Aufzeichnung ist leer</translation>
+    </message>
+    <message>
+        <source>resampling: unknown method {method}; use one of {names}</source>
+        <translation>Neuabtastung: unbekanntes Verfahren {method}; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>resampling: rate {rate_hz} Hz; use a positive number</source>
+        <translation>Neuabtastung: Rate {rate_hz} Hz; eine positive Zahl verwenden</translation>
+    </message>
+    <message>
+        <source>resampling: {steps} rows at {rate_hz} Hz exceed {values} values; lower the rate</source>
+        <translation>Neuabtastung: {steps} Zeilen bei {rate_hz} Hz übersteigen {values} Werte; die Rate senken</translation>
+    </message>
+    <message>
+        <source>record: {names} has shape {shape}, expected {value} from time</source>
+        <translation>Aufzeichnung: {names} hat die Form {shape}, nach der Zeit erwartet: {value}</translation>
+    </message>
+    <message>
+        <source>record: {key} = {text}: must be a number above 0, in m or rad (rms)</source>
+        <translation>Aufzeichnung: {key} = {text}: muss eine Zahl über 0 sein, in m oder rad (rms)</translation>
+    </message>
+    <message>
+        <source>record: period_samples = {text}: must be a whole number above 0</source>
+        <translation>Aufzeichnung: period_samples = {text}: muss eine ganze Zahl über 0 sein</translation>
+    </message>
+    <message>
+        <source>record: values have shape {shape}, expected {value} from time and columns</source>
+        <translation>Aufzeichnung: die Werte haben die Form {shape}, nach Zeit und Spalten erwartet: {value}</translation>
+    </message>
+    <message>
+        <source>record: it holds no rows or no columns</source>
+        <translation>Aufzeichnung: sie enthält keine Zeilen oder keine Spalten</translation>
+    </message>
+    <message>
+        <source>record: a column is named twice</source>
+        <translation>Aufzeichnung: eine Spalte kommt zweimal vor</translation>
+    </message>
+    <message>
+        <source>record: no unit given for axis {axis}</source>
+        <translation>Aufzeichnung: keine Einheit für Achse {axis}</translation>
+    </message>
+    <message>
+        <source>record: a time or value is not finite</source>
+        <translation>Aufzeichnung: eine Zeit oder ein Wert ist nicht endlich</translation>
+    </message>
+    <message>
+        <source>record: time does not increase at row {row} (t = {time_s} s)</source>
+        <translation>Aufzeichnung: die Zeit nimmt bei Zeile {row} nicht zu (t = {time_s} s)</translation>
+    </message>
+    <message>
+        <source>name a record file</source>
+        <translation>eine Datei mit einer Aufzeichnung nennen</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: the compressed file expands to more than {expanded_bytes} bytes; unpack or split it</source>
+        <translation>{name}:{line}: die komprimierte Datei ergibt mehr als {expanded_bytes} Byte; entpacken oder teilen</translation>
+    </message>
+    <message>
+        <source>{name}: the file is empty</source>
+        <translation>{name}: die Datei ist leer</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: the compressed file ends early, after this line; it was cut off: copy or record it again</source>
+        <translation>{name}:{line}: die komprimierte Datei endet nach dieser Zeile vorzeitig; sie wurde abgeschnitten: neu kopieren oder aufzeichnen</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: the compressed data are damaged after this line ({error}); copy the file again</source>
+        <translation>{name}:{line}: die komprimierten Daten sind nach dieser Zeile beschädigt ({error}); die Datei neu kopieren</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: reading failed after this line ({error})</source>
+        <translation>{name}:{line}: nach dieser Zeile schlug das Lesen fehl ({error})</translation>
+    </message>
+    <message>
+        <source>{name}:{line_of}: the file is binary or UTF-16, not UTF-8 text; save it as UTF-8</source>
+        <translation>{name}:{line_of}: die Datei ist binär oder UTF-16, kein UTF-8-Text; als UTF-8 speichern</translation>
+    </message>
+    <message>
+        <source>{name}:{line_of}: the line is longer than {line_bytes} bytes; is this a record, with LF or CRLF at the end of each line?</source>
+        <translation>{name}:{line_of}: die Zeile ist länger als {line_bytes} Byte; ist das eine Aufzeichnung mit LF oder CRLF am Ende jeder Zeile?</translation>
+    </message>
+    <message>
+        <source>time {time} s does not increase after {last} s; each row must be later than the one before</source>
+        <translation>Zeit {time} s nimmt nach {last} s nicht zu; jede Zeile muss später sein als die vorige</translation>
+    </message>
+    <message>
+        <source>value {value} exceeds what float64 holds</source>
+        <translation>Wert {value} übersteigt, was float64 fasst</translation>
+    </message>
+    <message>
+        <source>value {value} has {sign} where the numbers before have {before}; use one decimal sign and no thousands separators</source>
+        <translation>Wert {value} enthält {sign}, die Zahlen davor {before}; ein Dezimalzeichen und keine Tausendertrennzeichen verwenden</translation>
+    </message>
+    <message>
+        <source>tabs</source>
+        <translation>Tabulatoren</translation>
+    </message>
+    <message>
+        <source>blanks</source>
+        <translation>Leerzeichen</translation>
+    </message>
+    <message>
+        <source>separate {count} columns by {separator}</source>
+        <translation>{count} Spalten trennen durch {separator}</translation>
+    </message>
+    <message>
+        <source>was the file cut off?</source>
+        <translation>wurde die Datei abgeschnitten?</translation>
+    </message>
+    <message>
+        <source>if the commas are decimal signs, separate columns by &apos;;&apos;</source>
+        <translation>sind die Kommas Dezimalzeichen, die Spalten durch &apos;;&apos; trennen</translation>
+    </message>
+    <message>
+        <source>the row has {count} fields where the header names {wanted}; {advice}</source>
+        <translation>die Zeile hat {count} Felder, die Kopfzeile nennt {wanted}; {advice}</translation>
+    </message>
+    <message>
+        <source>{name}:{line}:{column}: {what}</source>
+        <translation>{name}:{line}:{column}: {what}</translation>
+    </message>
+    <message>
+        <source>{name}:{line}:byte {start}: {data} is not UTF-8; save the file as UTF-8</source>
+        <translation>{name}:{line}:Byte {start}: {data} ist kein UTF-8; die Datei als UTF-8 speichern</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: a carriage return stands inside of the line; end lines with LF or CRLF</source>
+        <translation>{name}:{line}: in der Zeile steht ein Wagenrücklauf; Zeilen mit LF oder CRLF beenden</translation>
+    </message>
+    <message>
+        <source>the value is missing; a sensor dropout is a finite wrong value, never an empty field</source>
+        <translation>der Wert fehlt; ein Sensoraussetzer ist ein endlicher falscher Wert, nie ein leeres Feld</translation>
+    </message>
+    <message>
+        <source>value {value} is not finite; write a finite number</source>
+        <translation>Wert {value} ist nicht endlich; eine endliche Zahl schreiben</translation>
+    </message>
+    <message>
+        <source>value {value} is no plain decimal number; write such as -12.5 or 3e-6</source>
+        <translation>Wert {value} ist keine einfache Dezimalzahl; schreiben wie -12.5 oder 3e-6</translation>
+    </message>
+    <message>
+        <source>the version must be {version}</source>
+        <translation>die Version muss {version} sein</translation>
+    </message>
+    <message>
+        <source>use open_loop or closed_loop</source>
+        <translation>open_loop oder closed_loop verwenden</translation>
+    </message>
+    <message>
+        <source>use unknown or periodic, or leave the line out for a machine at rest</source>
+        <translation>unknown oder periodic verwenden, oder die Zeile weglassen bei einer ruhenden Maschine</translation>
+    </message>
+    <message>
+        <source>use a positive whole number of rows</source>
+        <translation>eine positive ganze Zahl von Zeilen verwenden</translation>
+    </message>
+    <message>
+        <source>{where}:{key}: {value} contradicts {values}; keep one</source>
+        <translation>{where}:{key}: {value} widerspricht {values}; eines behalten</translation>
+    </message>
+    <message>
+        <source>{where}:{key}: value {value}; {advice}</source>
+        <translation>{where}:{key}: Wert {value}; {advice}</translation>
+    </message>
+    <message>
+        <source>metadata:{key}: {value} does not fit in a &apos;# key: value&apos; line; leave out line ends, control characters, blanks around, and &apos;:&apos; in the key</source>
+        <translation>metadata:{key}: {value} passt in keine Zeile &apos;# key: value&apos;; Zeilenenden, Steuerzeichen, Leerzeichen am Rand und &apos;:&apos; im Schlüssel weglassen</translation>
+    </message>
+    <message>
+        <source>metadata:{key}: longer than {longest} bytes; shorten it</source>
+        <translation>metadata:{key}: länger als {longest} Byte; kürzen</translation>
+    </message>
+    <message>
+        <source>{where}: heading {heading} is no &apos;axis.channel [unit]&apos;; write such as {example}</source>
+        <translation>{where}: Überschrift {heading} ist kein &apos;axis.channel [unit]&apos;; schreiben wie {example}</translation>
+    </message>
+    <message>
+        <source>{where}: {name}: {error}</source>
+        <translation>{where}: {name}: {error}</translation>
+    </message>
+    <message>
+        <source>{where}: heading {heading}; the first column, and only it, must be time: t [s]</source>
+        <translation>{where}: Überschrift {heading}; die erste Spalte, und nur sie, muss die Zeit sein: t [s]</translation>
+    </message>
+    <message>
+        <source>{where}: unknown channel {tap} in {name}; use one of {names}</source>
+        <translation>{where}: unbekannter Kanal {tap} in {name}; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>{where}: {axis} cannot name an axis; begin with a letter, and use no separators, brackets, quotes or &apos;#&apos; and at most {longest_name} characters</source>
+        <translation>{where}: {axis} kann keine Achse benennen; mit einem Buchstaben beginnen, keine Trennzeichen, Klammern, Anführungszeichen oder &apos;#&apos; und höchstens {longest_name} Zeichen verwenden</translation>
+    </message>
+    <message>
+        <source>{where}: {value} cannot be in [{unit}]; use a unit of {names}</source>
+        <translation>{where}: {value} kann nicht in [{unit}] sein; eine Einheit aus {names} verwenden</translation>
+    </message>
+    <message>
+        <source>{where}:{number}: column {column} is already column {before}; remove one</source>
+        <translation>{where}:{number}: Spalte {column} ist schon Spalte {before}; eine entfernen</translation>
+    </message>
+    <message>
+        <source>{where}: no column beside time; write such as {example}</source>
+        <translation>{where}: keine Spalte neben der Zeit; schreiben wie {example}</translation>
+    </message>
+    <message>
+        <source>{where}:{number}: {column} is in [{unit}] but {axis} is in units of {kind} before; one of them is wrong</source>
+        <translation>{where}:{number}: {column} ist in [{unit}], aber {axis} stand vorher in Einheiten von {kind}; eine davon ist falsch</translation>
+    </message>
+    <message>
+        <source>{where}: axis {quoted} has {axis}.{tap} but no {axis}.cmd; add it</source>
+        <translation>{where}: Achse {quoted} hat {axis}.{tap}, aber kein {axis}.cmd; hinzufügen</translation>
+    </message>
+    <message>
+        <source>{where}:{number}: robot {name} has no axis {axis}; its axes are {names}</source>
+        <translation>{where}:{number}: Roboter {name} hat keine Achse {axis}; seine Achsen sind {names}</translation>
+    </message>
+    <message>
+        <source>{where}:{number}: {column} is in [{unit}] but robot {name} moves {axis} in units of {kind}; correct the unit</source>
+        <translation>{where}:{number}: {column} ist in [{unit}], aber Roboter {name} bewegt {axis} in Einheiten von {kind}; die Einheit berichtigen</translation>
+    </message>
+    <message>
+        <source>{fspath}:{first_line}: more than {values} values; split the file</source>
+        <translation>{fspath}:{first_line}: mehr als {values} Werte; die Datei teilen</translation>
+    </message>
+    <message>
+        <source>{name}:{first_line}: no rows of numbers; the record is empty</source>
+        <translation>{name}:{first_line}: keine Zeilen mit Zahlen; die Aufzeichnung ist leer</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: too many bytes of comments in all; shorten them</source>
+        <translation>{name}:{line}: insgesamt zu viele Byte an Kommentaren; kürzen</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: no header and no rows of numbers; the record is empty</source>
+        <translation>{name}:{line}: keine Kopfzeile und keine Zeilen mit Zahlen; die Aufzeichnung ist leer</translation>
+    </message>
+    <message>
+        <source>{where}:{index}: the header names {found} where you named {asked}; name the same or leave it to the header</source>
+        <translation>{where}:{index}: die Kopfzeile nennt {found}, genannt wurde {asked}; dasselbe nennen oder es der Kopfzeile überlassen</translation>
+    </message>
+    <message>
+        <source>{where}:1: the file has no header row; name its columns, such as &apos;{example}&apos;</source>
+        <translation>{where}:1: die Datei hat keine Kopfzeile; ihre Spalten nennen, etwa &apos;{example}&apos;</translation>
+    </message>
+    <message>
+        <source>{name}: no such shipped models; choose from {names}</source>
+        <translation>{name}: keine solchen mitgelieferten Modelle; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>{source}: not valid TOML: {error}</source>
+        <translation>{source}: kein gültiges TOML: {error}</translation>
+    </message>
+    <message>
+        <source>{source}: {describe}</source>
+        <translation>{source}: {describe}</translation>
+    </message>
+    <message>
+        <source>{source}: model.{name}: {count} coefficients over {denominator}; the denominator begins with 1 and is at least as long</source>
+        <translation>{source}: model.{name}: {count} Koeffizienten über {denominator}; der Nenner beginnt mit 1 und ist mindestens so lang</translation>
+    </message>
+    <message>
+        <source>reading {variable}: choose &apos;s&apos; or &apos;z&apos;</source>
+        <translation>Lesart {variable}: &apos;s&apos; oder &apos;z&apos; wählen</translation>
+    </message>
+    <message>
+        <source>{source}: axis.{name}.effect: must be tables, each headed [[axis.{name}.effect]]</source>
+        <translation>{source}: axis.{name}.effect: müssen Tabellen sein, jede mit der Überschrift [[axis.{name}.effect]]</translation>
+    </message>
+    <message>
+        <source>{source}: {error}</source>
+        <translation>{source}: {error}</translation>
+    </message>
+    <message>
+        <source>names at least one axis</source>
+        <translation>nennt mindestens eine Achse</translation>
+    </message>
+    <message>
+        <source>names each axis once</source>
+        <translation>nennt jede Achse einmal</translation>
+    </message>
+    <message>
+        <source>needs a table [axis.{name}]</source>
+        <translation>braucht eine Tabelle [axis.{name}]</translation>
+    </message>
+    <message>
+        <source>must be listed in robot.axes {names}</source>
+        <translation>muss in robot.axes {names} stehen</translation>
+    </message>
+    <message>
+        <source>{path}: no such robot file, and no shipped robot of that name (shipped: {known})</source>
+        <translation>{path}: diese Roboterdatei gibt es nicht, auch keinen mitgelieferten Roboter dieses Namens (mitgeliefert: {known})</translation>
+    </message>
+    <message>
+        <source>{source}: no [[axis.NAME.effect]] can be added ({error}); write axes and effects as sections of their own</source>
+        <translation>{source}: kein [[axis.NAME.effect]] kann hinzukommen ({error}); Achsen und Effekte als eigene Abschnitte schreiben</translation>
+    </message>
+    <message>
+        <source>{name}: it exists already; name another file</source>
+        <translation>{name}: gibt es schon; eine andere Datei nennen</translation>
+    </message>
+    <message>
+        <source>{source}: would not read back to the same {names}</source>
+        <translation>{source}: ergäbe beim Lesen nicht dasselbe {names}</translation>
+    </message>
+    <message>
+        <source>{key} = {value}: {bound}</source>
+        <translation>{key} = {value}: {bound}</translation>
+    </message>
+    <message>
+        <source>the first value must be below the second</source>
+        <translation>der erste Wert muss kleiner als der zweite sein</translation>
+    </message>
+    <message>
+        <source>must be below the range&apos;s {span}</source>
+        <translation>muss kleiner als die Spanne {span} des Bereichs sein</translation>
+    </message>
+    <message>
+        <source>must be at most the range&apos;s {span}</source>
+        <translation>darf höchstens die Spanne {span} des Bereichs sein</translation>
+    </message>
+    <message>
+        <source>an axis of kind &apos;force&apos; is a mass and cannot be static</source>
+        <translation>eine Achse der Art &apos;force&apos; ist eine Masse und kann nicht statisch sein</translation>
+    </message>
+    <message>
+        <source>a static axis has no dynamics; remove it</source>
+        <translation>eine statische Achse hat keine Dynamik; entfernen</translation>
+    </message>
+    <message>
+        <source>give mass, damping, stiffness or the natural frequency, not both</source>
+        <translation>Masse, Dämpfung, Steifigkeit oder die Eigenfrequenz angeben, nicht beides</translation>
+    </message>
+    <message>
+        <source>{given_modal} needs it</source>
+        <translation>{given_modal} braucht es</translation>
+    </message>
+    <message>
+        <source>an axis of kind {kind} needs it</source>
+        <translation>eine Achse der Art {kind} braucht es</translation>
+    </message>
+    <message>
+        <source>{names} go together</source>
+        <translation>{names} gehören zusammen</translation>
+    </message>
+    <message>
+        <source>must not be zero</source>
+        <translation>darf nicht null sein</translation>
+    </message>
+    <message>
+        <source>a static axis has nothing to control</source>
+        <translation>eine statische Achse hat nichts zu regeln</translation>
+    </message>
+    <message>
+        <source>must be at most {largest} V, the end of voltage_range</source>
+        <translation>darf höchstens {largest} V sein, das Ende von voltage_range</translation>
+    </message>
+    <message>
+        <source>gain {gain} over voltage_range {ends} reaches only {low} to {high}</source>
+        <translation>gain {gain} über voltage_range {ends} reicht nur von {low} bis {high}</translation>
+    </message>
+    <message>
+        <source>must be one of {names}</source>
+        <translation>muss eines von {names} sein</translation>
+    </message>
+    <message>
+        <source>is in stage {seen} already</source>
+        <translation>ist schon in Stufe {seen}</translation>
+    </message>
+    <message>
+        <source>a static axis has no dynamics to couple</source>
+        <translation>eine statische Achse hat keine Dynamik zu koppeln</translation>
+    </message>
+    <message>
+        <source>must name two different axes</source>
+        <translation>muss zwei verschiedene Achsen nennen</translation>
+    </message>
+    <message>
+        <source>couples these axes in {matrix} a second time</source>
+        <translation>koppelt diese Achsen in {matrix} ein zweites Mal</translation>
+    </message>
+    <message>
+        <source>{letter} must be positive {word}; make the coupling smaller</source>
+        <translation>{letter} muss positiv {word} sein; die Kopplung verkleinern</translation>
+    </message>
+    <message>
+        <source>must be greater than {gt}</source>
+        <translation>muss größer als {gt} sein</translation>
+    </message>
+    <message>
+        <source>must be at least {ge}</source>
+        <translation>muss mindestens {ge} sein</translation>
+    </message>
+    <message>
+        <source>must be less than {lt}</source>
+        <translation>muss kleiner als {lt} sein</translation>
+    </message>
+    <message>
+        <source>must be at most {le}</source>
+        <translation>darf höchstens {le} sein</translation>
+    </message>
+    <message>
+        <source>must be a finite number</source>
+        <translation>muss eine endliche Zahl sein</translation>
+    </message>
+    <message>
+        <source>must be a number</source>
+        <translation>muss eine Zahl sein</translation>
+    </message>
+    <message>
+        <source>must be a whole number</source>
+        <translation>muss eine ganze Zahl sein</translation>
+    </message>
+    <message>
+        <source>must be true or false</source>
+        <translation>muss true oder false sein</translation>
+    </message>
+    <message>
+        <source>must be text</source>
+        <translation>muss Text sein</translation>
+    </message>
+    <message>
+        <source>must not be empty</source>
+        <translation>darf nicht leer sein</translation>
+    </message>
+    <message>
+        <source>must have at most {max_length} letters</source>
+        <translation>darf höchstens {max_length} Buchstaben haben</translation>
+    </message>
+    <message>
+        <source>must be {expected}</source>
+        <translation>muss {expected} sein</translation>
+    </message>
+    <message>
+        <source>must have at least {min_length} entry</source>
+        <translation>muss mindestens {min_length} Eintrag haben</translation>
+    </message>
+    <message>
+        <source>must have {max_length} entries, has {actual_length}</source>
+        <translation>muss {max_length} Einträge haben, hat {actual_length}</translation>
+    </message>
+    <message>
+        <source>must be a list</source>
+        <translation>muss eine Liste sein</translation>
+    </message>
+    <message>
+        <source>must be a table</source>
+        <translation>muss eine Tabelle sein</translation>
+    </message>
+    <message>
+        <source>{problem} (and {count} more)</source>
+        <translation>{problem} (und {count} weitere)</translation>
+    </message>
+    <message>
+        <source>did you mean {key}?</source>
+        <translation>war {key} gemeint?</translation>
+    </message>
+    <message>
+        <source>known here: {keys}</source>
+        <translation>hier bekannt: {keys}</translation>
+    </message>
+    <message>
+        <source>{key}.kind: missing; one of {kinds}</source>
+        <translation>{key}.kind: fehlt; eines von {kinds}</translation>
+    </message>
+    <message>
+        <source>{key}.kind = {value}: must be one of {kinds}</source>
+        <translation>{key}.kind = {value}: muss eines von {kinds} sein</translation>
+    </message>
+    <message>
+        <source>input shaping for {frequency_hz} Hz and a damping ratio of {damping_ratio}: the frequency must be positive, the ratio at least 0 and less than 1</source>
+        <translation>Input-Shaping für {frequency_hz} Hz und Dämpfungsgrad {damping_ratio}: die Frequenz muss positiv, der Dämpfungsgrad mindestens 0 und kleiner als 1 sein</translation>
+    </message>
+    <message>
+        <source>input shaping of order {order}: 1 (ZV) to {most_order}</source>
+        <translation>Input-Shaping der Ordnung {order}: 1 (ZV) bis {most_order}</translation>
+    </message>
+    <message>
+        <source>{name} limit of a move: {value}: more than 0</source>
+        <translation>Grenze {name} einer Bewegung: {value}: muss größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>profile: its greatest {name} is {found}, {most} at most (SI units); let it take longer, or go less far</source>
+        <translation>Profil: der größte Wert von {name} ist {found}, höchstens {most} (SI-Einheiten); länger dauern lassen oder weniger weit fahren</translation>
+    </message>
+    <message>
+        <source>an S-curve needs a limit of the jerk</source>
+        <translation>eine S-Kurve braucht eine Grenze für den Ruck</translation>
+    </message>
+    <message>
+        <source>S-curve: ramp {ramp}, rounding {rounding}: more than 0, at most 0.5 and 1</source>
+        <translation>S-Kurve: Rampe {ramp}, Verrundung {rounding}: größer als 0, höchstens 0,5 und 1</translation>
+    </message>
+    <message>
+        <source>a minimum-jerk move needs a limit of speed, acceleration or jerk</source>
+        <translation>eine ruckminimale Bewegung braucht eine Grenze für Geschwindigkeit, Beschleunigung oder Ruck</translation>
+    </message>
+    <message>
+        <source>profile table: {size} times and {values_size} positions: as many of each, 2 to {most_rows}</source>
+        <translation>Profiltabelle: {size} Zeiten und {values_size} Positionen: gleich viele, 2 bis {most_rows}</translation>
+    </message>
+    <message>
+        <source>profile table, row 1: {times} s, {values}: it must begin at 0, 0</source>
+        <translation>Profiltabelle, Zeile 1: {times} s, {values}: muss bei 0, 0 beginnen</translation>
+    </message>
+    <message>
+        <source>profile table, row {row}: {times} s, {values}: numbers must be finite, and times rise from row to row</source>
+        <translation>Profiltabelle, Zeile {row}: {times} s, {values}: Zahlen müssen endlich sein, Zeiten von Zeile zu Zeile steigen</translation>
+    </message>
+    <message>
+        <source>profile table, row {count}: it ends where it began</source>
+        <translation>Profiltabelle, Zeile {count}: endet, wo sie begann</translation>
+    </message>
+    <message>
+        <source>profile: a way of {distance}: must be finite, and not zero</source>
+        <translation>Profil: ein Weg von {distance}: muss endlich und nicht null sein</translation>
+    </message>
+    <message>
+        <source>profile: a duration of {duration_s} s: must be finite and positive</source>
+        <translation>Profil: eine Dauer von {duration_s} s: muss endlich und positiv sein</translation>
+    </message>
+    <message>
+        <source>shape: {shape} times for coefficients {values_shape}</source>
+        <translation>Form: {shape} Zeiten für Koeffizienten {values_shape}</translation>
+    </message>
+    <message>
+        <source>shape: times and coefficients must be finite</source>
+        <translation>Form: Zeiten und Koeffizienten müssen endlich sein</translation>
+    </message>
+    <message>
+        <source>shape: times must rise from 0 s</source>
+        <translation>Form: Zeiten müssen ab 0 s steigen</translation>
+    </message>
+    <message>
+        <source>profile: {most_pieces} cubics leave an error of {error}, {most_error} at most (SI units); choose a smoother one, or input shaping of a lower order</source>
+        <translation>Profil: {most_pieces} kubische Stücke lassen einen Fehler von {error}, höchstens {most_error} (SI-Einheiten); ein glatteres wählen oder Input-Shaping niedrigerer Ordnung</translation>
+    </message>
+    <message>
+        <source>feed-forward: the acceleration of the profile jumps by {jump} (SI units), of {greatest} at most; use an S-curve or minimum jerk, or input shaping</source>
+        <translation>Vorsteuerung: die Beschleunigung des Profils springt um {jump} (SI-Einheiten), höchstens {greatest}; eine S-Kurve, minimalen Ruck oder Input-Shaping verwenden</translation>
+    </message>
+    <message>
+        <source>{name} {value}: must be {least} to {most}</source>
+        <translation>{name} {value}: muss {least} bis {most} sein</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a loop at {rate_hz} Hz is too slow for a resonance at {frequency_hz} Hz; take a rate above {least_hz} Hz</source>
+        <translation>Achse {axis}: ein Regelkreis mit {rate_hz} Hz ist zu langsam für eine Resonanz bei {frequency_hz} Hz; eine Rate über {least_hz} Hz nehmen</translation>
+    </message>
+    <message>
+        <source>{name} of {length}: must be no more than the axis&apos; range, {most}, and not zero</source>
+        <translation>{name} von {length}: darf höchstens der Bereich der Achse sein, {most}, und nicht null</translation>
+    </message>
+    <message>
+        <source>point {number}: the front has points 0 to {count}; choose one</source>
+        <translation>Punkt {number}: die Front hat die Punkte 0 bis {count}; einen davon wählen</translation>
+    </message>
+    <message>
+        <source>axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} and overshoot ≤ {overshoot} %; search longer, take a faster loop, or allow more</source>
+        <translation>Achse {axis}: nach {done} Generationen hält keine Verstärkung Ms ≤ {peak_sensitivity} und Überschwingen ≤ {overshoot} % ein; länger suchen, einen schnelleren Regelkreis nehmen oder mehr zulassen</translation>
+    </message>
+    <message>
+        <source>{name}: {key} = {value}: {reason}</source>
+        <translation>{name}: {key} = {value}: {reason}</translation>
+    </message>
+    <message>
+        <source>{name}: {key} = {value}: the file has points 0 to {last}</source>
+        <translation>{name}: {key} = {value}: die Datei hat die Punkte 0 bis {last}</translation>
+    </message>
+    <message>
+        <source>unknown unit {unit}; use one of {known}</source>
+        <translation>unbekannte Einheit {unit}; möglich: {known}</translation>
+    </message>
+    <message>
+        <source>{si_unit} is no SI unit of a record; use one of {names}</source>
+        <translation>{si_unit} ist keine SI-Einheit einer Aufzeichnung; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>image: its shape is {shape}; must be (rows, columns) or (rows, columns, 3), at least {least_side} px each way</source>
+        <translation>Bild: seine Form ist {shape}; muss (Zeilen, Spalten) oder (Zeilen, Spalten, 3) sein, mindestens {least_side} px je Richtung</translation>
+    </message>
+    <message>
+        <source>image: a pixel is not a finite number; the camera&apos;s data are damaged</source>
+        <translation>Bild: ein Bildpunkt ist keine endliche Zahl; die Daten der Kamera sind beschädigt</translation>
+    </message>
+    <message>
+        <source>image: every pixel is {low}; the camera is dark, saturated or covered: look at lamp, shutter and exposure</source>
+        <translation>Bild: jeder Bildpunkt ist {low}; die Kamera ist dunkel, übersteuert oder abgedeckt: Lampe, Blende und Belichtung prüfen</translation>
+    </message>
+    <message>
+        <source>background: {columns} × {rows} px against an image of {image_columns} × {image_rows} px; take it again with this camera setting</source>
+        <translation>Hintergrund: {columns} × {rows} px gegen ein Bild von {image_columns} × {image_rows} px; mit dieser Kameraeinstellung neu aufnehmen</translation>
+    </message>
+    <message>
+        <source>pipette: {name} = {value} px: must be more than 0</source>
+        <translation>Pipette: {name} = {value} px: muss größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>pipette: it stands at {angle}° to the focal plane, must be at most {most}°; seen from its end it has no shape to be found by: tilt the view</source>
+        <translation>Pipette: sie steht {angle}° zur Fokusebene, höchstens {most}°; von der Spitze her gesehen hat sie keine erkennbare Form: die Ansicht neigen</translation>
+    </message>
+    <message>
+        <source>{name}: it is a folder; name a file in it</source>
+        <translation>{name}: das ist ein Ordner; eine Datei darin nennen</translation>
+    </message>
+    <message>
+        <source>{name}: it is a device and no file; name a file</source>
+        <translation>{name}: das ist ein Gerät und keine Datei; eine Datei nennen</translation>
+    </message>
+    <message>
+        <source>{name}: it cannot be written ({reason}); choose another folder or make room</source>
+        <translation>{name}: kann nicht geschrieben werden ({reason}); einen anderen Ordner wählen oder Platz schaffen</translation>
+    </message>
+    <message>
+        <source>A, accuracy</source>
+        <translation>A, Genauigkeit</translation>
+    </message>
+    <message>
+        <source>R, repeatability</source>
+        <translation>R, Wiederholgenauigkeit</translation>
+    </message>
+    <message>
+        <source>B, reversal value</source>
+        <translation>B, Umkehrspanne</translation>
+    </message>
+    <message>
+        <source>B̄, mean reversal</source>
+        <translation>B̄, mittlere Umkehrspanne</translation>
+    </message>
+    <message>
+        <source>E, systematic deviation</source>
+        <translation>E, systematische Abweichung</translation>
+    </message>
+    <message>
+        <source>M, mean bidirectional</source>
+        <translation>M, mittlere beidseitige</translation>
+    </message>
+    <message>
+        <source>{name}: {axis}: laser and sensor can be compared in {kept} of {count} rows, {least_kept} are needed ({losses}); align the laser and record again</source>
+        <translation>{name}: {axis}: Laser und Sensor sind in {kept} von {count} Zeilen vergleichbar, nötig sind {least_kept} ({losses}); den Laser ausrichten und neu aufzeichnen</translation>
+    </message>
+    <message>
+        <source>the rest is in short pieces</source>
+        <translation>der Rest besteht aus kurzen Stücken</translation>
+    </message>
+    <message>
+        <source>the robot</source>
+        <translation>der Roboter</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis}: {whose} has {names}; choose one</source>
+        <translation>{name}: Achse {axis}: {whose} hat {names}; eine davon wählen</translation>
+    </message>
+    <message>
+        <source>the axis&apos; own sensor</source>
+        <translation>der eigene Sensor der Achse</translation>
+    </message>
+    <message>
+        <source>a laser</source>
+        <translation>ein Laser</translation>
+    </message>
+    <message>
+        <source>{name}: there is no column {axis}.{tap}, the reading of {what}; it has {names}; record with the laser, or join its file</source>
+        <translation>{name}: es fehlt die Spalte {axis}.{tap}, die Messwerte von: {what}; vorhanden: {names}; mit dem Laser aufzeichnen oder seine Datei verbinden</translation>
+    </message>
+    <message>
+        <source>{name}: {count} rows; a calibration needs {least_rows} at the least</source>
+        <translation>{name}: {count} Zeilen; eine Kalibrierung braucht mindestens {least_rows}</translation>
+    </message>
+    <message>
+        <source>{name}: {axis} travels {travel} by the laser, {share} of its range; a calibration needs {least_share}: {least}; move it further</source>
+        <translation>{name}: {axis} fährt laut Laser {travel}, das sind {share} ihres Bereichs; eine Kalibrierung braucht {least_share}: {least}; weiter fahren</translation>
+    </message>
+    <message>
+        <source>the laser was lost from {begin} s to {end} s</source>
+        <translation>der Laser war von {begin} s bis {end} s verloren</translation>
+    </message>
+    <message>
+        <source>no rows from {begin} s to {end} s</source>
+        <translation>keine Zeilen von {begin} s bis {end} s</translation>
+    </message>
+    <message>
+        <source>record: there is no column {axis}.meas to join a laser&apos;s with</source>
+        <translation>Aufzeichnung: es fehlt die Spalte {axis}.meas, zu der die des Lasers kommen soll</translation>
+    </message>
+    <message>
+        <source>laser: there is no column {axis}.ref; it has {names}</source>
+        <translation>Laser: es fehlt die Spalte {axis}.ref; vorhanden: {names}</translation>
+    </message>
+    <message>
+        <source>laser: its motion and that of {axis} in the record are not alike at any shift of the clocks; join the files of one run</source>
+        <translation>Laser: seine Bewegung und die von {axis} in der Aufzeichnung gleichen sich bei keiner Verschiebung der Uhren; Dateien eines Laufs verbinden</translation>
+    </message>
+    <message>
+        <source>a record of less than 20 ms cannot be joined with another</source>
+        <translation>eine Aufzeichnung von weniger als 20 ms lässt sich mit keiner anderen verbinden</translation>
+    </message>
+    <message>
+        <source>the zero drifts by {drift} rms while the runs last: it goes with time and not with the axis, and no calibration removes it; warm up, or calibrate often</source>
+        <translation>der Nullpunkt driftet während der Läufe um {drift} rms: er geht mit der Zeit und nicht mit der Achse, und keine Kalibrierung nimmt das weg; aufwärmen oder oft kalibrieren</translation>
+    </message>
+    <message>
+        <source>deviations have shape {shape}; ISO 230-2 needs (targets, runs, 2)</source>
+        <translation>die Abweichungen haben die Form {shape}; ISO 230-2 braucht (Ziele, Läufe, 2)</translation>
+    </message>
+    <message>
+        <source>each target was approached {shape} times from each side; ISO 230-2 needs {iso_runs} runs, a spread {least_runs} at the least</source>
+        <translation>jedes Ziel wurde {shape}-mal von jeder Seite angefahren; ISO 230-2 braucht {iso_runs} Läufe, eine Streuung mindestens {least_runs}</translation>
+    </message>
+    <message>
+        <source>{axis}: at runs that were left out of the fit the reading&apos;s error is {after} {unit} rms with the calibration and {before} {same} without; it is not better and not used</source>
+        <translation>{axis}: bei zurückgehaltenen Läufen ist der Fehler des Messwerts {after} {unit} rms mit der Kalibrierung und {before} {same} ohne; sie ist nicht besser und wird nicht genutzt</translation>
+    </message>
+    <message>
+        <source>{count} runs of {least_run_rows} rows or more; a calibration needs {least_runs}, of which each is held out once; record longer</source>
+        <translation>{count} Läufe von {least_run_rows} Zeilen oder mehr; eine Kalibrierung braucht {least_runs}, von denen jeder einmal zurückgehalten wird; länger aufzeichnen</translation>
+    </message>
+    <message>
+        <source>offset</source>
+        <translation>Versatz</translation>
+    </message>
+    <message>
+        <source>gain error</source>
+        <translation>Verstärkungsfehler</translation>
+    </message>
+    <message>
+        <source>nonlinearity</source>
+        <translation>Nichtlinearität</translation>
+    </message>
+    <message>
+        <source>hysteresis</source>
+        <translation>Hysterese</translation>
+    </message>
+    <message>
+        <source>interpolation error</source>
+        <translation>Interpolationsfehler</translation>
+    </message>
+    <message>
+        <source>its period</source>
+        <translation>seine Periode</translation>
+    </message>
+    <message>
+        <source>time constant</source>
+        <translation>Zeitkonstante</translation>
+    </message>
+    <message>
+        <source>delay</source>
+        <translation>Totzeit</translation>
+    </message>
+    <message>
+        <source>lag, {name}</source>
+        <translation>Nachlauf, {name}</translation>
+    </message>
+    <message>
+        <source>the runs have no measured channel in common: {measured} and {measured_other}</source>
+        <translation>die Läufe haben keinen gemessenen Kanal gemeinsam: {measured} und {measured_other}</translation>
+    </message>
+    <message>
+        <source>axis {axis} is in {unit} in one run and in {other_unit} in the other; these are not of one machine</source>
+        <translation>Achse {axis} steht im einen Lauf in {unit}, im anderen in {other_unit}; das ist nicht dieselbe Maschine</translation>
+    </message>
+    <message>
+        <source>--fit: {name} cannot be re-fitted; choose from {names}</source>
+        <extracomment>Rows, beside the first one, without which a record of a motion says nothing about a model.</extracomment>
+        <translation>--fit: {name} lässt sich nicht neu anpassen; möglich: {names}</translation>
+    </message>
+    <message>
+        <source>the record holds no measured channel (u, ref or meas) to compare; it has {names}</source>
+        <translation>die Aufzeichnung enthält keinen gemessenen Kanal (u, ref oder meas) zum Vergleichen; vorhanden: {names}</translation>
+    </message>
+    <message>
+        <source>the record has {rows} rows, {most} of them in motion: it takes {least_moving} or more to compare; was it cut off when it began? Play it once more</source>
+        <translation>die Aufzeichnung hat {rows} Zeilen, davon {most} in Bewegung: ein Vergleich braucht mindestens {least_moving}; wurde sie am Anfang abgeschnitten? Noch einmal abspielen</translation>
+    </message>
+    <message>
+        <source>{path}: a picture&apos;s name ends in {names}</source>
+        <translation>{path}: der Name eines Bildes endet auf {names}</translation>
+    </message>
+    <message>
+        <source>friction: a static axis has no motion to damp; give it mass and damping</source>
+        <translation>friction: eine statische Achse hat keine Bewegung zu dämpfen; ihr Masse und Dämpfung geben</translation>
+    </message>
+    <message>
+        <source>{where}: the robot has no such axis; it has {axes}</source>
+        <translation>{where}: der Roboter hat keine solche Achse; vorhanden: {axes}</translation>
+    </message>
+    <message>
+        <source>{where}.id = {effect_id}: must be the id of an effect, a text</source>
+        <translation>{where}.id = {effect_id}: muss die Kennung eines Effekts sein, ein Text</translation>
+    </message>
+    <message>
+        <source>{where}.{key} = {text}: must be a text</source>
+        <translation>{where}.{key} = {text}: muss ein Text sein</translation>
+    </message>
+    <message>
+        <source>{where}.enabled = {enabled}: must be true or false</source>
+        <translation>{where}.enabled = {enabled}: muss true oder false sein</translation>
+    </message>
+    <message>
+        <source>{where}.{key} = {value}: must be a number</source>
+        <translation>{where}.{key} = {value}: muss eine Zahl sein</translation>
+    </message>
+    <message>
+        <source>{where}.formulation = {name}: must be one of {known}</source>
+        <translation>{where}.formulation = {name}: muss eine von {known} sein</translation>
+    </message>
+    <message>
+        <source>{where}{what}: sits on an axis of kind {names}; this one is of kind {kind}</source>
+        <translation>{where}{what}: gehört zu Achsen der Art {names}; diese ist von der Art {kind}</translation>
+    </message>
+    <message>
+        <source>{where}: formulation {name} acts on the dynamics of an axis, and this one is static; give it mass, damping and stiffness or choose another formulation</source>
+        <translation>{where}: Formulierung {name} wirkt auf die Dynamik einer Achse, und diese ist statisch; ihr Masse, Dämpfung und Steifigkeit geben oder eine andere Formulierung wählen</translation>
+    </message>
+    <message>
+        <source>{where}.from_axis = {from_axis}: this effect comes from no other axis; remove it</source>
+        <translation>{where}.from_axis = {from_axis}: dieser Effekt kommt von keiner anderen Achse; entfernen</translation>
+    </message>
+    <message>
+        <source>{where}.from_axis = {from_axis}: must be one of {others}</source>
+        <translation>{where}.from_axis = {from_axis}: muss eine von {others} sein</translation>
+    </message>
+    <message>
+        <source>{where}.{name} = {beyond}</source>
+        <translation>{where}.{name} = {beyond}</translation>
+    </message>
+    <message>
+        <source>there is no effect {effect_id}; {meant}there are {known}</source>
+        <translation>den Effekt {effect_id} gibt es nicht; {meant}vorhanden: {known}</translation>
+    </message>
+    <message>
+        <source>effect {effect_id} ({value}) is no Effect</source>
+        <translation>Effekt {effect_id} ({value}) ist kein Effect</translation>
+    </message>
+    <message>
+        <source>effect {effect_id}: {error}</source>
+        <translation>Effekt {effect_id}: {error}</translation>
+    </message>
+    <message>
+        <source>effect {effect_id} ({value}) calls itself {id}</source>
+        <translation>Effekt {effect_id} ({value}) nennt sich selbst {id}</translation>
+    </message>
+    <message>
+        <source>effect {effect_id} ({value}) has no formulation</source>
+        <translation>Effekt {effect_id} ({value}) hat keine Formulierung</translation>
+    </message>
+    <message>
+        <source>flexible_mode: formulation &apos;appendage&apos; pulls on the mass of an axis, and this axis is static; give it mass, damping and stiffness or choose another formulation</source>
+        <translation>flexible_mode: Formulierung &apos;appendage&apos; zieht an der Masse einer Achse, und diese ist statisch; ihr Masse, Dämpfung und Steifigkeit geben oder eine andere Formulierung wählen</translation>
+    </message>
+    <message>
+        <source>resonance_mismatch: nothing holds this axis, so it has no resonance; give it mass, damping and stiffness or take the effect away</source>
+        <translation>resonance_mismatch: diese Achse wird von nichts gehalten und hat deshalb keine Resonanz; ihr Masse, Dämpfung und Steifigkeit geben oder den Effekt entfernen</translation>
+    </message>
+    <message>
+        <source>simulation: the model is sampled at {rate_hz} Hz, the record at {signals_rate_hz} Hz; resample the record</source>
+        <translation>Simulation: das Modell ist mit {rate_hz} Hz abgetastet, die Aufzeichnung mit {signals_rate_hz} Hz; die Aufzeichnung neu abtasten</translation>
+    </message>
+    <message>
+        <source>{orders}: poles and delay cannot be negative, and the numerator needs at least one coefficient</source>
+        <translation>{orders}: Pole und Totzeit können nicht negativ sein, und der Zähler braucht mindestens einen Koeffizienten</translation>
+    </message>
+    <message>
+        <source>signals: {inputs} samples, but {orders} needs at least {needed}; record longer or choose lower orders</source>
+        <translation>Signale: {inputs} Abtastwerte, {orders} braucht mindestens {needed}; länger aufzeichnen oder niedrigere Ordnungen wählen</translation>
+    </message>
+    <message>
+        <source>{what}: the record does not determine all {count} parameters (singular values {least} to {most}, bound {bound}); choose lower orders or excite more frequencies</source>
+        <translation>{what}: die Aufzeichnung bestimmt nicht alle {count} Parameter (Singulärwerte {least} bis {most}, Grenze {bound}); niedrigere Ordnungen wählen oder mehr Frequenzen anregen</translation>
+    </message>
+    <message>
+        <source>{name} {values}: needs finite coefficients in a row</source>
+        <translation>{name} {values}: braucht endliche Koeffizienten in einer Reihe</translation>
+    </message>
+    <message>
+        <source>denominator: begins with {denominator}; it must be 1</source>
+        <translation>Nenner: beginnt mit {denominator}; muss 1 sein</translation>
+    </message>
+    <message>
+        <source>delay {delay} samples: cannot be negative</source>
+        <translation>Totzeit {delay} Abtastwerte: kann nicht negativ sein</translation>
+    </message>
+    <message>
+        <source>rate {rate_hz} Hz: use a positive number</source>
+        <translation>Rate {rate_hz} Hz: eine positive Zahl verwenden</translation>
+    </message>
+    <message>
+        <source>resonance: band {band_hz} Hz; the lowest comes first</source>
+        <translation>Resonanz: Band {band_hz} Hz; die niedrigste Frequenz kommt zuerst</translation>
+    </message>
+    <message>
+        <source>resonance: {count} lines from {low_hz} to {high_hz} Hz; at least {least_lines} are needed, widen the band or resolve it finer</source>
+        <translation>Resonanz: {count} Linien von {low_hz} bis {high_hz} Hz; mindestens {least_lines} sind nötig, das Band verbreitern oder feiner auflösen</translation>
+    </message>
+    <message>
+        <source>resonance: the response is zero over the band</source>
+        <translation>Resonanz: die Antwort ist über das ganze Band null</translation>
+    </message>
+    <message>
+        <source>resonance: the best fit lies at {frequency_hz} Hz with damping {damping}, no peak inside the band {low_hz} to {high_hz} Hz; choose a band around a peak</source>
+        <translation>Resonanz: die beste Anpassung liegt bei {frequency_hz} Hz mit Dämpfung {damping}, keine Spitze im Band {low_hz} bis {high_hz} Hz; ein Band um eine Spitze wählen</translation>
+    </message>
+    <message>
+        <source>Welch: {averages} independent segments of {segment} samples for {inputs} inputs; at least {least} are needed, use shorter segments or longer records</source>
+        <translation>Welch: {averages} unabhängige Segmente von {segment} Abtastwerten für {inputs} Eingänge; mindestens {least} sind nötig, kürzere Segmente oder längere Aufzeichnungen verwenden</translation>
+    </message>
+    <message>
+        <source>Welch: segments of {segment} samples; use {shortest} or more</source>
+        <translation>Welch: Segmente von {segment} Abtastwerten; {shortest} oder mehr verwenden</translation>
+    </message>
+    <message>
+        <source>Welch: overlap {overlap} is not in [0, 1); use 0.5</source>
+        <translation>Welch: Überlappung {overlap} ist nicht in [0, 1); 0.5 verwenden</translation>
+    </message>
+    <message>
+        <source>experiments: none given; one at least is needed</source>
+        <translation>Experimente: keines angegeben; mindestens eines ist nötig</translation>
+    </message>
+    <message>
+        <source>experiment {number}: {inputs} → {outputs} at {rate_hz} Hz, the first has {first_inputs} → {first_outputs} at {first_rate_hz} Hz; all must be alike</source>
+        <translation>Experiment {number}: {inputs} → {outputs} mit {rate_hz} Hz, das erste hat {first_inputs} → {first_outputs} mit {first_rate_hz} Hz; alle müssen gleich sein</translation>
+    </message>
+    <message>
+        <source>inputs: on no line do all {count} move independently at {excited_above} of the largest amplitude or more; excite them one after another, with independent signals, or in as many experiments as there are inputs</source>
+        <translation>Eingänge: auf keiner Linie bewegen sich alle {count} unabhängig mit mindestens {excited_above} der größten Amplitude; sie nacheinander, mit unabhängigen Signalen oder in so vielen Experimenten anregen, wie es Eingänge gibt</translation>
+    </message>
+    <message>
+        <source>periodic response: a period of {period} samples, {skip_periods} periods skipped; the record needs &apos;# history: periodic&apos; and &apos;# period_samples: N&apos;</source>
+        <translation>periodische Antwort: eine Periode von {period} Abtastwerten, {skip_periods} Perioden übersprungen; die Aufzeichnung braucht &apos;# history: periodic&apos; und &apos;# period_samples: N&apos;</translation>
+    </message>
+    <message>
+        <source>periodic response: {periods} whole periods of {period} samples after {skip_periods} skipped; the noise needs at least 2</source>
+        <translation>periodische Antwort: {periods} ganze Perioden von {period} Abtastwerten nach {skip_periods} übersprungenen; das Rauschen braucht mindestens 2</translation>
+    </message>
+    <message>
+        <source>experiments: periods of {periods} samples; all must be alike</source>
+        <translation>Experimente: Perioden von {periods} Abtastwerten; alle müssen gleich sein</translation>
+    </message>
+    <message>
+        <source>relative error: a period of {period_samples} samples, the response has {response_period_samples}; both must be alike</source>
+        <translation>relativer Fehler: eine Periode von {period_samples} Abtastwerten, die Antwort hat {response_period_samples}; beide müssen gleich sein</translation>
+    </message>
+    <message>
+        <source>relative error: the outputs do not move</source>
+        <translation>relativer Fehler: die Ausgänge bewegen sich nicht</translation>
+    </message>
+    <message>
+        <source>loops: {lag_samples} samples of lag, least swing {least_swing}; use 0 or more, and a swing in (0, 1)</source>
+        <translation>Schleifen: {lag_samples} Abtastwerte Nachlauf, kleinster Hub {least_swing}; 0 oder mehr und einen Hub in (0, 1) verwenden</translation>
+    </message>
+    <message>
+        <source>loops: {inputs} samples of input, {outputs} of output, {lag_samples} of lag; as many of both and at least three are needed</source>
+        <translation>Schleifen: {inputs} Abtastwerte des Eingangs, {outputs} des Ausgangs, {lag_samples} Nachlauf; gleich viele und mindestens drei sind nötig</translation>
+    </message>
+    <message>
+        <source>loops: the input makes no whole cycle from one turning point to the next of its kind; record one cycle more</source>
+        <translation>Schleifen: der Eingang macht keinen ganzen Zyklus von einem Wendepunkt zum nächsten gleicher Art; einen Zyklus mehr aufzeichnen</translation>
+    </message>
+    <message>
+        <source>amplitude dependence: {count} loops whose amplitudes differ by less than a factor of {least_spread}; record growing or decaying cycles</source>
+        <translation>Amplitudenabhängigkeit: {count} Schleifen, deren Amplituden sich um weniger als den Faktor {least_spread} unterscheiden; wachsende oder abklingende Zyklen aufzeichnen</translation>
+    </message>
+    <message>
+        <source>amplitude dependence: a loop has no width; there is nothing to fit</source>
+        <translation>Amplitudenabhängigkeit: eine Schleife hat keine Breite; nichts anzupassen</translation>
+    </message>
+    <message>
+        <source>{side}: shape {shape} for the columns {names}; give an (n, columns) array</source>
+        <translation>{side}: Form {shape} für die Spalten {names}; ein Feld (n, Spalten) angeben</translation>
+    </message>
+    <message>
+        <source>{side}: a value is not finite</source>
+        <translation>{side}: ein Wert ist nicht endlich</translation>
+    </message>
+    <message>
+        <source>signals: {inputs} samples of input, {outputs} of output; they must be as many</source>
+        <translation>Signale: {inputs} Abtastwerte des Eingangs, {outputs} des Ausgangs; es müssen gleich viele sein</translation>
+    </message>
+    <message>
+        <source>signals: rate {rate_hz} Hz; use a positive number</source>
+        <translation>Signale: Rate {rate_hz} Hz; eine positive Zahl verwenden</translation>
+    </message>
+    <message>
+        <source>signals: {inputs} inputs and {outputs} outputs; this method takes one of each, choose a pair</source>
+        <translation>Signale: {inputs} Eingänge und {outputs} Ausgänge; dieses Verfahren nimmt je einen, ein Paar wählen</translation>
+    </message>
+    <message>
+        <source>{side}: no channel chosen; name one at least</source>
+        <translation>{side}: kein Kanal gewählt; mindestens einen nennen</translation>
+    </message>
+    <message>
+        <source>{side}: the record has no {channel}; it has {names}</source>
+        <translation>{side}: die Aufzeichnung hat kein {channel}; vorhanden: {names}</translation>
+    </message>
+    <message>
+        <source>time: {count} row; a rate needs at least 2</source>
+        <translation>Zeit: {count} Zeile; eine Rate braucht mindestens 2</translation>
+    </message>
+    <message>
+        <source>time: row {worst} (t = {time_s} s) lies {off} s off the grid of {step_s} s, more than {jitter} % of a step; resample the record to a uniform rate first</source>
+        <translation>Zeit: Zeile {worst} (t = {time_s} s) liegt {off} s neben dem Raster von {step_s} s, mehr als {jitter} % eines Schritts; die Aufzeichnung erst gleichmäßig neu abtasten</translation>
+    </message>
+    <message>
+        <source>{name}: constant at {signal} over {count} samples; nothing can be identified, record a run in which it moves</source>
+        <translation>{name}: konstant bei {signal} über {count} Abtastwerte; nichts lässt sich identifizieren, einen Lauf mit Bewegung aufzeichnen</translation>
+    </message>
+    <message>
+        <source>resampling by {factor}: {count} samples leave {left} after the filter, fewer than {shortest}; record longer or lower the rate less</source>
+        <translation>Neuabtastung um {factor}: {count} Abtastwerte lassen nach dem Filter {left}, weniger als {shortest}; länger aufzeichnen oder die Rate weniger senken</translation>
+    </message>
+    <message>
+        <source>resampling factor {factor}: not in (0, 1]; use one such as 0.15</source>
+        <translation>Neuabtastungsfaktor {factor}: nicht in (0, 1]; etwa 0.15 verwenden</translation>
+    </message>
+    <message>
+        <source>resampling factor {factor}: no fraction with a denominator up to {finest}; use {fraction}</source>
+        <translation>Neuabtastungsfaktor {factor}: kein Bruch mit einem Nenner bis {finest}; {fraction} verwenden</translation>
+    </message>
+    <message>
+        <source>least step {least_step}: not in (0, 1]; use one such as 0.01</source>
+        <translation>kleinster Sprung {least_step}: nicht in (0, 1]; etwa 0.01 verwenden</translation>
+    </message>
+    <message>
+        <source>steps: the record has no {axis}.{needed}; it has {names}</source>
+        <translation>Sprünge: die Aufzeichnung hat kein {axis}.{needed}; vorhanden: {names}</translation>
+    </message>
+    <message>
+        <source>steps: {axis}.{drive} holds no jump between two holds of {shortest_hold} rows and {shortest_hold_s} s; record a staircase</source>
+        <translation>Sprünge: {axis}.{drive} enthält keinen Sprung zwischen zwei Ruhephasen von {shortest_hold} Zeilen und {shortest_hold_s} s; eine Treppe aufzeichnen</translation>
+    </message>
+    <message>
+        <source>distortion: all {count} lines are excited, none is left to show it; use a multisine of odd lines with some left out</source>
+        <translation>Verzerrung: alle {count} Linien sind angeregt, keine bleibt, um sie zu zeigen; ein Multisinus aus ungeraden Linien mit Lücken verwenden</translation>
+    </message>
+    <message>
+        <source>microscope: {name} = {value}: must be more than 0</source>
+        <extracomment>Of light that falls anywhere on a pixel, px². The camera and objective where a robot file names none: AxioCam HRm behind 20× / 0.4.</extracomment>
+        <translation>Mikroskop: {name} = {value}: muss größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>microscope: optical_axis = {axis}: must be a direction, for example [0.0, 0.0, 1.0] for a view from below</source>
+        <translation>Mikroskop: optical_axis = {axis}: muss eine Richtung sein, etwa [0.0, 0.0, 1.0] für eine Ansicht von unten</translation>
+    </message>
+    <message>
+        <source>microscope: skew {skew_rad} rad: must be within ±{pi}</source>
+        <translation>Mikroskop: skew {skew_rad} rad: muss innerhalb von ±{pi} liegen</translation>
+    </message>
+    <message>
+        <source>tool: approach_angle = {approach_rad} rad: must be more than 0 (flat on the dish) and at most {pi} (upright)</source>
+        <translation>Werkzeug: approach_angle = {approach_rad} rad: muss größer als 0 (flach auf der Schale) und höchstens {pi} (aufrecht) sein</translation>
+    </message>
+    <message>
+        <source>cell: radii {radii_m}, nucleus {nucleus_radius_m}, breaking {breaking_m}, dimple {dimple_m}, membrane {membrane_m} m: each must be more than 0</source>
+        <translation>Zelle: Radien {radii_m}, Zellkern {nucleus_radius_m}, Durchbruch {breaking_m}, Delle {dimple_m}, Membran {membrane_m} m: jedes muss größer als 0 sein</translation>
+    </message>
+    <message>
+        <source>tip {tip_m}, axis {tool_axis}, focus {focus_m}: must be finite</source>
+        <translation>Spitze {tip_m}, Achse {tool_axis}, Fokus {focus_m}: müssen endlich sein</translation>
+    </message>
+    <message>
+        <source>plate.{key} = {value}: {bound}</source>
+        <translation>plate.{key} = {value}: {bound}</translation>
+    </message>
+    <message>
+        <source>divisions of the turn = {divisions}: must be {fewest} to {most}; {usual} is usual</source>
+        <translation>Teilungen des Umfangs = {divisions}: müssen {fewest} bis {most} sein; üblich sind {usual}</translation>
+    </message>
+    <message>
+        <source>no mesh can be made: the element at x {x} mm, y {y} mm has quality {quality} (at least {worst_quality}); edges of cut-outs are too close to one another or nearly in line there; put them in line, or further apart</source>
+        <translation>es lässt sich kein Netz bilden: das Element bei x {x} mm, y {y} mm hat die Güte {quality} (mindestens {worst_quality}); Kanten von Ausschnitten liegen dort zu nah beieinander oder fast in einer Linie; in eine Linie legen oder weiter auseinander</translation>
+    </message>
+    <message>
+        <source>modes = {count}: must be 1 to {most}</source>
+        <translation>Moden = {count}: müssen 1 bis {most} sein</translation>
+    </message>
+    <message>
+        <source>must be at most {largest} m</source>
+        <translation>darf höchstens {largest} m sein</translation>
+    </message>
+    <message>
+        <source>must be at most 0.98 of rim_radius, which is {rim_radius} m</source>
+        <translation>darf höchstens 0,98 von rim_radius sein, das sind {rim_radius} m</translation>
+    </message>
+    <message>
+        <source>must be at least 0.02 of rim_radius, which is {rim_radius} m</source>
+        <translation>muss mindestens 0,02 von rim_radius sein, das sind {rim_radius} m</translation>
+    </message>
+    <message>
+        <source>must be {thinnest} to {thickest} m: a thin plate has {least_share} to {most_share} of its width from hub to rim</source>
+        <translation>muss {thinnest} bis {thickest} m sein: eine dünne Platte hat {least_share} bis {most_share} ihrer Breite von Nabe zu Rand</translation>
+    </message>
+    <message>
+        <source>must be within ± inertia {inertia}</source>
+        <translation>muss innerhalb von ± inertia {inertia} liegen</translation>
+    </message>
+    <message>
+        <source>must be at most the hub&apos;s</source>
+        <translation>darf höchstens so groß wie bei der Nabe sein</translation>
+    </message>
+    <message>
+        <source>a {kind} needs it</source>
+        <translation>die Art {kind} braucht es</translation>
+    </message>
+    <message>
+        <source>a {kind} has none; remove it</source>
+        <translation>die Art {kind} hat keines; entfernen</translation>
+    </message>
+    <message>
+        <source>must be within ± 6.28 rad</source>
+        <translation>muss innerhalb von ± 6,28 rad liegen</translation>
+    </message>
+    <message>
+        <source>a hole has none</source>
+        <translation>ein Loch hat keines</translation>
+    </message>
+    <message>
+        <source>must be above inner_radius {inner}</source>
+        <translation>muss über inner_radius {inner} liegen</translation>
+    </message>
+    <message>
+        <source>the cut-out reaches from {inner} to {outer} m; it must stay between hub {hub_radius} and rim {rim_radius} m</source>
+        <translation>der Ausschnitt reicht von {inner} bis {outer} m; er muss zwischen Nabe {hub_radius} und Rand {rim_radius} m bleiben</translation>
+    </message>
+    <message>
+        <source>the cut-out with its surroundings reaches from {inner} to {outer} m; it must stay between hub {hub_radius} and rim {rim_radius} m</source>
+        <translation>der Ausschnitt mit seiner Umgebung reicht von {inner} bis {outer} m; er muss zwischen Nabe {hub_radius} und Rand {rim_radius} m bleiben</translation>
+    </message>
+    <message>
+        <source>{count} of them leave nothing between them; make them smaller or fewer</source>
+        <translation>{count} davon lassen nichts zwischen sich; kleiner machen oder weniger nehmen</translation>
+    </message>
+    <message>
+        <source>its ring from {inner} to {outer} m meets another&apos;s, which ends at {one_outer} m; put them into separate rings</source>
+        <translation>ihr Ring von {inner} bis {outer} m trifft einen anderen, der bei {one_outer} m endet; in getrennte Ringe legen</translation>
+    </message>
+    <message>
+        <source>{name}: the name must end with .vtu</source>
+        <translation>{name}: der Name muss auf .vtu enden</translation>
+    </message>
+    <message>
+        <source>the path of the pin&apos;s bottom must be rows of three finite numbers</source>
+        <translation>der Weg des unteren Stiftendes muss aus Zeilen von drei endlichen Zahlen bestehen</translation>
+    </message>
+    <message>
+        <source>duration of the ramp = {duration_s} s: must be positive</source>
+        <translation>Dauer der Rampe = {duration_s} s: muss positiv sein</translation>
+    </message>
+    <message>
+        <source>robot {name}: it has no axis {missing}; the plate carries {axes}: name a robot that has them</source>
+        <translation>Roboter {name}: keine Achse {missing}; die Platte trägt {axes}: einen Roboter nennen, der sie hat</translation>
+    </message>
+    <message>
+        <source>at the hub</source>
+        <translation>an der Nabe</translation>
+    </message>
+    <message>
+        <source>at the rim</source>
+        <translation>am Rand</translation>
+    </message>
+    <message>
+        <source>{where}, r {radius} mm, {degrees}°</source>
+        <translation>{where}, r {radius} mm, {degrees}°</translation>
+    </message>
+    <message>
+        <source>{name} stiffness</source>
+        <translation>Steifigkeit {name}</translation>
+    </message>
+    <message>
+        <source>the plate yields within the range of motion: {stress} MPa {place_text} at zn {zn} µm, thx {thx} µrad, thy {thy} µrad; it bears {yield_stress} MPa: make it thinner or wider</source>
+        <translation>die Platte fließt innerhalb des Bewegungsbereichs: {stress} MPa {place_text} bei zn {zn} µm, thx {thx} µrad, thy {thy} µrad; sie trägt {yield_stress} MPa: dünner oder breiter machen</translation>
+    </message>
+    <message>
+        <source>robot {robot}: axis.{axis} has no mass and stiffness of its own; give mass, damping and stiffness to put the plate&apos;s there</source>
+        <translation>Roboter {robot}: axis.{axis} hat keine eigene Masse und Steifigkeit; Masse, Dämpfung und Steifigkeit angeben, damit die der Platte dorthin kommen</translation>
+    </message>
+    <message>
+        <source>the plate makes no possible robot: {problem}</source>
+        <translation>mit der Platte wird kein möglicher Roboter daraus: {problem}</translation>
+    </message>
+    <message>
+        <source>robot {name}: plate.pin.length: missing, and robot.pin_length too; give one</source>
+        <translation>Roboter {name}: plate.pin.length: fehlt, und robot.pin_length auch; eines angeben</translation>
+    </message>
+    <message>
+        <source>robot {name}: plate.pin.length = {length} m: must be {low} to {high} m, {shortest} to {longest} times its diameter; as a beam it is computed</source>
+        <translation>Roboter {name}: plate.pin.length = {length} m: muss {low} bis {high} m sein, das {shortest}- bis {longest}-Fache des Durchmessers; er wird als Balken berechnet</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {what} {value} at t = {time} s is beyond the limit {bound}; {advice}</source>
+        <translation>Achse {axis}: {what} {value} bei t = {time} s liegt jenseits der Grenze {bound}; {advice}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a speed of {speed}: must be a finite number above 0, of an axis with a target</source>
+        <translation>Achse {axis}: Geschwindigkeit {speed}: muss eine endliche Zahl über 0 sein, für eine Achse mit Ziel</translation>
+    </message>
+    <message>
+        <source>axis {axis}: robot {name} has no such axis; use one of {axes}</source>
+        <translation>Achse {axis}: Roboter {name} hat keine solche Achse; eine von {axes} verwenden</translation>
+    </message>
+    <message>
+        <source>axis {axis}: the target {position} is not a finite number</source>
+        <translation>Achse {axis}: das Ziel {position} ist keine endliche Zahl</translation>
+    </message>
+    <message>
+        <source>axis {axis}: target {position} is outside its range {low} to {high}; choose a target inside</source>
+        <translation>Achse {axis}: Ziel {position} liegt außerhalb ihres Bereichs {low} bis {high}; ein Ziel innerhalb wählen</translation>
+    </message>
+    <message>
+        <source>axis {axis}: target {position} needs {voltage} V, outside the amplifier&apos;s {low} V to {high} V; choose a target nearer to rest</source>
+        <translation>Achse {axis}: Ziel {position} braucht {voltage} V, außerhalb der {low} V bis {high} V des Verstärkers; ein Ziel näher an der Ruhelage wählen</translation>
+    </message>
+    <message>
+        <source>trajectory: it has no set-point column (axis.cmd); a trajectory needs one at least</source>
+        <translation>Trajektorie: sie hat keine Sollwertspalte (axis.cmd); mindestens eine ist nötig</translation>
+    </message>
+    <message>
+        <source>trajectory: robot {name} has no axis {axis}, only {axes}; rename the column or choose the robot it was made for</source>
+        <translation>Trajektorie: Roboter {name} hat keine Achse {axis}, nur {axes}; die Spalte umbenennen oder den passenden Roboter wählen</translation>
+    </message>
+    <message>
+        <source>trajectory: axis {name} is given in {unit}, but the robot&apos;s moves in {expected}</source>
+        <translation>Trajektorie: Achse {name} ist in {unit} angegeben, die des Roboters bewegt sich in {expected}</translation>
+    </message>
+    <message>
+        <source>trajectory: axis {name} is moved by a force and has no controller in the robot file, so nothing would make it follow; add [axis.{key}.controller]</source>
+        <translation>Trajektorie: Achse {name} wird von einer Kraft bewegt und hat in der Roboterdatei keinen Regler, also folgt sie nicht; [axis.{key}.controller] ergänzen</translation>
+    </message>
+    <message>
+        <source>move or shrink the trajectory so that it stays inside the axis range</source>
+        <translation>die Trajektorie verschieben oder verkleinern, sodass sie im Bereich der Achse bleibt</translation>
+    </message>
+    <message>
+        <source>move or shrink the trajectory so that the amplifier can follow</source>
+        <translation>die Trajektorie verschieben oder verkleinern, sodass der Verstärker folgen kann</translation>
+    </message>
+    <message>
+        <source>{one}, and {other}</source>
+        <translation>{one}, und {other}</translation>
+    </message>
+    <message>
+        <source>stretch its time by a factor of {factor} or more, or smooth it there</source>
+        <translation>ihre Zeit mindestens um den Faktor {factor} strecken oder sie dort glätten</translation>
+    </message>
+    <message>
+        <source>rows are {interval} s apart there and the device holds each, then jumps: resample the trajectory at {rate} Hz (linear or cubic)</source>
+        <translation>dort liegen die Zeilen {interval} s auseinander, das Gerät hält jede und springt dann: die Trajektorie mit {rate} Hz neu abtasten (linear oder kubisch)</translation>
+    </message>
+    <message>
+        <source>trajectory: it cannot begin at {begin_s} s: must be 0 to {time_s} s, before its last row</source>
+        <translation>Trajektorie: sie kann nicht bei {begin_s} s beginnen: muss 0 bis {time_s} s sein, vor ihrer letzten Zeile</translation>
+    </message>
+    <message>
+        <source>trajectory: repeated {times} times: must be 1 to {most_times}</source>
+        <translation>Trajektorie: {times}-mal wiederholt: muss 1 bis {most_times} sein</translation>
+    </message>
+    <message>
+        <source>trajectory: repeated {times} times it has {count} rows: at most {most_rows}; repeat it less often</source>
+        <translation>Trajektorie: {times}-mal wiederholt hat sie {count} Zeilen: höchstens {most_rows}; weniger oft wiederholen</translation>
+    </message>
+    <message>
+        <source>trajectory: axis {axis} ends {apart} from where it begins: it cannot be repeated; lead it back in its file</source>
+        <translation>Trajektorie: Achse {axis} endet {apart} von ihrem Anfang entfernt: sie kann nicht wiederholt werden; in ihrer Datei zurückführen</translation>
+    </message>
+    <message>
+        <source>the model cannot predict its motion: {fault}</source>
+        <translation>das Modell kann die Bewegung nicht vorhersagen: {fault}</translation>
+    </message>
+    <message>
+        <source>trajectory: it was checked for robot {name} with other axes or limits than those of {robot_name}; check it for this one</source>
+        <translation>Trajektorie: geprüft für Roboter {name} mit anderen Achsen oder Grenzen als {robot_name}; für diesen prüfen</translation>
+    </message>
+    <message>
+        <source>the model expects it to swing out by more than {margin} (1 % of the range): smooth or stretch the trajectory, or keep it away from the end of the range</source>
+        <extracomment>How far beyond its range, in shares of it, an axis may be predicted to swing.</extracomment>
+        <translation>das Modell erwartet, dass sie um mehr als {margin} hinausschwingt (1 % des Bereichs): die Trajektorie glätten, strecken oder vom Ende des Bereichs fernhalten</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: the axis stands at {at}; the inverse saw {low} to {high}: move the axis there first</source>
+        <extracomment>In what each axis that has an inverse has gone beyond it; replaced as a whole.</extracomment>
+        <translation>Inverse von Achse {axis}: die Achse steht bei {at}; die Inverse kennt {low} bis {high}: die Achse erst dorthin fahren</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a sweep from {start}: it must begin between {low} and {high}, its range as far as its inverse saw it</source>
+        <translation>Achse {axis}: ein Hub ab {start}: er muss zwischen {low} und {high} beginnen, ihrem Bereich, soweit ihre Inverse ihn kennt</translation>
+    </message>
+    <message>
+        <source>axis {axis}: no sweep between {low} and {high} is free of commands that the machine cannot be told; move the axis to mid-range first</source>
+        <translation>Achse {axis}: kein Hub zwischen {low} und {high} kommt ohne Befehle aus, die der Maschine nicht gegeben werden können; die Achse erst in die Mitte fahren</translation>
+    </message>
+    <message>
+        <source>{name}: a way of {way} on a spring of {spring_hz} Hz is more than the axes can accelerate; use at most {most}, or at most {other} Hz</source>
+        <translation>{name}: ein Weg von {way} an einer Feder von {spring_hz} Hz ist mehr, als die Achsen beschleunigen können; höchstens {most} verwenden oder höchstens {other} Hz</translation>
+    </message>
+    <message>
+        <source>{name}: {speed} within a time constant of {time_constant_s} s is more than the axes can accelerate; use at most {most}, or at least {other} s</source>
+        <translation>{name}: {speed} innerhalb einer Zeitkonstante von {time_constant_s} s ist mehr, als die Achsen beschleunigen können; höchstens {most} verwenden oder mindestens {other} s</translation>
+    </message>
+    <message>
+        <source>there is no move to undo</source>
+        <translation>keine Bewegung zum Zurücknehmen</translation>
+    </message>
+    <message>
+        <source>axis {axis} is no stepper axis; only these have backlash to take up</source>
+        <translation>Achse {axis} ist keine Schrittmotorachse; nur diese haben Spiel, das herauszunehmen ist</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a width of {width}: must be above 0 and at most {most}, a hundredth of the range</source>
+        <translation>Achse {axis}: eine Weite von {width}: muss über 0 und höchstens {most} sein, ein Hundertstel des Bereichs</translation>
+    </message>
+    <message>
+        <source>axis {axis}: the one-sided approach to {target} begins at {begin}, outside of {low} to {high}; stay {width} away from that end, or switch the approach off</source>
+        <translation>Achse {axis}: die einseitige Anfahrt zu {target} beginnt bei {begin}, außerhalb von {low} bis {high}; {width} Abstand von diesem Ende halten, oder die Anfahrt ausschalten</translation>
+    </message>
+    <message>
+        <source>{error}; the one-sided approach begins there: take the other side, or switch it off</source>
+        <translation>{error}; dort beginnt die einseitige Anfahrt: die andere Seite nehmen, oder sie ausschalten</translation>
+    </message>
+    <message>
+        <source>the device has sent nothing yet; wait, or reconnect</source>
+        <translation>das Gerät hat noch nichts gesendet; warten, oder neu verbinden</translation>
+    </message>
+    <message>
+        <source>axis {axis} is compensated, which sets its voltage; take the inverse off</source>
+        <translation>Achse {axis} ist kompensiert, das setzt ihre Spannung; erst die Inverse abnehmen</translation>
+    </message>
+    <message>
+        <source>cannot change a compensation while it moves; stop it or wait</source>
+        <extracomment>The axes whose switches were looked for last.</extracomment>
+        <translation>eine Kompensation lässt sich nicht während einer Bewegung ändern; anhalten oder warten</translation>
+    </message>
+    <message>
+        <source>cells: nobody knows where the axes are; home them, or reconnect</source>
+        <translation>Zellen: niemand weiß, wo die Achsen sind; referenzieren, oder neu verbinden</translation>
+    </message>
+    <message>
+        <source>cells: the list has {most}; remove one</source>
+        <translation>Zellen: die Liste hat {most}; eine entfernen</translation>
+    </message>
+    <message>
+        <source>axis {axis} stands at {at}, outside of {low} to {high}; move it there first</source>
+        <translation>Achse {axis} steht bei {at}, außerhalb von {low} bis {high}; sie erst dorthin fahren</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a range from {low} to {high}: its low end must be lower</source>
+        <translation>Achse {axis}: ein Bereich von {low} bis {high}: das untere Ende muss kleiner sein</translation>
+    </message>
+    <message>
+        <source>axis {axis}: target {target} is outside of {low} to {high}, to which its range was narrowed; choose a target inside, or widen it in Control, Axes</source>
+        <translation>Achse {axis}: Ziel {target} liegt außerhalb von {low} bis {high}, worauf ihr Bereich eingeengt ist; ein Ziel darin wählen, oder ihn unter Steuerung, Achsen erweitern</translation>
+    </message>
+    <message>
+        <source>z-stack: a step of {step}: must be above 0 µm</source>
+        <translation>Z-Stapel: ein Schritt von {step}: muss über 0 µm sein</translation>
+    </message>
+    <message>
+        <source>z-stack: {count} pictures: at most {most}; take a larger step</source>
+        <translation>Z-Stapel: {count} Bilder: höchstens {most}; einen größeren Schritt nehmen</translation>
+    </message>
+    <message>
+        <source>z-stack: there is no picture; open a camera</source>
+        <translation>Z-Stapel: es gibt kein Bild; eine Kamera öffnen</translation>
+    </message>
+    <message>
+        <source>z-stack: {count} pictures of {each} MB: at most {most} MB together; take a larger step, or a part of the sensor</source>
+        <translation>Z-Stapel: {count} Bilder zu {each} MB: zusammen höchstens {most} MB; einen größeren Schritt nehmen, oder einen Teil des Sensors</translation>
+    </message>
+    <message>
+        <source>{path}: its contents are not those of the record {name}; choose the file that was moved</source>
+        <translation>{path}: Der Inhalt ist nicht der der Aufzeichnung {name}; wählen Sie die Datei, die verschoben wurde</translation>
+    </message>
+    <message>
+        <source>{path}: {rows} samples are too many to be taken as one record (at most {most}); export a stretch of it in the panel Recorder</source>
+        <translation>{path}: {rows} Abtastwerte sind zu viele für eine Aufzeichnung (höchstens {most}); exportieren Sie einen Abschnitt im Panel Rekorder</translation>
+    </message>
+    <message>
+        <source>{path}: it cannot be deleted ({reason}); let this user write there</source>
+        <translation>{path}: Die Datei lässt sich nicht löschen ({reason}); geben Sie diesem Benutzer dort Schreibrecht</translation>
+    </message>
+    <message>
+        <source>{path}: the library of records cannot be used ({reason}); make room, or let this user write there. The records themselves are untouched</source>
+        <translation>{path}: Die Bibliothek der Aufzeichnungen ist nicht benutzbar ({reason}); schaffen Sie Platz, oder geben Sie diesem Benutzer dort Schreibrecht. Die Aufzeichnungen selbst sind unberührt</translation>
+    </message>
+    <message>
+        <source>{path}: the library of records is of version {version}, this program uses {own}: start the newer program, or move the file away; the records are then listed anew, without the names and notes that were typed</source>
+        <translation>{path}: Die Bibliothek der Aufzeichnungen hat Version {version}, dieses Programm benutzt {own}: Starten Sie das neuere Programm, oder verschieben Sie die Datei; die Aufzeichnungen werden dann neu aufgelistet, ohne eingegebene Namen und Notizen</translation>
+    </message>
+    <message>
+        <source>{path}: the library of records was damaged; it is kept as {aside}. The records are listed anew from their files, without the names and notes that were typed</source>
+        <translation>{path}: Die Bibliothek der Aufzeichnungen war beschädigt; sie ist als {aside} aufbewahrt. Die Aufzeichnungen sind aus ihren Dateien neu aufgelistet, ohne eingegebene Namen und Notizen</translation>
+    </message>
+    <message>
+        <source>preference {key} = {text}: {error}</source>
+        <translation>Einstellung {key} = {text}: {error}</translation>
+    </message>
+    <message>
+        <source>set-point {index}: differences {values}: 32 and 24 bits at most</source>
+        <translation>Sollwert {index}: Differenzen {values}: höchstens 32 und 24 Bit</translation>
+    </message>
+    <message>
+        <source>set-point: {count} bytes: must be {size} an axis</source>
+        <translation>Sollwert: {count} Byte: müssen {size} je Achse sein</translation>
+    </message>
+    <message>
+        <source>profile, segments {values}: a number does not fit</source>
+        <translation>Profil, Segmente {values}: eine Zahl passt nicht</translation>
+    </message>
+    <message>
+        <source>profile: {size} bytes: must be {quadratic_size} a segment</source>
+        <translation>Profil: {size} Byte: müssen {quadratic_size} je Segment sein</translation>
+    </message>
+    <message>
+        <source>profile of {count} ticks: a board counts {most} at most; make it shorter</source>
+        <translation>Profil von {count} Takten: eine Karte zählt höchstens {most}; verkürzen</translation>
+    </message>
+</context>
+</TS>
