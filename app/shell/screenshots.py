@@ -39,9 +39,10 @@ def main(folder: Path) -> int:
         window.show()
         window.workbench.start()
         window.panels.make_all()
+        window.panels["plate"].solve()
         tell_the_story(window, worn_effects(robot))
-        while window.workbench.busy:  # panels that work on what was played
-            QApplication.processEvents()
+        while window.workbench.busy or window.panels["plate"].solved is None:
+            QApplication.processEvents()  # panels that work on what was played
         window.panels["gap"].tabs.setCurrentIndex(2)  # how far the gap shrinks
         window.workbench.emergency_stop()
         window.workbench.refreshed.emit(window.workbench.session.snapshot())

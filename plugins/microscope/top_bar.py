@@ -1,6 +1,7 @@
 """Above the picture: what the left button does, zoom, and the tools beside the picture."""
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
 from rotemina.app.shell.language import marked, translate
@@ -33,12 +34,15 @@ TOOLS = {
 }
 
 
+_WIDEST_ZOOM = "8888 %"
+
+
 class TopBar(QWidget):
     """One button for each thing that a click can do, at most one of them pressed.
 
     Signals
     -------
-    chosen(Hand) : somebody wants the left button to do this.
+    chosen(PointerTool) : somebody wants the left button to do this.
     """
 
     chosen = Signal(object)
@@ -61,6 +65,7 @@ class TopBar(QWidget):
         row.addStretch(1)
         self.zoom = QLabel()
         self.zoom.setProperty("quiet", True)
+        self.zoom.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.fit = button(
             translate("microscope", "Fit"),
             view.show_fitted,
@@ -77,6 +82,11 @@ class TopBar(QWidget):
         for widget in (self.zoom, self.fit, self.one, self.tools):
             row.addWidget(widget)
         view.zoomed.connect(lambda: self._show_zoom(view))
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
+        """Leave room for any zoom, so that the first picture moves nothing."""
+        self.zoom.setMinimumWidth(self.zoom.fontMetrics().horizontalAdvance(_WIDEST_ZOOM))
+        super().showEvent(event)
 
     def _show_zoom(self, view: PictureView) -> None:
         """Show how large the picture is; before the first one there is nothing to tell."""
