@@ -52,6 +52,7 @@ class Observation:
     signals that are this record's own, in whatever amount, beside its offset. Of a tap that reads
     in coarse steps ``cell`` is their width, SI: there, only what lies beyond a cell is a gap.
     ``origin``, m or rad, is where the record begins to count its place, as others count it.
+    ``weight`` (n,) per tap says by how much rows count, 1 where a tap is missing.
     """
 
     record: Record
@@ -61,6 +62,7 @@ class Observation:
     nuisance: FloatArray | None = None
     cell: Mapping[Tap, float] = field(default_factory=dict)
     origin: float = 0.0
+    weight: Mapping[Tap, FloatArray] = field(default_factory=dict)
 
     @property
     def taps(self) -> tuple[Tap, ...]:
@@ -148,6 +150,12 @@ class Evidence:
         ]
         return float(np.sqrt(np.mean(np.square(floors))))
 
+    def unweighted(self) -> "Evidence":
+        """Return the same evidence with all rows counting alike."""
+        if not any(one.weight for one in self.observations):
+            return self
+        return self.with_observations([replace(one, weight={}) for one in self.observations])
+
     @property
     def in_cells(self) -> bool:
         """Whether coarse readings of any record count by their cells."""
@@ -199,14 +207,17 @@ class Evidence:
         """Remove what is the record's own: its offset, and further signals."""
         observation = self.observations[number]
         kept = observation.kept.get(tap)
-        if kept is None and observation.nuisance is None:
+        weight = observation.weight.get(tap)
+        if kept is None and observation.nuisance is None and weight is None:
             return np.asarray(_centred(gap) + self._constant(tap, gap))
         key = number, tap
         if key not in self._own:
-            self._own[key] = _own_signals(observation, kept, len(gap))
+            self._own[key] = _own_signals(observation, kept, weight, len(gap))
         basis = self._own[key]
         if kept is not None:
             gap = np.where(kept, gap, 0.0)
+        if weight is not None:
+            gap = gap * weight
         return np.asarray(gap - basis @ (basis.T @ gap) + self._constant(tap, gap))
 
     def _constant(self, tap: Tap, gap: FloatArray) -> float:
@@ -371,7 +382,9 @@ def _amounts(signals: Sequence[FloatArray], gap: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.solve(r, q[: len(gap)].T @ gap))
 
 
-def _own_signals(observation: Observation, kept: BoolArray | None, rows: int) -> FloatArray:
+def _own_signals(
+    observation: Observation, kept: BoolArray | None, weight: FloatArray | None, rows: int
+) -> FloatArray:
     """Return an orthonormal basis (n, m) of a record's nuisances over the rows that are kept."""
     signals = [np.ones((rows, 1))]
     if observation.nuisance is not None:
@@ -379,6 +392,8 @@ def _own_signals(observation: Observation, kept: BoolArray | None, rows: int) ->
     together = np.hstack(signals)
     if kept is not None:
         together = together * kept[:, None]
+    if weight is not None:
+        together = together * weight[:, None]
     return np.asarray(np.linalg.qr(together)[0])
 
 

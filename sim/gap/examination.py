@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -19,12 +20,19 @@ from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap, set_aside
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.many_modes import many_modes
-from rotemina.sim.gap.models import Explanation, explain, mean_squares, untouched
+from rotemina.sim.gap.models import (
+    Explanation,
+    counted_in,
+    explain,
+    mean_squares,
+    untouched,
+)
 from rotemina.sim.gap.origins import with_origins
 from rotemina.sim.gap.probe import Probe, probed
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.richness import is_poor
-from rotemina.sim.gap.rivals import not_ruled_out
+from rotemina.sim.gap.rivals import Key, not_ruled_out
+from rotemina.sim.gap.row_weights import huber_weighted
 from rotemina.sim.gap.selection import (
     CLEARLY,
     LEAST_POWER,
@@ -63,7 +71,8 @@ class Examination:
     ``evidence`` is without what was set aside, and ``declared`` the noise floor of each tap, SI,
     before that raised it; ``disturbances`` are what of it counts. The fit
     of ``best`` may hold more than its causes: what corrects the model further but is too small, or
-    too much like something else, to be named. ``probe`` tells what is left of it depends on, and
+    too much like something else, to be named. ``alike`` are the
+    effects that cannot be told from each cause. ``probe`` tells what is left of it depends on, and
     ``black_box`` is fitted to the raw gap instead. In ``steps`` the corrected model reads.
     """
 
@@ -74,6 +83,7 @@ class Examination:
     best: Explanation
     verdict: Verdict
     ranked: Ranking
+    alike: Mapping[Key, tuple[str, ...]]
     probe: Probe
     black_box: Probe
     steps: tuple[AxisEffect, ...] = ()
@@ -107,51 +117,72 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     evidence, aside, selection, best = _without_false_cells(
         whole, (evidence, aside, selection, best), account, jobs
     )
+    evidence, aside, selection, best = _with_even_rows(
+        whole, (evidence, aside, selection, best), account, jobs
+    )
     aside = tuple(one for one in aside if not _was_explained(whole, evidence, best, one))
     account.tell("deciding", None)
+    plain = evidence.unweighted()
+    shown = partial(counted_in, plain, evidence)
     drift = wander(evidence, best.fit.residual)
-    disturbances = _counting(whole, evidence, best, aside, drift)
+    disturbances = _counting(whole, plain, shown(best), aside, drift)
     found, aside_at = best, _aside_at(whole, evidence, disturbances)
     best, ranked = contested(evidence, selection, best, aside_at, wanders=drift is not None)
     if best is not found:
         # What a cause that does not stand had bent away of it is the sensor's wander as well.
         drift = wander(evidence, best.fit.residual) or drift
-        disturbances = _counting(whole, evidence, best, aside, drift)
+        disturbances = _counting(whole, plain, shown(best), aside, drift)
     if drift is None:
         best, ranked = accompanied(evidence, best, ranked, selection.raw, account, jobs=jobs)
-    power = sum(one.power for one in disturbances if one.sign is not Sign.WANDER)
-    ambiguous = [not_ruled_out(ranked[key], key, selection.raw) for key in best.ids]
-    wandered = 0.0
-    if drift is not None and any(one.sign is Sign.WANDER for one in disturbances):
-        wandered = drift.power
-    black_box = probed(evidence, evidence.residual())
+    alike = {key: not_ruled_out(ranked[key], key, selection.raw) for key in best.ids}
     poor = is_poor(whole) and not disturbances
-    by_tap = max(closed(raw, best.by_tap[tap]) for tap, raw in selection.bare.by_tap.items())
-    left = max(best.score - wandered, 1.0)
-    verdict = decide(
-        Closing(selection.raw + power, left, black_box.score, by_tap),
-        ambiguous,
-        poor=poor,
-        sure=is_sure(
-            evidence,
-            [ranked[key] for key in best.ids],
-            [() for _ in best.ids] if poor else ambiguous,  # a poor motion makes sets large
-        ),
+    sure = is_sure(
+        evidence,
+        [ranked[key] for key in best.ids],
+        [() if poor else alike[key] for key in best.ids],  # a poor motion makes sets large
     )
+    bare = selection.bare if plain is evidence else untouched(plain)
+    black_box = probed(plain, plain.residual())
+    closing = _closing(bare, shown(best), black_box, disturbances, drift)
+    verdict = decide(closing, list(alike.values()), poor=poor, sure=sure)
     if verdict in CORRECTING and drift is None:
         best = with_retained(evidence, best, *_fullest(selection, best))
     steps = _stepped(whole, best, disturbances) if verdict in CORRECTING else ()
+    best = shown(best)
     return Examination(
-        evidence,
+        plain,
         _floors(whole),
         disturbances,
-        selection,
+        replace(selection, bare=bare, retuned=shown(selection.retuned)),
         best,
         verdict,
-        ranked,
-        probed(evidence, best.held_out),
+        {
+            key: tuple(replace(one, explanation=shown(one.explanation)) for one in own)
+            for key, own in ranked.items()
+        },
+        alike,
+        probed(plain, best.held_out),
         black_box,
         steps,
+    )
+
+
+def _closing(
+    bare: Explanation,
+    best: Explanation,
+    black_box: Probe,
+    disturbances: Sequence[Disturbance],
+    drift: Disturbance | None,
+) -> Closing:
+    """Return how far the gap closes, a wander and what else was set aside taken into account."""
+    power = sum(one.power for one in disturbances if one.sign is not Sign.WANDER)
+    wanders = drift is not None and any(one.sign is Sign.WANDER for one in disturbances)
+    wandered = drift.power if drift is not None and wanders else 0.0
+    return Closing(
+        bare.score + power,
+        max(best.score - wandered, 1.0),
+        black_box.score,
+        max(closed(raw, best.by_tap[tap]) for tap, raw in bare.by_tap.items()),
     )
 
 
@@ -248,6 +279,20 @@ def _without_false_cells(whole: Evidence, first: _Found, account: Account, jobs:
     return evidence, aside, *_explained(whole, evidence, aside, account, jobs)
 
 
+def _with_even_rows(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
+    """Return what is found once no rows count by more than what is left around them.
+
+    What is left where the machine does most else may decide for causes that only bend to it. Rows
+    that count less show less: they speak against no cause that all rows show.
+    """
+    evidence, aside, _, best = first
+    even = huber_weighted(evidence, best.held_out)
+    if even is None:
+        return first
+    selection, other = _explained(whole, even, aside, account, jobs)
+    return first if set(best.ids) >= set(other.ids) else (even, aside, selection, other)
+
+
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
     """Tell whether disturbances are others than before, or clearly more of them."""
     known = {one.sign: one.power for one in before}
@@ -294,12 +339,15 @@ def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
     bare = untouched(evidence)
     selection = Selection(bare, explain(evidence, ()), modal, (modal,))
     best, ranked = modal, rivals_of(evidence, selection, modal)
+    alike = {key: not_ruled_out(ranked[key], key, selection.raw) for key in best.ids}
     black_box = probed(evidence, evidence.residual())
     closing = Closing(selection.raw, max(best.score, 1.0), black_box.score)
     verdict = decide(closing, (), poor=False, sure=True)
     probe = probed(evidence, best.held_out)
     floors = _floors(evidence)
-    return Examination(evidence, floors, (), selection, best, verdict, ranked, probe, black_box)
+    return Examination(
+        evidence, floors, (), selection, best, verdict, ranked, alike, probe, black_box
+    )
 
 
 def _floors(evidence: Evidence) -> dict[Tap, float]:
@@ -312,6 +360,8 @@ def _explained(
     aside: Sequence[Disturbance],
     account: Account,
     jobs: int,
+    *,
+    known: Sequence[AxisEffect] = (),
 ) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
@@ -323,7 +373,7 @@ def _explained(
         tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
         for tap, power in power_by_tap(whole, leaving).items()
     }
-    selection = select(evidence, account, power, jobs=jobs)
+    selection = select(evidence, account, power, known=known, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
 
 

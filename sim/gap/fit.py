@@ -221,14 +221,16 @@ def _fitted(effects: Sequence[AxisEffect], free: tuple[Free, ...], found: Descen
     return Fit(own, free, found.x, found.residual, found.jacobian, found.fresh)
 
 
-def held_out(evidence: Evidence, fitted: Fit) -> FloatArray:
+def held_out(evidence: Evidence, fitted: Fit, shown: Evidence | None = None) -> FloatArray:
     """Return what is left (rows,) of each record by a fit to all the others.
 
     Each fit is one Gauss-Newton step away from the fit to all. Directions in which the other
     records say hardly anything stay where they are. A single record is left out by quarters.
+    What is left counts as in the evidence that was fitted to, or as in what is ``shown`` instead.
     """
+    shown = shown or evidence
     if not fitted.free:
-        return fitted.residual
+        return fitted.residual if shown is evidence else residual_of(shown, fitted.effects)
     low, high, _ = bounds(fitted.free)
     left = fitted.residual.copy()
     hessian = fitted.jacobian.T @ fitted.jacobian
@@ -241,13 +243,17 @@ def held_out(evidence: Evidence, fitted: Fit) -> FloatArray:
             x = _bounded_minimum(known, slope - jacobian.T @ residual, fitted.x, low, high)
         except NUMERICAL as error:
             return lost(evidence, fitted.effects, error).residual
-        then = _kept_down(evidence, fitted, x, rows)
+        x, then = _kept_down(evidence, fitted, x, rows)
+        if shown is not evidence:
+            then = residual_of(shown, fitted.effects, fitted.free, x)
         left[rows] = then[rows]
     return left
 
 
-def _kept_down(evidence: Evidence, fitted: Fit, x: FloatArray, out: BoolArray) -> FloatArray:
-    """Return the residual (rows,) at ``x``, or nearer the fit where ``x`` went astray.
+def _kept_down(
+    evidence: Evidence, fitted: Fit, x: FloatArray, out: BoolArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return ``x`` and the residual (rows,) there, or nearer the fit where ``x`` went astray.
 
     A step is one towards a better fit of the rows that are not ``out``, which it must not make
     much worse: what is far from linear does not lie where its tangent points.
@@ -257,8 +263,8 @@ def _kept_down(evidence: Evidence, fitted: Fit, x: FloatArray, out: BoolArray) -
         there = fitted.x + share * (x - fitted.x)
         then = residual_of(evidence, fitted.effects, fitted.free, there)
         if float(np.sum(then[~out] ** 2)) <= _ASTRAY * known:
-            return then
-    return fitted.residual
+            return there, then
+    return fitted.x, fitted.residual
 
 
 def _bounded_minimum(

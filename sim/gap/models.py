@@ -1,7 +1,7 @@
 """Explanations of an axis' gap: causes, fitted together with the model's own parameters."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -60,6 +60,17 @@ def explanation(evidence: Evidence, causes: int, fitted: Fit) -> Explanation:
     """Judge a fit whose first few effects are causes on data that it did not see."""
     left = held_out(evidence, fitted)
     return Explanation(fitted.effects[:causes], fitted, left, mean_squares(evidence, left))
+
+
+def counted_in(shown: Evidence, evidence: Evidence, one: Explanation) -> Explanation:
+    """Return an explanation with what it leaves as that counts in other evidence.
+
+    Both are of the same records; only the weights of their rows differ.
+    """
+    if shown is evidence:
+        return one
+    left = held_out(evidence, one.fit, shown)
+    return replace(one, held_out=left, by_tap=mean_squares(shown, left))
 
 
 def untouched(evidence: Evidence) -> Explanation:

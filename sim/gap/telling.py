@@ -25,7 +25,7 @@ from rotemina.sim.gap.evidence import Evidence, Part, block_rows
 from rotemina.sim.gap.examination import Examination
 from rotemina.sim.gap.models import Explanation
 from rotemina.sim.gap.origins import origin_remarks
-from rotemina.sim.gap.rivals import not_ruled_out, paired_blocks, probability
+from rotemina.sim.gap.rivals import paired_blocks, probability
 from rotemina.sim.gap.selection import NOTICED
 from rotemina.sim.gap.shrinkage import LeftBy, at_tap, closing, rms, shrinkage
 from rotemina.sim.gap.where import Place
@@ -144,7 +144,7 @@ def _cause(
         tap=tap,
         from_axis=asked.from_axis,
         probability=_trust(examination) * probability(ranked, key),
-        ambiguous_with=not_ruled_out(ranked, key, examination.selection.raw),
+        ambiguous_with=examination.alike[key],
         gap_before=floor * rms(before[shown]),
         gap_after=floor * rms(best.held_out[shown]),
         closed=share,

@@ -23,7 +23,9 @@ _PLAIN = 0.7  # the same, below which they may be but what bends to anything, un
 _MOST_RIVALS = 4  # from which a set tells nothing
 _SURE = 0.9  # weight of a cause among its rivals, that no poor motion makes doubtful
 _AS_WELL = 1.05  # times what a black box leaves
-_LARGER = 4.0  # times the power that is left: twice its rms, of a cause beside others
+_LARGER = (
+    2.5  # times the power that is left, of a cause beside others: it takes 70 % of the rest away
+)
 _LIKELY = 0.5  # weight of a cause beside others
 _VOUCHES = 1.25  # times what causes leave, beyond which a black box knows too little to compare
 

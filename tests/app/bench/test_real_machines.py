@@ -16,6 +16,8 @@ HOLDS = {
     "emps": (True, True, 0.95),
     "kuka1_twist": (True, True, 1.0),
     "kuka2_twist": (True, True, 1.05),
+    "so101_rotation": (True, True, 1.0),
+    "so101_wrist_pitch": (True, True, 1.1),
     "worm_ap": (True, True, 1.1),
 }
 
