@@ -280,7 +280,7 @@ class Player:
         """Return positions (n,) of an axis in whole steps, inside its ends."""
         _, axis = self._places[index]
         steps = np.rint(values / axis.step).astype(np.int64)
-        return np.clip(steps, *self._ends[axis.name])
+        return np.asarray(np.clip(steps, *self._ends[axis.name]))
 
     def _check(self, trajectory: Record, speeds: Mapping[str, int], period_s: float) -> None:
         """Refuse a trajectory whose set-points lie farther apart than a board lets them."""
