@@ -10,6 +10,7 @@ from math import ceil
 
 import numpy as np
 
+from rotemina.drivers.errors import LimitError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board, BoardSample
 from rotemina.drivers.mc68hc11.budget import ROWS
@@ -18,9 +19,10 @@ from rotemina.drivers.mc68hc11.dialogue import Request
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.orders import constant
 from rotemina.drivers.mc68hc11.requests import BeginStream, MoveTo, SetPoint
-from rotemina.drivers.mc68hc11.setpoints import SetpointWindow
-from rotemina.sim.arrays import IntArray
-from rotemina.sim.messages import message
+from rotemina.drivers.mc68hc11.setpoints import MOST_WAY, ROUNDING, SetpointWindow
+from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.messages import AxisName, message
+from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.schedule import Schedule
 
@@ -29,6 +31,7 @@ _AHEAD = QUEUE - 1  # segments that wait in a board: its clock may be one behind
 # then is not late either.
 _LEAD, _LEAD_S = 24, 0.3  # set-points, and time
 _CHUNK = 256
+_CHECKED = 1 << 16  # set-points looked at in one go
 _CLIP = 1 << 15  # steps: a deviation that telemetry cannot tell
 
 Steps = tuple[tuple[int, ...], ...]  # of each board
@@ -50,7 +53,7 @@ class Player:
         Inside every limit.
     boards : sequence of Board
     speeds : mapping
-        Greatest speed of each axis, steps/s, for the approach.
+        Greatest speed of each axis, steps/s.
     ends : mapping
         First and last step of each axis.
     settle_s : float
@@ -59,6 +62,11 @@ class Player:
         What all that it sends passes the gate with.
     every : int
         Of how many sampling instants one is that of a set-point.
+
+    Raises
+    ------
+    LimitError
+        If a board would refuse a set-point; nothing was asked of any board then.
     """
 
     def __init__(
@@ -83,8 +91,10 @@ class Player:
         self._lead = max(_LEAD, ceil(_LEAD_S / period_s))
         self._schedule = Schedule(trajectory, names, period_s, on_ticks=True)
         self._first = {
-            index: self._steps_of(index, at) for index, at in self._schedule.first.items()
+            index: int(self._steps_of(index, np.array(at)))
+            for index, at in self._schedule.first.items()
         }
+        self._check(trajectory, speeds, period_s)
         self._settle_s = settle_s
         self._phase = _Phase.APPROACH
         self._rested_s = 0.0
@@ -259,17 +269,48 @@ class Player:
         stand = [step for own in self._stand for step in own]
         steps = np.tile(np.array(stand, dtype=np.int64), (len(commands), 1))
         for index in self._first:
-            steps[:, index] = [self._steps_of(index, float(at)) for at in commands[:, index]]
+            steps[:, index] = self._steps_of(index, commands[:, index])
         parts, begin = [], 0
         for board in self._boards:
             parts.append(steps[:, begin : begin + len(board.axes)])
             begin += len(board.axes)
         return parts, np.where(instants.on_row, instants.row, -1)
 
-    def _steps_of(self, index: int, value: float) -> int:
+    def _steps_of(self, index: int, values: FloatArray) -> IntArray:
+        """Return positions (n,) of an axis in whole steps, inside its ends."""
         _, axis = self._places[index]
-        low, high = self._ends[axis.name]
-        return min(max(axis.steps(value), low), high)
+        steps = np.rint(values / axis.step).astype(np.int64)
+        return np.asarray(np.clip(steps, *self._ends[axis.name]))
+
+    def _check(self, trajectory: Record, speeds: Mapping[str, int], period_s: float) -> None:
+        """Refuse a trajectory whose set-points lie farther apart than a board lets them."""
+        count, none = self._schedule.count, np.zeros(len(self._places))
+        for begin in range(0, count - 1, _CHECKED):
+            instants = self._schedule.instants(begin, begin + _CHECKED + 1)
+            commands = self._schedule.commands(instants.row, none)
+            for index in self._first:
+                _, axis = self._places[index]
+                ways = np.abs(np.diff(self._steps_of(index, commands[:, index])))
+                at = int(np.argmax(ways))
+                most = min(speeds[axis.name] * period_s + ROUNDING, MOST_WAY)
+                if ways[at] > most:
+                    way, bound = axis.step * float(ways[at]), axis.step * most
+                    unit = trajectory.units[axis.name]
+                    raise LimitError(
+                        message(
+                            "engine",
+                            "axis {axis}: the set-points around t = {time} s lie {value} apart, "
+                            "beyond the limit {bound} in {period}; give a row every {period}, or "
+                            "stretch the trajectory's time by a factor of {factor} or more",
+                        ).fill(
+                            axis=AxisName(axis.name),
+                            time=rounded(trajectory.time_s[0] + instants.time_s[at + 1], 6),
+                            value=exact(way, unit, size=bound),
+                            bound=exact(bound, unit),
+                            period=exact(period_s, "s"),
+                            factor=rounded(way / bound, 3),
+                        )
+                    )
 
 
 def _is_told(part: BoardSample, sent: tuple[int, ...]) -> bool:

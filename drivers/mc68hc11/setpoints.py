@@ -10,6 +10,8 @@ from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.reports import Refused, Telemetry
 from rotemina.drivers.mc68hc11.requests import SetPoint
 
+MOST_WAY = ((1 << 23) - 1) // 2  # steps between two set-points: a second difference is two of them
+ROUNDING = 1.0  # steps between two set-points beyond the greatest speed: each is a whole step
 UNDER_WAY = 8  # segments that telemetry has not told of: some adapters hand it on every 16 ms only
 _INDICES = 256
 _AGAIN = (Refusal.OUT_OF_ORDER, Refusal.QUEUE_FULL)

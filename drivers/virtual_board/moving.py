@@ -9,6 +9,7 @@ from rotemina.drivers.mc68hc11 import requests
 from rotemina.drivers.mc68hc11.codes import SEGMENTS, Fault, Refusal
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.parameters import CODES
+from rotemina.drivers.mc68hc11.setpoints import ROUNDING
 from rotemina.drivers.virtual_board.firmware import Firmware
 from rotemina.drivers.virtual_board.homing import HomingAxis
 from rotemina.drivers.virtual_board.refusal import (
@@ -23,7 +24,6 @@ from rotemina.sim.arrays import IntArray
 
 _MS_US = 1000
 MOST_FRACTION = 16  # binary digits behind the point of a step
-_ROUNDING = 1.0  # steps from one command to the next, that whole steps may make
 
 
 def _move_to(board: Firmware, asked: requests.MoveTo) -> None:
@@ -81,17 +81,16 @@ def _set_point(board: Firmware, asked: requests.SetPoint) -> None:
 
 
 def _too_fast(board: Firmware, steps: IntArray) -> bool:
-    """Return whether an axis does not get from one command (n, axes) to the next.
+    """Return whether an axis does not get from one command (n, axes) to the next in its ticks.
 
-    The first of a stream is where the axes stand. Twice the greatest speed is let pass: of rows
-    that lie between two commands both may act at once.
+    The first of a stream is where the axes stand.
     """
     stream = board.stream
     ways = np.abs(np.diff(np.vstack((stream.latest, steps)), axis=0))
     ticks = np.full((len(ways), 1), stream.hold)
     ticks[0] = stream.hold if stream.begun else 1
-    speeds = [2.0 * board.kept.speed(axis) * board.tick_s for axis in range(len(board.axes))]
-    return bool((ways > ticks * np.array(speeds) + _ROUNDING).any())
+    speeds = np.array([board.kept.speed(axis) for axis in range(len(board.axes))])
+    return bool((ways > speeds * ticks * board.tick_s + ROUNDING).any())
 
 
 def _set_voltage(board: Firmware, asked: requests.SetVoltage) -> None:
@@ -132,8 +131,8 @@ def _arm_profile(board: Firmware, asked: requests.ArmProfile) -> None:
     demand(profile.complete, Refusal.OUT_OF_ORDER)
     demand_free(board)
     demand(asked.trigger in (0, 1) and asked.check == profile.check, Refusal.BAD_VALUE)
-    most = board.kept.speed(profile.axis) * board.tick_s
-    demand(profile.greatest_speed() <= most + _ROUNDING, Refusal.BAD_VALUE)
+    most = board.kept.speed(profile.axis) * board.tick_s + ROUNDING
+    demand(profile.greatest_speed() <= most, Refusal.BAD_VALUE)
     profile.trigger = asked.trigger
 
 

@@ -2,8 +2,9 @@
 
 What an axis remembers from before an unknown history is the record's own. It is taken to lie
 somewhere between extremes: the axis was long at the low or at the high end of its range until a row
-before the first one, or has come slowly from the high end. How the answers to these differ from the
-answer to a rest at the first command are nuisances of the record, in amounts of about one.
+before the first one, or has come slowly from the high end; or it has come to rest in swings that
+died away, as after a record before. How the answers to these differ from the answer to a rest at
+the first command are nuisances of the record, in amounts of about one.
 """
 
 from collections.abc import Iterator
@@ -11,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.history import measured_start, steady_start
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.run import Run
@@ -18,7 +20,8 @@ from rotemina.sim.plant.state import PlantState
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import ForceAxis
 
-_FALL_S, _FALL_ROWS = 2.0, 200  # from the high end, the last half of it at the first command
+_WAY_S, _WAY_ROWS = 2.0, 200  # to the first command, the last half of it there
+_SWINGS = 8  # that die away on it
 
 
 def start(plant: Plant, record: Record, run: Run) -> PlantState:
@@ -50,20 +53,22 @@ def other_starts(plant: Plant, record: Record, run: Run, axis: str) -> Iterator[
         command = np.array(run.command[0])
         command[plant.axes.index(axis)] = end
         yield plant.at_rest(before_s, command)
-    yield _fallen(plant, run, axis)
+    left = np.maximum(1.0 - np.linspace(0.0, 2.0, _WAY_ROWS), 0.0)
+    swings = 0.5 * left * np.cos(2.0 * np.pi * _SWINGS * left)
+    column = plant.axes.index(axis)
+    first, high, span = run.command[0, column], described.range[1], described.span
+    yield _come(plant, run, column, first + left * (high - first))
+    yield _come(plant, run, column, np.clip(first + span * swings, *described.range))
 
 
-def _fallen(plant: Plant, run: Run, axis: str) -> PlantState:
-    """Return the state of an axis that has come slowly from the high end of its range.
+def _come(plant: Plant, run: Run, column: int, way: FloatArray) -> PlantState:
+    """Return the state of an axis that has come slowly along a way (n,) to the first command.
 
     It remembers that, and rings no more.
     """
-    time_s = run.time_s[0] + np.linspace(-_FALL_S, 0.0, _FALL_ROWS + 1)[:-1]
-    command = np.tile(run.command[0], (_FALL_ROWS, 1))
-    column = plant.axes.index(axis)
-    high = plant.robot.axes[axis].range[1]
-    way = np.minimum(np.linspace(0.0, 2.0, _FALL_ROWS), 1.0)
-    command[:, column] = high + way * (run.command[0, column] - high)
+    time_s = run.time_s[0] + np.linspace(-_WAY_S, 0.0, len(way) + 1)[:-1]
+    command = np.tile(run.command[0], (len(way), 1))
+    command[:, column] = way
     _, after = plant.advance(plant.at_rest(time_s[0], command[0]), time_s, command)
     elapsed_s = float(time_s[-1] - run.time_s[0])
     return replace(after, elapsed_s=elapsed_s, seen=after.seen + (elapsed_s - after.elapsed_s))

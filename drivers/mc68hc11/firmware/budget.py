@@ -56,11 +56,15 @@ PATHS = {
     "zero taken apart": Path(("take_byte", "take_stretch")),
     "byte checked and stuffed": Path(("put_byte", "put_plain")),
     "zero checked and stuffed": Path(("put_byte", "put_stretch")),
-    "tick, micro": Path(("isr_tick", "step_axes", "micro_out"), interrupt=True),
-    "tick, nano": Path(("isr_tick", "step_axes", "nano_out"), interrupt=True),
+    "tick, row held": Path(("isr_held", "held"), interrupt=True),
+    "tick, row begun, micro": Path(("isr_held", "row_axes", "micro_row"), interrupt=True),
+    "tick, row begun, nano": Path(("isr_held", "row_axes", "nano_out"), interrupt=True),
+    "tick, led, micro": Path(("isr_tick", "step_axes", "micro_out"), interrupt=True),
+    "tick, led, nano": Path(("isr_tick", "step_axes", "nano_out"), interrupt=True),
     "step edge": Path(("isr_edge",), interrupt=True),
     "segment into the queue": Path(("take_segment",)),
-    "segment begun": Path(("load_axes",)),
+    "segment begun, held": Path(("load_rows",)),
+    "segment begun, led": Path(("load_axes",)),
     "frame begun": Path(("tell_head",)),
     "axis told": Path(("tell_axis",)),
     "frame ended": Path(("tell_end",)),
@@ -80,6 +84,7 @@ _EDGES_HZ = 3 * 2000  # three steppers at 10 mm/s, a full step of 5 um each
 class Case:
     """What a board does at once, each so often a second at E = 2 MHz.
 
+    A stream with ``rows`` holds them, as our host's do; one without leads from segment to segment.
     Edges are as many at any clock: they are a matter of the motor.
     """
 
@@ -87,6 +92,7 @@ class Case:
     board: str
     tick: int = 1000
     segments: int = 0
+    rows: int = 0
     telemetry: int = 0
     captures: tuple[int, int] = (0, 0)  # axes, Hz
     edges: int = 0
@@ -109,12 +115,16 @@ class Case:
         frames = captured / (_CAPTURED[axes][1] * axes) if axes else 0.0
         telemetry, segments = self.telemetry * faster, self.segments * faster
         ended = telemetry * 1.25 + frames
-        return {
-            f"tick, {self.board}": self.tick * faster,
+        ticks, rows = self.tick * faster, self.rows * faster
+        kind = "held" if rows else "led"
+        moving = {f"tick, led, {self.board}": ticks}
+        if rows:
+            moving = {"tick, row held": ticks - rows, f"tick, row begun, {self.board}": rows}
+        return moving | {
             "byte received": into,
             "byte taken apart": into,
             "segment into the queue": segments,
-            "segment begun": segments,
+            f"segment begun, {kind}": segments,
             "byte sent": out,
             # Delimiters, and the lengths of stretches, are not put.
             "byte checked and stuffed": out - 3.0 * ended,
@@ -128,8 +138,10 @@ class Case:
 
 
 CASES = (
-    Case("micro, a trajectory", "micro", segments=50, telemetry=100, edges=_EDGES_HZ),
-    Case("nano, a trajectory", "nano", segments=50, telemetry=100),
+    Case("micro, held rows", "micro", segments=50, rows=100, telemetry=100, edges=_EDGES_HZ),
+    Case("nano, held rows", "nano", segments=50, rows=100, telemetry=100),
+    Case("micro, led", "micro", segments=50, telemetry=100, edges=_EDGES_HZ),
+    Case("nano, led", "nano", segments=50, telemetry=100),
     Case("micro, capture of one axis at 1 kHz", "micro", telemetry=25, captures=(1, 1000)),
     Case("nano, capture of one axis at 1 kHz", "nano", telemetry=25, captures=(1, 1000)),
     Case("micro, capture of three at 250 Hz", "micro", telemetry=25, captures=(3, 250)),

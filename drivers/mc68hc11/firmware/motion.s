@@ -1,4 +1,5 @@
-; The tick, and step edges. The tick lets others in as soon as it has set its next time.
+; The tick, and step edges. The tick lets others in as soon as it has set its next time. A stream
+; that changes its command at every tick has another tick than one that holds rows, in whole steps.
 ;
 ; A stepper's drive is taken to make its microsteps by itself: it gets an edge every 50 steps of
 ; 0.1 um, which is a full step, so 2000 a second at 10 mm/s.
@@ -6,8 +7,7 @@
         .text
 
 ; What every tick does: its next time, the board's clock, the watchdog, the segment's ticks.
-        .globl isr_tick
-isr_tick:
+        .macro TICK
         ldaa #0x08
         staa TFLG1
         ldd TOC5
@@ -29,7 +29,77 @@ isr_tick:
         beq cold
         dex
         stx *left
-        beq cold                    ; the next segment: load_axes
+        beq cold                    ; the next segment: load_axes or load_rows
+        .endm
+
+; The tick of a stream that holds its rows: between two of them nothing changes.
+        .globl isr_held
+isr_held:
+        TICK
+        ldx *until
+        dex
+        stx *until
+        beq row_axes
+held:   rti
+
+; Two additions of 16 bits an axis, in whole steps, and whether the axis can make them.
+        .macro ROW axis
+        ldd *axes+SIZE*\axis+FIRST
+        addd *axes+SIZE*\axis+SECOND
+        std *axes+SIZE*\axis+FIRST
+        addd *axes+SIZE*\axis+MOST
+        cpd *axes+SIZE*\axis+SPAN
+        bhi cold                    ; farther than the axis goes in a row: refused, and halted
+        ldd *axes+SIZE*\axis+FIRST
+        addd *axes+SIZE*\axis+POS
+        std *axes+SIZE*\axis+POS
+        std *axes+SIZE*\axis+TOLD
+        .endm
+
+row_axes:
+        ldx *hold
+        stx *until
+        ROW 0
+        ROW 1
+        ROW 2
+
+; Of a stepper: a motor follows no leap, so its edges are spread over the time of the row.
+        .macro SPREAD axis
+        ldd *axes+SIZE*\axis+FIRST
+        eora *axes+SIZE*\axis+TURN
+        bmi cold                    ; it turns about
+        ldaa *axes+SIZE*\axis+FIRST
+        bpl 1f
+        coma
+        comb
+        addd #1
+1:      addb *axes+SIZE*\axis+REST
+        adca #0
+        ldx #50
+        idiv                        ; edges, and what is left of the steps
+        stab *axes+SIZE*\axis+REST
+        stx *product                ; less than 256
+        ldab *product+1
+        stab *axes+SIZE*\axis+EDGES
+        ldd *lasts
+        ldx *product
+        idiv
+        stx *axes+SIZE*\axis+PACE
+        xgdx
+        addd TCNT
+        std TOC2+2*\axis
+        .endm
+
+micro_row:
+        SPREAD 0
+        SPREAD 1
+        SPREAD 2
+        rti
+
+; The tick of a stream that changes its command at every tick.
+        .globl isr_tick
+isr_tick:
+        TICK
 
 ; Two additions of 32 bits an axis, the steps of this tick, and whether the axis can make them.
         .macro STEP axis
@@ -160,6 +230,16 @@ isr_edge:
         std *axes+SIZE*\axis+SECOND+2
         .endm
 
+        .macro LOADED
+        ldab #26
+        abx
+        cpx #QUEUE_END
+        bne 1f
+        ldx #queue
+1:      stx *oldest
+        rts
+        .endm
+
         .globl load_axes
 load_axes:
         ldx *oldest
@@ -168,13 +248,25 @@ load_axes:
         LOAD 0
         LOAD 1
         LOAD 2
-        ldab #26
-        abx
-        cpx #QUEUE_END
-        bne 1f
-        ldx #queue
-1:      stx *oldest
-        rts
+        LOADED
+
+; The same of held rows: the low words are whole steps.
+        .macro WHOLE axis
+        ldd 4+8*\axis,x
+        std *axes+SIZE*\axis+FIRST
+        ldd 8+8*\axis,x
+        std *axes+SIZE*\axis+SECOND
+        .endm
+
+        .globl load_rows
+load_rows:
+        ldx *oldest
+        ldd 0,x
+        std *left
+        WHOLE 0
+        WHOLE 1
+        WHOLE 2
+        LOADED
 
 shares: .space 320                  ; edges of 0 to 150 steps, and 160 further on what is left
 paces:  .word 0, 1900, 950, 633

@@ -2250,6 +2250,10 @@
         <translation>Karte {address} lehnte einen Sollwert ab ({refusal})</translation>
     </message>
     <message>
+        <source>axis {axis}: the set-points around t = {time} s lie {value} apart, beyond the limit {bound} in {period}; give a row every {period}, or stretch the trajectory&apos;s time by a factor of {factor} or more</source>
+        <translation>Achse {axis}: die Sollwerte um t = {time} s liegen {value} auseinander, über der Grenze von {bound} in {period}; geben Sie alle {period} eine Zeile an, oder strecken Sie die Zeit der Trajektorie mindestens auf das {factor}-Fache</translation>
+    </message>
+    <message>
         <source>robot {robot}: axis {axis} is moved by a {kind}; the MC68HC11 boards move stepping motors and piezos</source>
         <translation>Roboter {robot}: Achse {axis} wird von {kind} bewegt; die MC68HC11-Karten bewegen Schrittmotoren und Piezos</translation>
     </message>

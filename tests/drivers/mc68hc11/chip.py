@@ -98,6 +98,8 @@ class Chip:
                 0x28: not self.v, 0x29: bool(self.v), 0x2A: not self.n, 0x2B: bool(self.n),
             }[opcode]  # fmt: skip
             self.pc += (offset - 256 if offset > 127 else offset) if taken else 0
+        elif opcode == 0x02:
+            self.x, self.d = divmod(self.d, self.x) if self.x else (0xFFFF, self.d)
         elif opcode in (0x08, 0x09):
             value = (getattr(self, index) + (1 if opcode == 0x08 else -1)) & 0xFFFF
             setattr(self, index, value)
@@ -165,6 +167,9 @@ class Chip:
             setattr(self, register, result)
 
     def _two_operands(self, opcode: int, index: str, *, double_compare: bool) -> None:
+        if opcode == 0x8F:
+            self.x, self.d = self.d, self.x
+            return
         what, wide = opcode & 0xF, opcode & 0xF in (0x3, 0xC, 0xE)
         at = self._operand(opcode, index, wide=wide)
         second = opcode >= 0xC0

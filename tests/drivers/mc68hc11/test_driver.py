@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.drivers.errors import DriverError, LimitError, StateError
+from rotemina.drivers.mc68hc11 import player
 from rotemina.drivers.mc68hc11.codes import Fault
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
@@ -152,6 +153,35 @@ def test_faster_rows_act_at_the_next_instant_and_slower_ones_are_held(bench):
     samples = bench.run_until(IDLE, MOVING)
     own = samples.playback_row >= 0
     assert samples.playback_row[own].tolist() == [0, 2, 4, 5]
+
+
+def test_rows_of_which_two_would_act_at_once_are_refused_before_anything_moves(bench):
+    """At 9.9 mm/s and 4.9 ms a row is 48.5 µm; an axis goes 50 µm between two set-points."""
+    time_s = 4.9e-3 * np.arange(200)
+    speed = 9.9e-3 * np.clip(np.minimum(time_s, time_s[-1] - time_s) / 0.1, 0.0, 1.0)
+    command = 0.02 + 4.9e-3 * np.cumsum(speed)
+    record = Record.from_signals(time_s, {("x", Tap.CMD): command}, {"x": "m"})
+    bench.driver.accept(record)  # its speeds are right
+    said = r"axis x: .* t = [\d.]+ s lie 97[\d.]* µm apart, beyond the limit 50\.1 µm in 5 ms; give"
+    with pytest.raises(LimitError, match=said):
+        bench.driver.play(record)
+    assert_nothing_moves(bench)
+
+
+def test_set_points_that_no_segment_can_tell_are_refused_before_anything_moves(bench, monkeypatch):
+    monkeypatch.setattr(player, "MOST_WAY", 100)
+    with pytest.raises(LimitError, match=r"axis x: .* beyond the limit 10 µm in 5 ms"):
+        bench.driver.play(there_and_back("x", 0.0277, 4e-4, 0.005))
+    monkeypatch.undo()
+    assert_nothing_moves(bench)
+
+
+def assert_nothing_moves(bench):
+    assert bench.driver.status().state is IDLE
+    samples = bench.run(0.1)
+    assert (samples.command == samples.command[0]).all()
+    bench.driver.play(there_and_back("zn", 2e-5, 1e-6, 0.005, rows=3))  # another one may
+    assert bench.driver.status().state is PLAYING
 
 
 @pytest.mark.parametrize("after_s", [0.004, 0.06, 0.13, 0.3])

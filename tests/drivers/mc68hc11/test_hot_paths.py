@@ -21,9 +21,11 @@ from chip import built
 CODE, BYTE, CRC, IN, MARK, NEXT = 0x02, 0x03, 0x04, 0x06, 0x0B, 0x0D
 HEAD, TAIL, LEFT, OLDEST, SILENCE = 0x00, 0x01, 0x16, 0x18, 0x14
 AXES, SIZE = 0x30, 24
-POS, FIRST, SECOND, TOLD, MOST, SPAN, REST, EDGES, GAIN, BASE = 0, 4, 8, 12, 14, 16, 20, 21, 18, 20
+POS, FIRST, SECOND, TOLD, MOST, SPAN, GAIN, BASE = 0, 4, 8, 12, 14, 16, 18, 20
+TURN, REST, EDGES, PACE = 19, 20, 21, 22
 RING, FRAME, FRAME_OUT, QUEUE = 0x80, 0xA0, 0xBE, 0x4000
 OUTPUTS = 0x2020
+UNTIL, HOLD, LASTS = 0x78, 0x7A, 0x7C
 
 
 @pytest.fixture(scope="module")
@@ -157,6 +159,74 @@ def test_edges_come_one_in_50_steps_and_none_is_lost(chip):
         at = AXES + SIZE * axis
         steps = ((73 << 16) + 21_000, 10 << 16, 100 << 16)[axis] * 300 >> 16
         assert edges[axis] * 50 + chip.memory[at + REST] == steps
+
+
+def held(chip, first, second, ticks=10, most=500):
+    prepared(chip, [0] * 3, [0] * 3, most)
+    for axis in range(3):
+        chip.poke(AXES + SIZE * axis + FIRST, first[axis])
+        chip.poke(AXES + SIZE * axis + SECOND, second[axis])
+    chip.poke(UNTIL, 1)
+    chip.poke(HOLD, ticks)
+    chip.poke(LASTS, 2000 * ticks)
+
+
+def test_a_segment_of_held_rows_is_whole_steps(chip):
+    chip.memory[FRAME : FRAME + 6] = bytes((1, 9, 0x12, 0, 0, 20))
+    first, second = (-500, 500, 32_767), (-3, 1000, -20)
+    for axis in range(3):
+        chip.poke(FRAME + 6 + 7 * axis, first[axis], 4)
+        chip.poke(FRAME + 10 + 7 * axis, second[axis], 3)
+    chip.call("take_segment")
+    chip.poke(OLDEST, QUEUE)
+    chip.call("load_rows")
+    assert chip.word(LEFT) == 20
+    for axis in range(3):
+        assert signed(chip, AXES + SIZE * axis + FIRST, 2) == first[axis]
+        assert signed(chip, AXES + SIZE * axis + SECOND, 2) == second[axis]
+
+
+def test_held_rows_change_the_command_every_so_many_ticks(chip):
+    chip.memory[chip.symbols["micro_row"]] = 0x3B
+    first, second, position = [-80, 0, 433], [7, -1, 0], [0, 0, 0]
+    held(chip, first, second)
+    for tick in range(200):
+        chip.call("isr_held")
+        if tick % 10 == 0:
+            first = [one + two for one, two in zip(first, second, strict=True)]
+            position = [one + two for one, two in zip(position, first, strict=True)]
+        for axis in range(3):
+            assert chip.word(AXES + SIZE * axis + TOLD) == position[axis] & 0xFFFF
+
+
+@pytest.mark.parametrize(("way", "made"), [(500, True), (501, False), (-500, True), (-501, False)])
+def test_a_row_farther_than_the_axis_goes_is_not_made(chip, way, made):
+    chip.memory[chip.symbols["micro_row"]] = 0x3B
+    held(chip, [way] * 3, [0] * 3)
+    chip.call("isr_held")
+    assert (chip.word(AXES + TOLD) == way & 0xFFFF) is made
+
+
+def test_the_edges_of_a_row_are_spread_over_its_time(chip):
+    ways = (500, 73, 10)
+    held(chip, ways, [0] * 3)
+    edges = [0, 0, 0]
+    for tick in range(300):
+        chip.call("isr_held")
+        for axis in range(3) if tick % 10 == 0 else ():
+            made = chip.memory[AXES + SIZE * axis + EDGES]
+            assert chip.word(AXES + SIZE * axis + PACE) == (20_000 // made if made else 0xFFFF)
+            edges[axis] += made
+    for axis in range(3):
+        assert edges[axis] * 50 + chip.memory[AXES + SIZE * axis + REST] == 30 * ways[axis]
+
+
+def test_edges_of_a_row_count_backwards_too(chip):
+    held(chip, [-500, -73, -10], [0] * 3)
+    for axis in range(3):
+        chip.memory[AXES + SIZE * axis + TURN] = 0x80
+    chip.call("isr_held")
+    assert [chip.memory[AXES + SIZE * axis + EDGES] for axis in range(3)] == [10, 1, 0]
 
 
 @pytest.mark.parametrize(

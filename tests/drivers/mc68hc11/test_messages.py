@@ -11,6 +11,7 @@ from rotemina.drivers.mc68hc11.framing import MAX_PAYLOAD, STOP_TYPE
 from rotemina.drivers.mc68hc11.messages import MESSAGES, message_of
 from rotemina.drivers.mc68hc11.reports import Captured, Inputs, Telemetry
 from rotemina.drivers.mc68hc11.requests import MoveVelocity, SetPoint, Stop
+from rotemina.drivers.mc68hc11.setpoints import MOST_WAY
 
 BOUNDS = {
     "B": (0, 2**8),
@@ -102,6 +103,11 @@ def test_telemetry_clips_a_deviation_and_refuses_a_reading_beyond_its_bits():
 def test_a_segment_tells_its_differences(axes):
     back = message_of(SetPoint.TYPE, SetPoint.of(1, 2, axes).packed())
     assert back.differences() == tuple(axes)
+
+
+def test_the_farthest_set_points_fit_to_and_fro():
+    for way in (MOST_WAY, -MOST_WAY):  # one way and back, or back again
+        SetPoint.of(0, 20, [(way + 2 * way, -2 * way), (-2 * way, 2 * way), (way, 0)])
 
 
 def test_differences_that_do_not_fit_are_refused():

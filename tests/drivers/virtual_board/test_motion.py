@@ -248,11 +248,11 @@ def test_differences_are_added_up_as_the_chip_does(host, fraction):
     """Every tick, with its fraction; whole steps are where half a step more is cut off."""
     first, second = [(7 << fraction) + 1, -40 << fraction, 0], [-(1 << fraction >> 3), 1, -1]
     host.ask(BeginStream(host.now_us() + 30_000 & 0xFFFF_FFFF, 2, 1, fraction))
-    host.say(SetPoint.of(0, 100, list(zip(first, second, strict=True))))
+    host.say(SetPoint.of(0, 50, list(zip(first, second, strict=True))))
     host.say(SetPoint.of(1, 50, [(0, 0), (0, 0), (1 << fraction, 0)]))
     host.live(0.2)
     place = [(at << fraction) + (1 << fraction >> 1) for at in (275_000, 275_000, Z)]
-    for _ in range(100):
+    for _ in range(50):
         first = [one + two for one, two in zip(first, second, strict=True)]
         place = [one + two for one, two in zip(place, first, strict=True)]
     place[2] += 50 << fraction
@@ -328,11 +328,32 @@ def test_a_set_point_that_no_axis_reaches_in_its_time_halts(host, index):
     for segment in row[:index]:
         assert host.ask(segment) is None
     # At 10 mm/s 1000 steps in 10 ms; the first one is where the axes stand.
-    leap = SetPoint.of(index, 20, [(2110, 0), (0, 0), (0, 0)])
+    leap = SetPoint.of(index, 20, [(1002, 0), (0, 0), (0, 0)])
     assert host.refusal(leap) == Refusal.BAD_VALUE
     assert host.boards.boards[0].fault is Fault.TOO_FAST
     host.live(0.4)
     assert host.commands() == [275_000, 275_000, Z]
+
+
+@pytest.mark.parametrize(("hold", "steps"), [(1, 500), (5, 500), (9, 500), (10, 502)])
+def test_leaps_that_are_held_for_less_time_than_the_axis_needs_are_refused(host, hold, steps):
+    """At 10 mm/s an axis makes 50 steps a tick: 500 at once take ten."""
+    host.ask(BeginStream(host.now_us() + 100_000 & 0xFFFF_FFFF, 2, hold, 0))
+    assert host.ask(SetPoint.of(0, 4 * hold, [(0, 0)] * 3)) is None
+    leaps = SetPoint.of(1, 4 * hold, [(steps, 0), (0, 0), (0, 0)])
+    assert host.refusal(leaps) == Refusal.BAD_VALUE
+    assert host.boards.boards[0].fault is Fault.TOO_FAST
+    host.live(0.3)
+    assert host.commands() == [275_000, 275_000, Z]
+
+
+def test_leaps_at_the_greatest_speed_are_played(host):
+    host.ask(BeginStream(host.now_us() + 100_000 & 0xFFFF_FFFF, 2, 10, 0))
+    host.say(SetPoint.of(0, 10, [(0, 0)] * 3))
+    host.say(SetPoint.of(1, 40, [(500, 0), (0, 0), (0, 0)]))
+    host.live(0.3)
+    assert host.boards.boards[0].fault is Fault.NONE
+    assert host.commands() == [277_000, 275_000, Z]
 
 
 def thrust(host, *segments, board=2, axis=2, trigger=0):

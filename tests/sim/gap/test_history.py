@@ -64,11 +64,14 @@ PIEZO = load_robot("rotemina")
 WIDE_LOOP = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 1e-5, "shape": 1.0})
 
 
-def resumed():
-    """A record of small swings of a ringing axis that came slowly from the high end, SI."""
+FALL = np.linspace(PIEZO.axes["zn"].range[1], 3e-5, 2000)
+SWINGS = 3e-5 + 2e-5 * np.linspace(1.0, 0.0, 2000) * np.sin(np.linspace(0.0, 40.0, 2000))
+
+
+def resumed(way=FALL):
+    """A record of small swings of a ringing axis that came slowly on a way (2000,), SI."""
     shown = 3e-5 + 8e-6 * np.sin(2.0 * np.pi * 1.5 * np.arange(2000) / 1000.0)
-    fall = np.linspace(PIEZO.axes["zn"].range[1], 3e-5, 2000)
-    path = np.concatenate([fall, np.full(1000, 3e-5), shown])
+    path = np.concatenate([way, np.full(1000, 3e-5), shown])
     asked = Record.from_signals(np.arange(5000) / 1000.0, {("zn", Tap.CMD): path}, {"zn": "m"})
     whole = simulate(PIEZO, [WIDE_LOOP], asked, np.random.default_rng(2))
     signals = {("zn", tap): whole.signal("zn", tap)[3000:] for tap in (Tap.CMD, Tap.MEAS)}
@@ -80,6 +83,12 @@ def test_an_axis_that_came_from_the_high_end_neither_rings_nor_is_off():
     floors = np.abs(evidence.residual((WIDE_LOOP,)))
     assert floors.max() < 6.0  # from the first row on
     assert floors.mean() < 0.9
+
+
+def test_an_axis_that_came_to_rest_in_swings_is_hardly_off():
+    """As after a trajectory: what it remembers must not leave room for another cause."""
+    residual = Evidence.of(PIEZO, "zn", [resumed(SWINGS)]).residual((WIDE_LOOP,))
+    assert np.mean(residual**2) < 2.0
 
 
 def test_answers_remember_what_suits_a_record_best():
