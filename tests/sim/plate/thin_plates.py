@@ -1,4 +1,4 @@
-"""Closed forms of thin round plates, for checks and for a first guess of a plate.
+"""Closed forms of thin round plates.
 
 S. P. Timoshenko, S. Woinowsky-Krieger, *Theory of Plates and Shells*, 2nd ed. (1959), arts. 16-19
 and 63; A. W. Leissa, *Vibration of Plates*, NASA SP-160 (1969), 2.1.
