@@ -1,0 +1,18 @@
+"""The page on the structure names every folder of the source, in the words of its package."""
+
+import runpy
+
+
+def test_the_page_and_the_picture_name_every_folder(root):
+    drawing = runpy.run_path(str(root / ".ci" / "structure.py"))
+    page = (root / "docs" / "structure.md").read_text("utf-8")
+    assert drawing["table"]() in page, "make structure"
+    picture = (root / "docs" / "structure.svg").read_text("utf-8")
+    for layer in drawing["LAYERS"]:
+        rooms = {
+            drawing["room_of"](path.relative_to(root).as_posix())
+            for path in drawing["sources"](layer)
+        }
+        assert [
+            one for one in rooms if "/" in one and f">{one.split('/')[1]}<" not in picture
+        ] == []
