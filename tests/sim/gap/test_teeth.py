@@ -7,7 +7,6 @@ import pytest
 
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.inverse import inputs_left
 from rotemina.sim.gap.models import untouched
 from rotemina.sim.gap.starts import starts
 from rotemina.sim.records.record import Record, Tap
@@ -75,16 +74,3 @@ def test_steps_are_found_among_the_spikes_of_a_sensor(left_out):
 
 def test_a_healthy_axis_shows_no_steps():
     assert len(grids("thx", recorded("thx", [], 0.2, 0.1))) == 1
-
-
-def test_a_ringing_gap_is_undone_to_what_caused_it_at_the_input():
-    steps = AxisEffect(axis="thx", id="quantization", parameters={"step": 0.6, "shift": 0.0})
-    records = recorded("thx", [steps], 0.2)
-    evidence = Evidence.of(ROBOT, "thx", records)
-    clean = simulate(ROBOT, [], records[0])
-    wanted = records[0].signal("thx", Tap.U) - clean.signal("thx", Tap.U)
-    wanted = (wanted - wanted.mean()) * Attached.of(ROBOT, steps).facts.gain
-    for part, found in inputs_left(evidence, untouched(evidence).fit):
-        inner = slice(400, -400)  # ends are tapered
-        likeness = np.corrcoef(found[inner], wanted[inner])[0, 1]
-        assert likeness > (0.97 if part.tap is not Tap.MEAS else 0.8), part.tap
