@@ -20,6 +20,11 @@ from rotemina.sim.records.record import Tap
 NAMES = ExperimentFiles("out_experiment_1.csv", {"creep": "c.csv", "hysteresis": "h.csv"})
 
 
+@pytest.fixture(autouse=True)
+def in_tmp(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
 def test_every_key_of_the_contract_is_there(made_diagnosis):
     form = json.loads(json_text(as_json(made_diagnosis, [NAMES])))
     assert form["format"] == "rotemina-diagnosis 1"

@@ -10,11 +10,9 @@ from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination
 from rotemina.sim.gap.experiment import experiments
-from rotemina.sim.gap.fit import Fit, Free
 from rotemina.sim.gap.models import explain
 from rotemina.sim.gap.rivals import Rival
 from rotemina.sim.gap.selection import Selection
-from rotemina.sim.gap.separation import Yielding
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -162,13 +160,3 @@ def test_for_a_coupling_one_of_the_two_axes_moves_while_the_other_is_held():
     moving = [axis for axis, command in found.commands.items() if np.ptp(command) > 0.0]
     assert len(moving) == 1
     assert "cross coupling from thy" in str(found.why)
-
-
-def rival(answer, know=0.0):
-    """A rival of one parameter, on two rows, which moves the first of them."""
-    slopes = np.array([[1.0], [0.0]])
-    own = np.array(answer)
-    free = Free(0, "error", -100.0, 100.0, 1.0, 0.0)
-    effects = (AxisEffect(axis="zn", id="gain_error"),)
-    fitted = Fit(effects, (free,), np.zeros(1), np.zeros(2), np.zeros((2, 1)))
-    return Yielding(fitted, own, slopes, np.array([[know]]), lambda x: own + slopes @ x)

@@ -20,6 +20,11 @@ from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 
 
+@pytest.fixture(autouse=True)
+def in_tmp(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
 def written(diagnosis, **changes):
     """The path of the document of a diagnosis with some keys of its model changed."""
     form = as_json(diagnosis)
