@@ -24,7 +24,7 @@ from rotemina.app.widgets.scroll import scrolled
 from rotemina.plugins.control.axes_page import AxesPage
 from rotemina.plugins.control.axis_row import AxisRow
 from rotemina.plugins.control.hand_page import HandPage
-from rotemina.plugins.control.head import Head
+from rotemina.plugins.control.overview import Head
 from rotemina.plugins.control.penetration_page import PenetrationPage
 from rotemina.plugins.control.positions_page import PositionsPage
 from rotemina.plugins.control.step_choice import StepChoice

@@ -38,12 +38,12 @@ from rotemina.plugins.gap.headline_view import HEIGHT, LITTLE, Headline
 from rotemina.plugins.gap.hidden_machine import HiddenMachineTrial
 from rotemina.plugins.gap.model_switch import ModelSwitch, against, candidate
 from rotemina.plugins.gap.playing import Playing
+from rotemina.plugins.gap.progress_view import RunningView
 from rotemina.plugins.gap.proof import Proof, new_motion, prove
 from rotemina.plugins.gap.proof_view import ProofView
-from rotemina.plugins.gap.rail import Rail
 from rotemina.plugins.gap.records import Records
-from rotemina.plugins.gap.running import RunningView
 from rotemina.plugins.gap.shrinkage_view import ShrinkageView
+from rotemina.plugins.gap.start_section import Rail
 from rotemina.plugins.gap.words import stage_name
 from rotemina.sim.gap.suggestion import suggestion
 

@@ -10,7 +10,7 @@ from rotemina.app.widgets.scroll import least_width, scrolled
 from rotemina.plugins.teleoperation.choices import ChoiceSection
 from rotemina.plugins.teleoperation.coordinates import CoordinateSection
 from rotemina.plugins.teleoperation.editor import ScaleEditor
-from rotemina.plugins.teleoperation.head import HeadSection
+from rotemina.plugins.teleoperation.overview import HeadSection
 from rotemina.plugins.teleoperation.pad_section import PadSection
 from rotemina.plugins.teleoperation.reserve import ReserveSection
 

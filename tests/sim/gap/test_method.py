@@ -11,7 +11,7 @@ from rotemina.sim.gap.disturbances import set_aside
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.method import diagnose
-from rotemina.sim.gap.standing import Grade
+from rotemina.sim.gap.ranking import Grade
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

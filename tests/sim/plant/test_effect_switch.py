@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.effect_switch import taken_over
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.takeover import taken_over
+from rotemina.sim.plant.randomness import Chance
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 

@@ -34,7 +34,7 @@ class Portion(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class LocatedGap:
     """The gap of one axis at one tap, over all records.
 
     Attributes
@@ -98,7 +98,7 @@ class Place:
         return self.worst_moment > _SUDDEN
 
 
-def locate(evidence: Evidence, rng: np.random.Generator) -> tuple[Place, ...]:
+def locate(evidence: Evidence, rng: np.random.Generator) -> tuple[LocatedGap, ...]:
     """Return the gap of one axis at each of its taps, in the order of the chain.
 
     The gap is that of the model as it stands, by the commands, without its mean over a record.
@@ -122,7 +122,7 @@ def _place(
     taps: Sequence[Tap],
     seen: Sequence[tuple[Observation, FloatArray]],
     rng: np.random.Generator,
-) -> Place:
+) -> LocatedGap:
     axis = evidence.axis
     even = [observation.record for observation, _ in seen if is_even(observation.record)]
     edges_hz = band_edges(even) if even else np.zeros(1)
@@ -150,7 +150,7 @@ def _place(
     portions = _portions(mean, drawn)
     moments = together.total[:, 0] / np.maximum(together.rows, _MOMENT_ROWS)
     regime_portions, band_portions = portions[: len(Regime)], portions[len(Regime) :]
-    return Place(
+    return LocatedGap(
         axis=axis,
         tap=tap,
         stage=_stage(tap, taps),

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBox
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
-from rotemina.plugins.gap.cell import Part
+from rotemina.plugins.gap.heat_cell import Part
 from rotemina.sim.quantities import amount, scale_of
 
 CURVES = (("whole", "command"), ("within", "real"))

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from rotemina.sim.gap.intake import check
-from rotemina.sim.gap.leaps import pieces
+from rotemina.sim.gap.time_leaps import pieces
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.simulation.simulation import simulate
 

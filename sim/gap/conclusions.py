@@ -23,12 +23,12 @@ from rotemina.sim.gap.diagnosis import (
 from rotemina.sim.gap.disturbances import Disturbance
 from rotemina.sim.gap.evidence import Evidence, Part, block_rows
 from rotemina.sim.gap.examination import Examination
+from rotemina.sim.gap.location import LocatedGap
 from rotemina.sim.gap.models import Explanation
 from rotemina.sim.gap.origins import origin_remarks
 from rotemina.sim.gap.rivals import not_ruled_out, paired_blocks, probability
 from rotemina.sim.gap.selection import NOTICED
 from rotemina.sim.gap.shrinkage import LeftBy, at_tap, closing, rms, shrinkage
-from rotemina.sim.gap.where import Place
 from rotemina.sim.gap.wording import group
 from rotemina.sim.messages import Listed, Message, message
 from rotemina.sim.records.record import Tap
@@ -45,8 +45,8 @@ _SMALL = 1e-4  # of a parameter's size, for a derivative
 _RANKED = 8  # rivals that are listed
 
 
-def told_of(
-    examination: Examination, places: tuple[Place, ...], rng: np.random.Generator
+def concluded(
+    examination: Examination, places: tuple[LocatedGap, ...], rng: np.random.Generator
 ) -> AxisDiagnosis:
     """Put an examination into words and numbers."""
     evidence, best = examination.evidence, examination.best
@@ -185,7 +185,7 @@ def _disturbance(examination: Examination, one: Disturbance, effect: str) -> Cau
 
 
 def _unknown(
-    examination: Examination, places: tuple[Place, ...], rng: np.random.Generator
+    examination: Examination, places: tuple[LocatedGap, ...], rng: np.random.Generator
 ) -> Cause:
     evidence = examination.evidence
     tap = next((one.tap for one in places if one.significant), places[-1].tap)

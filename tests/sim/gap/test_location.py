@@ -5,8 +5,8 @@ import pytest
 
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.location import LocatedGap, Portion, locate
 from rotemina.sim.gap.regimes import Regime
-from rotemina.sim.gap.where import Place, Portion, locate
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -138,7 +138,7 @@ def test_what_an_axis_hardly_did_is_not_named_as_the_worst():
             Regime.FAST: Portion(0.9, (0.8, 1.0), 9.0),
             Regime.REVERSAL: Portion(3.0 * rows, (0.0, 1.0), 30.0),
         }
-        return Place("x", Tap.MEAS, Stage.SENSOR, 1e-6, 3e-7, 10.0, (9.0, 11.0), portions, {})
+        return LocatedGap("x", Tap.MEAS, Stage.SENSOR, 1e-6, 3e-7, 10.0, (9.0, 11.0), portions, {})
 
     assert place(rows=0.021).worst_regime is Regime.REVERSAL
     assert place(rows=0.019).worst_regime is Regime.FAST

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rotemina.sim.gap.standing import Grade, Standings
+from rotemina.sim.gap.ranking import Grade, Standings
 from rotemina.sim.robot.model import AxisEffect
 
 
