@@ -12,8 +12,8 @@ from typing import TypeVar
 from joblib import Parallel, delayed
 
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.explanations import MOST_STEPS, Explanation, beside, explanation
 from rotemina.sim.gap.fit import Fit, finished, sketched
-from rotemina.sim.gap.models import MOST_STEPS, Explanation, beside, explanation
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.ranking import Grade
 from rotemina.sim.gap.screening import Screened, screen

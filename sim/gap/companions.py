@@ -16,7 +16,7 @@ from rotemina.sim.gap.catalogue import catalogue, kinship_of
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.contest import Ranking
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.explanations import Explanation
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.rivals import Key, rivals
 from rotemina.sim.gap.selection import LEAST_SHARE, NOTICED, possible_causes

@@ -23,8 +23,8 @@ from rotemina.sim.gap.diagnosis import (
 from rotemina.sim.gap.disturbances import Disturbance
 from rotemina.sim.gap.evidence import Evidence, Part, block_rows
 from rotemina.sim.gap.examination import Examination
+from rotemina.sim.gap.explanations import Explanation
 from rotemina.sim.gap.location import LocatedGap
-from rotemina.sim.gap.models import Explanation
 from rotemina.sim.gap.origins import origin_remarks
 from rotemina.sim.gap.rivals import not_ruled_out, paired_blocks, probability
 from rotemina.sim.gap.selection import NOTICED

@@ -15,14 +15,14 @@ from rotemina.sim.gap.candidates import candidates, is_slow, scouts, siblings
 from rotemina.sim.gap.catalogue import brought_along, is_of, kinship_of
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.models import (
+from rotemina.sim.gap.explanations import (
     MOST_STEPS,
     Explanation,
     beside,
     explanation,
     untouched,
 )
+from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.ranking import Grade
 from rotemina.sim.gap.repeats import has_overtone, is_own_mode

@@ -4,7 +4,9 @@ from collections import Counter
 from dataclasses import dataclass
 from math import nan
 
-from rotemina.drivers.inputs.hid.controls import (
+from rotemina.drivers.inputs.hid.descriptor import Field, ReportDescriptor
+from rotemina.drivers.inputs.hid.items import DescriptorError
+from rotemina.drivers.inputs.hid.report_values import (
     Bits,
     Button,
     Buttons,
@@ -12,8 +14,6 @@ from rotemina.drivers.inputs.hid.controls import (
     Deflection,
     Hat,
 )
-from rotemina.drivers.inputs.hid.descriptor import Field, ReportDescriptor
-from rotemina.drivers.inputs.hid.items import DescriptorError
 from rotemina.drivers.inputs.hid.usages import APPLICATIONS, HAT, axis_name, button_name
 from rotemina.sim.messages import message
 

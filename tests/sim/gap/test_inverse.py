@@ -4,8 +4,8 @@ import numpy as np
 
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.explanations import untouched
 from rotemina.sim.gap.inverse import inputs_left
-from rotemina.sim.gap.models import untouched
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

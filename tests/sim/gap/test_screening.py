@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.explanations import beside, untouched
 from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.models import beside, untouched
 from rotemina.sim.gap.screening import screen
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect
