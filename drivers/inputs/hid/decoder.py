@@ -4,9 +4,7 @@ from collections import Counter
 from dataclasses import dataclass
 from math import nan
 
-from rotemina.drivers.inputs.hid.descriptor import Field, ReportDescriptor
-from rotemina.drivers.inputs.hid.items import DescriptorError
-from rotemina.drivers.inputs.hid.report_values import (
+from rotemina.drivers.inputs.hid.controls import (
     Bits,
     Button,
     Buttons,
@@ -14,6 +12,8 @@ from rotemina.drivers.inputs.hid.report_values import (
     Deflection,
     Hat,
 )
+from rotemina.drivers.inputs.hid.descriptor import Field, ReportDescriptor
+from rotemina.drivers.inputs.hid.items import DescriptorError
 from rotemina.drivers.inputs.hid.usages import APPLICATIONS, HAT, axis_name, button_name
 from rotemina.sim.messages import message
 
