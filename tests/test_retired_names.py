@@ -16,8 +16,8 @@ RETIRED = {
 }  # fmt: skip
 MODULES = {
     "acting", "ahead", "chance", "connected", "course", "far", "fast", "finely", "ground", "hand",
-    "hands", "joined", "kept", "known", "leaps", "left", "look", "operator_desk", "prospect",
-    "rail", "sight", "sight_of", "stages", "standing", "teeth", "telling", "told", "unchecked",
+    "hands", "joined", "kept", "known", "leaps", "left", "listing", "look", "operator_desk", "prospect",
+    "rail", "searching", "sight", "sight_of", "stages", "standing", "stepping", "teeth", "telling", "told", "unchecked",
     "uploading", "using", "visits", "way", "where", "which",
 }  # fmt: skip
 

@@ -23,13 +23,13 @@ from rotemina.app.widgets.scroll import lay_beside, tabbed
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.compensation.actuation import Actuation
 from rotemina.plugins.compensation.controls import Controls
+from rotemina.plugins.compensation.gain_search import Searching
 from rotemina.plugins.compensation.learning import (
     Learned,
     Listener,
     learned_from,
     learned_simulated,
 )
-from rotemina.plugins.compensation.searching import Searching
 from rotemina.plugins.compensation.trial_motion import NAME
 from rotemina.plugins.compensation.views import CheckView, FrontView, LiveView
 from rotemina.plugins.compensation.words import NO_FRONT, NOTHING, kind_name

@@ -31,7 +31,9 @@ def undamped_modes(robot):
         for name, axis in robot.axes.items()
     }
     couplings = tuple(each for each in robot.couplings if each.matrix != "D")
-    return damped_modes(replace(robot, axes=axes, couplings=couplings))
+    modes = damped_modes(replace(robot, axes=axes, couplings=couplings))
+    np.testing.assert_allclose(modes.shapes.imag, 0.0, atol=1e-12)
+    return replace(modes, shapes=modes.shapes.real)
 
 
 def coupling(matrix, value):

@@ -3,7 +3,7 @@
 import pytest
 
 from rotemina.app.shell.record_library import free_bytes
-from rotemina.plugins.recorder.listing import look, recovered
+from rotemina.plugins.recorder.unfinished_files import look, recovered
 
 NONE = frozenset()
 
