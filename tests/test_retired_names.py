@@ -15,10 +15,11 @@ RETIRED = {
     "sight_of", "told_of",
 }  # fmt: skip
 MODULES = {
-    "acting", "ahead", "chance", "connected", "course", "far", "fast", "finely", "ground", "hand",
-    "hands", "joined", "kept", "known", "leaps", "left", "listing", "look", "operator_desk", "prospect",
-    "rail", "searching", "sight", "sight_of", "stages", "standing", "stepping", "teeth", "telling", "told", "unchecked",
-    "uploading", "using", "visits", "way", "where", "which",
+    "acting", "ahead", "chance", "connected", "course", "far", "fast", "finely", "ground",
+    "hand", "hands", "joined", "kept", "known", "leaps", "left", "listing", "look",
+    "operator_desk", "prospect", "rail", "searching", "sight", "sight_of", "stages", "standing",
+    "stepping", "teeth", "telling", "told", "unchecked", "uploading", "using", "visits", "way",
+    "where", "which",
 }  # fmt: skip
 
 
