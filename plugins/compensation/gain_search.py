@@ -21,7 +21,7 @@ from rotemina.sim.tuning.search import Generation, SearchSettings
 _SEARCHED = "search"  # what gains are called that no file holds yet
 
 
-class Searching(QObject):
+class GainSearch(QObject):
     """One search at a time, and the front that it found.
 
     Signals

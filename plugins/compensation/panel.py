@@ -23,7 +23,7 @@ from rotemina.app.widgets.scroll import lay_beside, tabbed
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.compensation.actuation import Actuation
 from rotemina.plugins.compensation.controls import Controls
-from rotemina.plugins.compensation.gain_search import Searching
+from rotemina.plugins.compensation.gain_search import GainSearch
 from rotemina.plugins.compensation.learning import (
     Learned,
     Listener,
@@ -60,7 +60,7 @@ class CompensationPanel(Panel):
         self.controls = Controls(workbench.robot)
         self.check, self.live, self.front = CheckView(theme), LiveView(theme), FrontView(theme)
         self.actuation = Actuation(workbench, self.controls, self.live)
-        self.search = Searching(workbench, self.controls, self.front)
+        self.search = GainSearch(workbench, self.controls, self.front)
         self.job = Job(self)
         self.learned: Learned | None = None
         self._source = ""

@@ -17,7 +17,7 @@ from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT
 _SPEED_KEY = "control.speed"
 
 
-class Head(QWidget):
+class Overview(QWidget):
     """Two lines; they stay in sight while the axes are scrolled."""
 
     def __init__(self, workbench: Workbench) -> None:

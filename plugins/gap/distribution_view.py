@@ -14,7 +14,7 @@ from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.heat_cell import parts
-from rotemina.plugins.gap.heat_cell_view import CellView
+from rotemina.plugins.gap.heat_cell_view import HeatCellView
 from rotemina.plugins.gap.words import regime_name
 from rotemina.sim.gap.document import shares
 from rotemina.sim.gap.location import LocatedGap
@@ -69,7 +69,7 @@ class DistributionView(QSplitter):
         self.heat.setCursor(Qt.CursorShape.PointingHandCursor)
         self.heat.cellClicked.connect(self.open_cell)
         self.heat.cellActivated.connect(self.open_cell)
-        self.cell = CellView(theme)
+        self.cell = HeatCellView(theme)
         self.cell.closed.connect(lambda: self.right.setCurrentIndex(0))
         whole = QWidget()
         column = QVBoxLayout(whole)

@@ -16,7 +16,7 @@ from rotemina.sim.quantities import amount, scale_of
 CURVES = (("whole", "command"), ("within", "real"))
 
 
-class CellView(QWidget):
+class HeatCellView(QWidget):
     """A plot of one record, with a choice of the others, and a way back to the map.
 
     Signals

@@ -23,7 +23,7 @@ STAGES = {
 }
 
 
-class RunningView(QSplitter):
+class ProgressView(QSplitter):
     """A ranking for each axis on the left, what is done now on the right."""
 
     def __init__(self, theme: Theme) -> None:

@@ -13,15 +13,15 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.plugins.gap.model_choice import RobotChoice
 from rotemina.plugins.gap.record_views import RecordList, RecordMenu
 from rotemina.plugins.gap.records import Records
+from rotemina.plugins.gap.robot_choice import RobotChoice
 
 WIDTH = 320  # px, upright
 _HIGH = 400  # px of the list, at most: what follows stays near it
 
 
-class Rail(QFrame):
+class StartSection(QFrame):
     """A column at the left of a large page, a row above a small one."""
 
     def __init__(self, workbench: Workbench, records: Records) -> None:
