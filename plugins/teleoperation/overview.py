@@ -14,7 +14,7 @@ from rotemina.app.widgets.section import Section
 from rotemina.plugins.teleoperation import wording
 
 
-class HeadSection(Section):
+class OverviewSection(Section):
     """One word and three lines; its height stays, so that nothing below leaps."""
 
     def __init__(self) -> None:
