@@ -16,6 +16,7 @@ ROOT = Path(__file__).parents[1]
 LAYERS = ("plugins", "app", "drivers", "sim", "resources")
 PAGE, PICTURE = ROOT / "docs" / "structure.md", ROOT / "docs" / "structure.svg"
 WIDTH, BOX, GAP, LETTER = 960, 24, 6, 7  # px
+IMPORT = re.compile(r"^\s*from rotemina\.([\w.]+) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 BEGIN = "<!-- rooms: written by .ci/structure.py -->\n"
 
 
@@ -30,30 +31,58 @@ def room_of(module: str) -> str:
 
 
 def imports() -> dict[str, set[str]]:
-    """Return the rooms of its own layer that each room imports."""
-    found: dict[str, set[str]] = defaultdict(set)
+    """Return the modules that each module imports, wherever in it, as paths without ``.py``."""
+    found = {}
     for layer in LAYERS:
         for path in sources(layer):
-            room = room_of(path.relative_to(ROOT).as_posix())
-            for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-                if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("rotemina."):
-                    parts = str(node.module).split(".")[1:]
-                    base = ROOT.joinpath(*parts[:2])
-                    other = "/".join(parts[:2]) if base.is_dir() else parts[0]
-                    if other != room and other.split("/")[0] == layer and "/" in other + room:
-                        found[room].add(other)
-            found[room]  # each room has an entry
+            of = found.setdefault(path.relative_to(ROOT).with_suffix("").as_posix(), set())
+            for package, names in IMPORT.findall(path.read_text("utf-8")):
+                base = package.replace(".", "/")
+                for name in re.findall(r"\w+(?= as )|(?<! as )\b\w+", names):
+                    of.add(f"{base}/{name}" if (ROOT / base / f"{name}.py").exists() else base)
+    return {module: others & found.keys() for module, others in found.items()}
+
+
+def rooms(modules: dict[str, set[str]]) -> dict[str, set[str]]:
+    """Return the rooms of its own layer that each room imports."""
+    found: dict[str, set[str]] = defaultdict(set)
+    for module, others in modules.items():
+        room = room_of(module)
+        near = {room_of(other) for other in others if other.split("/")[0] == room.split("/")[0]}
+        found[room] |= near - {room}
     return found
+
+
+def reach_of(below: dict[str, set[str]]) -> dict[str, set[str]]:
+    """Return all that each can be led to by what it imports."""
+
+    def followed(start: str) -> set[str]:
+        seen: set[str] = set()
+        ahead = list(below[start])
+        while ahead:
+            if (one := ahead.pop()) not in seen:
+                seen.add(one)
+                ahead += below.get(one, ())
+        return seen
+
+    return {one: followed(one) for one in below}
+
+
+def cycles() -> list[list[str]]:
+    """Return the modules that import each other by any way round, those of a cycle together."""
+    reach = reach_of(imports())
+    found = {
+        tuple(sorted(other for other in ahead if one in reach[other]))
+        for one, ahead in reach.items()
+        if one in ahead
+    }
+    return [list(one) for one in sorted(found)]
 
 
 def heights(below: dict[str, set[str]]) -> dict[str, int]:
     """Return how many rooms stand below each at most; rooms that import each other stand level."""
     loose = set(LAYERS)
-    reach = {room: others - loose for room, others in below.items()}
-    for middle in reach:
-        for room in reach:
-            if middle in reach[room]:
-                reach[room] |= reach[middle]
+    reach = reach_of({room: others - loose for room, others in below.items()})
 
     def height(room: str) -> int:
         under = [other for other in reach[room] if room not in reach[other]]
@@ -137,12 +166,13 @@ def measures() -> Iterator[str]:
         for layer in LAYERS
         for path in sources(layer)
     )
+    yield f"{len(cycles())} import cycles"
     yield f"{excused} functions of a cyclomatic complexity above 10 (ruff refuses others)"
 
 
 if __name__ == "__main__":
     if "--page" in sys.argv:
-        PICTURE.write_text(drawn(heights(imports())), "utf-8")
+        PICTURE.write_text(drawn(heights(rooms(imports()))), "utf-8")
         head, _, _ = PAGE.read_text("utf-8").partition(BEGIN)
         PAGE.write_text(head + BEGIN + "\n" + table(), "utf-8")
     print(*measures(), sep="\n")

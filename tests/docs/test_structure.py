@@ -1,4 +1,4 @@
-"""The page on the structure names every folder of the source, in the words of its package."""
+"""The structure of the source: the page that shows it, and no modules that import each other."""
 
 import runpy
 
@@ -16,3 +16,9 @@ def test_the_page_and_the_picture_name_every_folder(root):
         assert [
             one for one in rooms if "/" in one and f">{one.split('/')[1]}<" not in picture
         ] == []
+
+
+def test_no_modules_import_each_other(root):
+    """Imports for types, and those inside functions, count as any others."""
+    structure = runpy.run_path(str(root / ".ci" / "structure.py"))
+    assert structure["cycles"]() == []
