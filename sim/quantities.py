@@ -14,7 +14,7 @@ from math import floor, isfinite, log10
 from typing import NamedTuple
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.unit_table import PER_SI, factor_of, symbol_of
+from rotemina.sim.unit_table import PER_SI, factor_of, spelled, symbol_of
 
 POINT = "."
 _sign = POINT
@@ -170,7 +170,8 @@ class Scale(NamedTuple):
 
 def scale_in(unit: str, *, decimals: int | None = None, digits: int = 4) -> Scale:
     """Return the scale of a unit of :mod:`rotemina.sim.unit_table`, such as ``"um"``."""
-    return Scale(symbol_of(unit), factor_of(unit), decimals, digits)
+    plain = spelled(unit)
+    return Scale(symbol_of(plain), factor_of(plain), decimals, digits)
 
 
 def scale_of(unit: str, size: float, digits: int = 4) -> Scale:

@@ -24,7 +24,14 @@ PER_SI = MappingProxyType(
     }
 )
 SI_UNIT = MappingProxyType({unit: si for si, table in PER_SI.items() for unit in table})
-MICRO_SIGNS = ("\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}")
+_MICRO_SIGNS = ("\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}")
+
+
+def spelled(unit: str) -> str:
+    """Return a unit with either sign for micro as files spell it: ``"µm"`` is ``"um"``."""
+    for sign in _MICRO_SIGNS:
+        unit = unit.replace(sign, "u")
+    return unit
 
 
 def factor_of(unit: str) -> float:
@@ -34,4 +41,4 @@ def factor_of(unit: str) -> float:
 
 def symbol_of(unit: str) -> str:
     """Return a unit of the table as screens show it: ``"um"`` is ``"µm"``."""
-    return MICRO_SIGNS[0] + unit[1:] if unit.startswith("u") else unit
+    return _MICRO_SIGNS[0] + unit[1:] if unit.startswith("u") else unit

@@ -10,7 +10,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
-from rotemina.sim.unit_table import MICRO_SIGNS, PER_SI, SI_UNIT, factor_of, symbol_of
+from rotemina.sim.unit_table import PER_SI, SI_UNIT, factor_of, spelled, symbol_of
 
 
 class UnitError(InputError):
@@ -25,9 +25,7 @@ def canonical(unit: str) -> str:
     UnitError
         If there is no such unit.
     """
-    plain = unit
-    for sign in MICRO_SIGNS:
-        plain = plain.replace(sign, "u")
+    plain = spelled(unit)
     if plain not in SI_UNIT:
         known = " · ".join(" ".join(table) for table in PER_SI.values())
         raise UnitError(

@@ -174,7 +174,7 @@ class Controller:
             self.dialogue.say(lines[0][0])
         self._permit = permit
 
-    def step(self) -> Samples:
+    def step(self, now_s: float) -> Samples:
         """Hear what it says, tell it what comes next, and return its new samples.
 
         Raises
@@ -182,7 +182,6 @@ class Controller:
         ConnectionLostError
             If it has said nothing for too long.
         """
-        now_s = self._clock()
         if self._lost is not None:
             raise ConnectionLostError(self._lost)
         self._follow_stops()

@@ -238,7 +238,7 @@ class GcodeStage(Homer, Linked):
         self._opened.home(lines, permit)
 
     def _read(self) -> Samples:
-        return self._opened.step()
+        return self._opened.step(self.clock())
 
     @property
     def _opened(self) -> Controller:
