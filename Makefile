@@ -28,7 +28,7 @@ EXTRAS_docs := [docs]
 EXTRAS_release := [release]
 
 .NOTPARALLEL:
-.PHONY: run test test-slow soak latest lint bench screenshots languages viewer docs dist bundle clean help system rebuild
+.PHONY: run test test-slow soak latest lint bench screenshots structure languages viewer docs dist bundle clean help system rebuild
 
 run: QT_PLATFORM :=
 run: system $(VENV)/.run  ## open the program with the built-in simulator
@@ -74,6 +74,9 @@ bench: system $(VENV)/.bench  ## measure (tests/benchmarks), and write docs/benc
 
 screenshots: system $(VENV)/.screenshots  ## draw the pictures of the documentation
 	@$(BIN)/python -m rotemina.app.shell.screenshots docs/screenshots
+
+structure:  ## draw the folders for docs/structure.md, and print lines and lengths
+	@$(PYTHON) .ci/structure.py --page
 
 # One file of texts for each folder that shows some, named as their context; all make one .qm.
 LUPDATE := $(BIN)/pyside6-lupdate -silent -tr-function-alias QT_TRANSLATE_NOOP+=marked,QT_TRANSLATE_NOOP+=message \

@@ -14,7 +14,7 @@ from math import floor, isfinite, log10
 from typing import NamedTuple
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.units import canonical, per_si, symbol
+from rotemina.sim.unit_table import PER_SI, factor_of, spelled, symbol_of
 
 POINT = "."
 _sign = POINT
@@ -169,8 +169,9 @@ class Scale(NamedTuple):
 
 
 def scale_in(unit: str, *, decimals: int | None = None, digits: int = 4) -> Scale:
-    """Return the scale of a unit that :mod:`rotemina.sim.units` knows, such as ``"um"``."""
-    return Scale(symbol(unit), per_si(unit), decimals, digits)
+    """Return the scale of a unit of :mod:`rotemina.sim.unit_table`, such as ``"um"``."""
+    plain = spelled(unit)
+    return Scale(symbol_of(plain), factor_of(plain), decimals, digits)
 
 
 def scale_of(unit: str, size: float, digits: int = 4) -> Scale:
@@ -185,7 +186,7 @@ def scale_of(unit: str, size: float, digits: int = 4) -> Scale:
         return Scale(unit, 1.0, None, digits)
     size = float(f"{abs(size):.{digits - 1}e}")  # 999.96 µm, in four digits, are 1 mm
     shown = next(name for name, least in steps if size >= least)
-    return Scale(f"{symbol(shown)}{slash}{rest}", per_si(canonical(shown)), None, digits)
+    return Scale(f"{symbol_of(shown)}{slash}{rest}", PER_SI[head][shown], None, digits)
 
 
 def amount(value: float | None, unit: str, *, digits: int = 4, size: float | None = None) -> Number:

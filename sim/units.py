@@ -1,37 +1,16 @@
 """Units of files and screens, and their conversion to and from SI.
 
-Every factor is kept as "units per SI unit", a number that float64 holds exactly for the decimal
-units: a value becomes SI by one division, which is rounded once, so ``581.7 um`` becomes the
-float64 nearest to 581.7e-6 m. Multiplying by 1e-6 would round twice. There and back again a value
-moves by 2 ulp at most, and an SI unit leaves it as it is, bit by bit.
+A value becomes SI by one division, which is rounded once, so ``581.7 um`` becomes the float64
+nearest to 581.7e-6 m. Multiplying by 1e-6 would round twice. There and back again a value moves by
+2 ulp at most, and an SI unit leaves it as it is, bit by bit.
 """
-
-from math import pi
-from types import MappingProxyType
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
-
-_PER_SI = MappingProxyType(
-    {
-        "m": MappingProxyType({"m": 1.0, "mm": 1e3, "um": 1e6, "nm": 1e9}),
-        "rad": MappingProxyType(
-            {
-                "rad": 1.0,
-                "mrad": 1e3,
-                "urad": 1e6,
-                "arcsec": 648000.0 / pi,
-                "deg": 180.0 / pi,
-            }
-        ),
-        "V": MappingProxyType({"V": 1.0}),
-        "s": MappingProxyType({"s": 1.0, "ms": 1e3, "us": 1e6}),
-    }
-)
-_QUANTITIES = {unit: si for si, table in _PER_SI.items() for unit in table}
-_MICRO_SIGNS = ("\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}")
+from rotemina.sim.messages import message
+from rotemina.sim.unit_table import PER_SI, SI_UNIT, factor_of, spelled, symbol_of
 
 
 class UnitError(InputError):
@@ -46,13 +25,9 @@ def canonical(unit: str) -> str:
     UnitError
         If there is no such unit.
     """
-    plain = unit
-    for sign in _MICRO_SIGNS:
-        plain = plain.replace(sign, "u")
-    if plain not in _QUANTITIES:
-        known = " · ".join(" ".join(table) for table in _PER_SI.values())
-        from rotemina.sim.messages import message  # it knows the units itself
-
+    plain = spelled(unit)
+    if plain not in SI_UNIT:
+        known = " · ".join(" ".join(table) for table in PER_SI.values())
         raise UnitError(
             message("engine", "unknown unit {unit}; use one of {known}").fill(
                 unit=repr(unit[:20]), known=known
@@ -63,13 +38,12 @@ def canonical(unit: str) -> str:
 
 def symbol(unit: str) -> str:
     """Return a unit as screens show it: ``"um"`` is ``"µm"``."""
-    plain = canonical(unit)
-    return _MICRO_SIGNS[0] + plain[1:] if plain.startswith("u") else plain
+    return symbol_of(canonical(unit))
 
 
 def quantity(unit: str) -> str:
     """Return the SI unit of a unit's quantity: ``"m"``, ``"rad"``, ``"V"`` or ``"s"``."""
-    return _QUANTITIES[canonical(unit)]
+    return SI_UNIT[canonical(unit)]
 
 
 def units_of(si_unit: str) -> tuple[str, ...]:
@@ -80,20 +54,18 @@ def units_of(si_unit: str) -> tuple[str, ...]:
     UnitError
         If ``si_unit`` is not ``"m"``, ``"rad"``, ``"V"`` or ``"s"``.
     """
-    if si_unit not in _PER_SI:
-        from rotemina.sim.messages import message
-
+    if si_unit not in PER_SI:
         raise UnitError(
             message("engine", "{si_unit} is no SI unit of a record; use one of {names}").fill(
-                si_unit=repr(si_unit), names=" ".join(_PER_SI)
+                si_unit=repr(si_unit), names=" ".join(PER_SI)
             )
         )
-    return tuple(_PER_SI[si_unit])
+    return tuple(PER_SI[si_unit])
 
 
 def per_si(unit: str) -> float:
     """Return how many of a unit make one SI unit: 1e6 for ``"um"``."""
-    return _PER_SI[quantity(unit)][canonical(unit)]
+    return factor_of(canonical(unit))
 
 
 def from_unit(values: FloatArray | float, unit: str) -> FloatArray:

@@ -17,7 +17,7 @@ from rotemina.sim.blind import mechanics
 from rotemina.sim.blind.case import Case
 from rotemina.sim.blind.machine import Machine, machine_of
 from rotemina.sim.blind.part import SimulationRun, Stage
-from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.randomness import Chance
 from rotemina.sim.robot.model import Robot
 
 #: Effects whose parts can go on.

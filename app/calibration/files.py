@@ -9,7 +9,7 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from rotemina.app.motion.sensor_corrections import AppliedCalibration
-from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
+from rotemina.app.toml_file import STRICT, Format, Text
 from rotemina.sim.calibration.calibrating import Calibration
 from rotemina.sim.calibration.errors import CalibrationError
 from rotemina.sim.calibration.iso230 import Positioning

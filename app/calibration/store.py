@@ -10,7 +10,7 @@ from pydantic.dataclasses import dataclass
 
 from rotemina.app.calibration.files import FORMAT, CalibrationFile
 from rotemina.app.motion.sensor_corrections import SensorCorrections
-from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
+from rotemina.app.toml_file import STRICT, Format, Text
 from rotemina.sim.calibration.errors import CalibrationError
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot

@@ -10,9 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.app.cli.options import add_columns, add_robot, robot_of
-from rotemina.sim.effects.attachment import attached_effects
-from rotemina.sim.effects.errors import EffectError
+from rotemina.app.cli.options import add_columns, add_robot, robot_with_effects
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.plant.assembly import assemble
@@ -21,7 +19,6 @@ from rotemina.sim.records.pieces import read_pieces
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_pieces
-from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.simulation.loads_table import LoadsTable, loads_table
 from rotemina.sim.simulation.simulation import Simulation, needs_whole
@@ -64,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
     _check_files(options)
     if options.seed < 0:
         raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
-    robot = _robot(options)
+    robot = robot_with_effects(options)
     commands = _commands(options, robot)
     first = next(commands)
     rng = None if options.no_noise else np.random.default_rng(options.seed)
@@ -107,23 +104,6 @@ def _check_files(options: argparse.Namespace) -> None:
                 ).fill(output=output)
             )
         sources.append(output)
-
-
-def _robot(options: argparse.Namespace) -> Robot:
-    """Return the robot with the effects that are to act."""
-    robot = robot_of(options)
-    if options.effects is None:
-        return robot
-    robot = replace(robot, effects=load_robot(options.effects).effects)
-    try:
-        attached_effects(robot)
-    except EffectError as error:
-        raise InputError(
-            message("cli", "{effects}: on robot {name}: {error}").fill(
-                effects=options.effects, name=repr(robot.name), error=str(error)
-            )
-        ) from error
-    return robot
 
 
 def _commands(options: argparse.Namespace, robot: Robot) -> Iterator[Record]:

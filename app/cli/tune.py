@@ -3,24 +3,19 @@
 import argparse
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.options import add_robot, robot_with_effects
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.cli.workers import workers
 from rotemina.app.files import json_text, write_text
-from rotemina.sim.effects.attachment import attached_effects
-from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.axis_loop import AxisLoop
 from rotemina.sim.feedback.stability import check_stability
 from rotemina.sim.gap.progress import Progress
 from rotemina.sim.messages import message
-from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import Robot
 from rotemina.sim.tuning.objectives import SecondObjective
 
 _RATE_HZ = 5000.0
@@ -101,7 +96,7 @@ def _search(options: argparse.Namespace) -> int:
         against=SecondObjective(options.against),
     )
     problem = TuningProblem(
-        _robot(options),
+        robot_with_effects(options),
         options.axis,
         options.rate,
         delay=options.delay,
@@ -141,7 +136,7 @@ def _choose(options: argparse.Namespace) -> int:
     from rotemina.sim.tuning.result import load_tuning, save_tuning
 
     tuning = load_tuning(options.output).choosing(options.choose)
-    robot = _robot(options)
+    robot = robot_with_effects(options)
     if robot.name != tuning.provenance.robot:
         raise InputError(
             message(
@@ -178,23 +173,6 @@ def _check(options: argparse.Namespace) -> None:
                     "cli", "{output}: it is named twice; give each file a name of its own"
                 ).fill(output=output)
             )
-
-
-def _robot(options: argparse.Namespace) -> Robot:
-    """Return the robot with the effects that are to act."""
-    robot = robot_of(options)
-    if options.effects is None:
-        return robot
-    robot = replace(robot, effects=load_robot(options.effects).effects)
-    try:
-        attached_effects(robot)
-    except EffectError as error:
-        raise InputError(
-            message("cli", "{effects}: on robot {name}: {error}").fill(
-                effects=options.effects, name=repr(robot.name), error=str(error)
-            )
-        ) from error
-    return robot
 
 
 def _inverse(options: argparse.Namespace) -> Any:

@@ -11,7 +11,7 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from rotemina.app.microscope.errors import MicroscopeError
-from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
+from rotemina.app.toml_file import STRICT, Format, Text
 from rotemina.drivers.cameras.frame import Region
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message

@@ -14,8 +14,8 @@ from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
+from rotemina.sim.vision.background import Ground
 from rotemina.sim.vision.body_fit import BodyPart
-from rotemina.sim.vision.ground import Ground
 from rotemina.sim.vision.image import Image, grey
 from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.tip import find_body, find_tip

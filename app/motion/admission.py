@@ -5,8 +5,9 @@ from collections.abc import Container, Iterable, Mapping
 from types import MappingProxyType
 
 from rotemina.app.motion.device_link import DeviceLink
-from rotemina.app.motion.guard import Guard, PositionEnvelope
+from rotemina.app.motion.guard import Guard
 from rotemina.app.motion.mailbox import Command, RefusedError, refuse_overtaken
+from rotemina.app.motion.position_envelope import PositionEnvelope
 from rotemina.app.motion.undo import Undo
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState

@@ -11,7 +11,7 @@ from types import MappingProxyType
 
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.device_link import DeviceLink
-from rotemina.app.motion.ranges import NarrowedRanges
+from rotemina.app.motion.narrowed_ranges import NarrowedRanges
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact
 from rotemina.sim.robot.model import StepperAxis

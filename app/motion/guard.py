@@ -1,11 +1,12 @@
 """What stands between every request and the machine: ranges, speeds, and the tip's keep-out."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
+from rotemina.app.motion.position_envelope import PositionEnvelope
 from rotemina.app.motion.ranges import (
     WHOLE,
     Range,
@@ -22,38 +23,14 @@ from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.checked import CheckedTrajectory
-from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target, commands_of
+from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
+from rotemina.sim.trajectory.violations import commands_of
 
 MOST_THRUST = 1e-4  # m: beyond a piezo's way it is no thrust into a cell
 RETURN_SPEED = SLOW_SPEED  # m/s of the tip on its way back into its bounds
 _REACTION_S = 0.05  # between a lease's end and the axis' first braking, at most
 _SCALES = tuple(0.5**halvings for halvings in range(8))
 _LIFTING = ("z", "zn")  # axes that move the tip up and down
-
-
-class PositionEnvelope(NamedTuple):
-    """Where the axes may be just now: bounds (axes,) about all commands that may act.
-
-    ``deviation`` (axes,) is by how much readings differ from commands, less what is noise: the tip
-    is judged where it is told to be, and that much beside it, where it is read to be.
-    """
-
-    low: FloatArray
-    high: FloatArray
-    deviation: FloatArray
-
-    def widened(self, columns: Mapping[int, float]) -> "PositionEnvelope":
-        """Return the bounds with more values of some axes in them."""
-        low, high = self.low.copy(), self.high.copy()
-        for column, value in columns.items():
-            low[column], high[column] = min(low[column], value), max(high[column], value)
-        return PositionEnvelope(low, high, self.deviation)
-
-    def seen(self) -> Iterator[tuple[FloatArray, FloatArray]]:
-        """Yield the bounds about commands, and about readings where these are elsewhere."""
-        yield self.low, self.high
-        if self.deviation.any():
-            yield self.low + self.deviation, self.high + self.deviation
 
 
 @dataclass(frozen=True, slots=True)

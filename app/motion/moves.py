@@ -6,9 +6,10 @@ from types import MappingProxyType
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.compensation import Inverses
 from rotemina.app.motion.device_link import DeviceLink
-from rotemina.app.motion.guard import Guard, PositionEnvelope, TipPath
+from rotemina.app.motion.guard import Guard, TipPath
 from rotemina.app.motion.mailbox import Drive, Home, Play, RefusedError, SetVoltage
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
+from rotemina.app.motion.position_envelope import PositionEnvelope
 from rotemina.app.motion.ranges import check_rows
 from rotemina.app.motion.regulation import Loops
 from rotemina.app.motion.routing import Routing

@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Mapping
 from math import sqrt
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,93 +10,12 @@ from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import RANGE_SLACK, OutOfLimitsError, check_target, commands_of
-
-if TYPE_CHECKING:
-    from rotemina.app.motion.admission import Admission
-    from rotemina.app.motion.device_link import DeviceLink
-    from rotemina.app.motion.guard import Guard
+from rotemina.sim.trajectory.limits import RANGE_SLACK, OutOfLimitsError, check_target
+from rotemina.sim.trajectory.violations import commands_of
 
 Range = tuple[float, float]
 Ranges = Mapping[str, Range]
 WHOLE: Ranges = MappingProxyType({})  # no axis is narrowed
-
-
-class NarrowedRanges:
-    """What the guard holds every target, speed, profile and trajectory against.
-
-    A search for switches goes to the switches all the same.
-    """
-
-    def __init__(self, link: "DeviceLink", admission: "Admission", guard: "Guard") -> None:
-        self._link = link
-        self._admission = admission
-        self._guard = guard
-
-    @property
-    def narrowed(self) -> Ranges:
-        """The ranges of the axes that were narrowed, m or rad; any thread."""
-        return self._guard.narrowed
-
-    def of(self, axis: str) -> Range:
-        """Return between which positions an axis may be sent, m or rad."""
-        return self.narrowed.get(axis, self._link.robot.axes[axis].range)
-
-    def narrow(self, axis: str, low: float, high: float) -> None:
-        """Let an axis be sent to no position outside of these, m or rad.
-
-        Raises
-        ------
-        OutOfLimitsError
-            If they are no range within that of the robot file, or the axis stands outside.
-        RefusedError
-            If the machine is not at rest, or motion is locked.
-        """
-        wanted = narrower(self._link.robot, axis, low, high)
-        with self._admission.lock:
-            self._admission.refuse_unless_at_rest("narrowing a range")
-            at = self._link.worker.state.command[axis]
-            if _outside(self._link.robot, axis, at, wanted):
-                unit = self._link.robot.unit(axis) or ""
-                raise OutOfLimitsError(
-                    message(
-                        "engine",
-                        "axis {axis} stands at {at}, outside of {low} to {high}; move it there "
-                        "first",
-                    ).fill(
-                        axis=AxisName(axis),
-                        at=exact(at, unit),
-                        low=exact(low, unit),
-                        high=exact(high, unit),
-                    )
-                )
-            self._guard.narrowed = MappingProxyType({**self.narrowed, axis: wanted})
-
-    def restore(self, axis: str) -> None:
-        """Give an axis back the whole range of the robot file.
-
-        Raises
-        ------
-        RefusedError
-            If the machine is not at rest, or motion is locked.
-        """
-        with self._admission.lock:
-            self._admission.refuse_unless_at_rest("restoring a range")
-            left = {name: ends for name, ends in self.narrowed.items() if name != axis}
-            self._guard.narrowed = MappingProxyType(left)
-
-    def begin_with(self, ranges: Ranges) -> None:
-        """Take ranges that were kept, before the session is started.
-
-        Raises
-        ------
-        OutOfLimitsError
-            If one is none of this robot; then none is taken.
-        """
-        robot = self._link.robot
-        taken = {axis: narrower(robot, axis, *ends) for axis, ends in ranges.items()}
-        with self._admission.lock:
-            self._guard.narrowed = MappingProxyType(taken)
 
 
 def narrower(robot: Robot, axis: str, low: float, high: float) -> Range:
@@ -130,7 +48,7 @@ def check_within(robot: Robot, ranges: Ranges, targets: Iterable[tuple[str, floa
     """
     for axis, target in targets:
         ends = ranges.get(axis)
-        if ends is None or not _outside(robot, axis, target, ends):
+        if ends is None or not outside(robot, axis, target, ends):
             continue
         unit = robot.unit(axis) or ""
         raise OutOfLimitsError(
@@ -180,6 +98,7 @@ def speed_before(left: float, time_s: float, braking: float | None) -> float:
     return sqrt(lost**2 + 2.0 * braking * left) - lost
 
 
-def _outside(robot: Robot, axis: str, position: float, ends: Range) -> bool:
+def outside(robot: Robot, axis: str, position: float, ends: Range) -> bool:
+    """Tell whether a position, m or rad, is beyond these ends by more than rounding."""
     slack = RANGE_SLACK * robot.axes[axis].span
     return not ends[0] - slack <= position <= ends[1] + slack

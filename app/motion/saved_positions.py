@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
+from rotemina.app.toml_file import STRICT, Format, Text
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot

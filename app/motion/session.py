@@ -19,8 +19,8 @@ from rotemina.app.motion.live_models import PreparedModel
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.moves import Moves
+from rotemina.app.motion.narrowed_ranges import NarrowedRanges
 from rotemina.app.motion.profiles import Profiles
-from rotemina.app.motion.ranges import NarrowedRanges
 from rotemina.app.motion.regulation import Loops
 from rotemina.app.motion.reservations import Reservations
 from rotemina.app.motion.routing import Routing

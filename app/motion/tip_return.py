@@ -1,19 +1,15 @@
 """A tip that is out of its bounds: what is said of it, and which ways lead back in."""
 
-from typing import TYPE_CHECKING
-
+from rotemina.app.motion.position_envelope import PositionEnvelope
 from rotemina.sim.kinematics.keep_out import Excess, KeepOutZone
 from rotemina.sim.messages import Listed, Message, message
 from rotemina.sim.quantities import exact
-
-if TYPE_CHECKING:
-    from rotemina.app.motion.guard import PositionEnvelope
 
 _CLOSER = 1e-9  # m by which each axis has to bring the tip nearer to its bounds
 
 
 def nearer(
-    zone: KeepOutZone, envelope: "PositionEnvelope", column: int, at: float, out: Excess
+    zone: KeepOutZone, envelope: PositionEnvelope, column: int, at: float, out: Excess
 ) -> bool:
     """Tell whether an axis that goes there alone brings the commanded tip back, all the way."""
     low, high = envelope.low.copy(), envelope.high.copy()

@@ -4,7 +4,6 @@ It is stepped, not timed: :meth:`Worker.run_once` is one cycle, called by the se
 without any thread, by a test.
 """
 
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -47,6 +46,7 @@ from rotemina.app.motion.state import (
 )
 from rotemina.app.motion.stop_latency import StopLatency
 from rotemina.app.motion.stop_request import StopRequest
+from rotemina.app.motion.stop_tracking import StopTracking
 from rotemina.drivers.abilities import Homer, Linked, Parameterised
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
@@ -110,11 +110,7 @@ class Worker:
         self._received_s = float("-inf")
         self._stirred = False  # since the state was published
         self._noted: list[str] = []  # faults and contacts since the latest playback began
-        # Set by other threads, each in one assignment.
-        self._stop_asked_s: float | None = None
-        self._stop_unconfirmed_s: float | None = None
-        self._stop_failure: Exception | None = None
-        self._stops_to_tell: deque[StopRequest] = deque(maxlen=_MOST_STOPS)
+        self._stops = StopTracking(clock)
 
     @property
     def at_rest(self) -> bool:
@@ -145,16 +141,13 @@ class Worker:
     def stopped(self, host_time_s: float, failure: Exception | None, request: StopRequest) -> None:
         """Note, from any thread, that a stop was handed to the device, or failed to be."""
         self._executor.forget()
-        self._stop_asked_s = self._stop_unconfirmed_s = host_time_s
-        if failure is not None:  # a later stop that succeeds does not mend what this one found
-            self._stop_failure = failure
-        self._stops_to_tell.append(request)
+        self._stops.note(host_time_s, failure, request)
         self._mailbox.wake_event.set()
 
     def run_once(self) -> None:
         """Do one cycle. Whatever the driver raises ends in the failed state, never in here."""
-        while self._stops_to_tell:
-            self._emit(Stopped(self._stops_to_tell.popleft()))
+        for request in self._stops.untold():
+            self._emit(Stopped(request))
         try:
             self._cycle()
         except Exception as error:  # a driver may raise anything; motion must lock and say so
@@ -242,8 +235,7 @@ class Worker:
                 self._connect()
         if self._next.connection is not Connection.CONNECTED:
             return
-        failure, self._stop_failure = self._stop_failure, None
-        if failure is not None:
+        if (failure := self._stops.take_failure()) is not None:
             raise failure
         self._execute()
         self._take_samples()
@@ -256,7 +248,7 @@ class Worker:
         )
         self._publish()
         self._mailbox.clear()
-        self._stop_failure = None
+        self._stops.take_failure()
         self._executor.forget()
         self._unread.clear()
         self.corrections.restart()
@@ -297,7 +289,7 @@ class Worker:
         if len(samples):
             self._unread.append(samples)
             self._received_s = now_s
-        self._note_confirmation(now_s)
+        self._next = self._stops.confirmed(self._next, now_s, lambda: self.driver.stop_pending)
         since_s = now_s - self._worked_up_s
         if not len(samples) and since_s < _PORTION_S:
             return
@@ -315,7 +307,7 @@ class Worker:
         self.deviation.follow(samples, answers.nominal)
         self._history.append(samples, answers.in_use, answers.nominal, answers.doubt)
         self._next = self._updated(samples, answers, status)
-        self._note_standstill(status)
+        self._next = self._stops.followed(self._next, status.state)
         self._note_rest(status)
         faulted = status.state is DeviceState.FAULT and self.state.fault != self._next.fault
         self._noted += [one.message for one in found if isinstance(one, Faulted)]
@@ -418,23 +410,6 @@ class Worker:
         driver = self.driver
         return driver.homing_axes if isinstance(driver, Homer) else driver.axes
 
-    def _note_confirmation(self, now_s: float) -> None:
-        """Note how long the device took to confirm the latest stop."""
-        asked_s = self._stop_unconfirmed_s
-        if asked_s is not None and not self.driver.stop_pending:
-            self._stop_unconfirmed_s = None
-            self._next = replace(self._next, stop_latency_s=now_s - asked_s)
-
-    def _note_standstill(self, status: DeviceStatus) -> None:
-        asked_s = self._stop_asked_s
-        if asked_s is None:
-            return
-        self._next = replace(self._next, standstill_s=None, stopping=True)
-        if status.state in (DeviceState.IDLE, DeviceState.FAULT):
-            self._stop_asked_s = None
-            standstill_s = self._clock() - asked_s
-            self._next = replace(self._next, standstill_s=standstill_s, stopping=False)
-
     def _executor_of(self, driver: Driver) -> Executor:
         return Executor(
             driver, self._clock, self.corrections, self.inverses, self._said_of_playback
@@ -503,7 +478,6 @@ _TAKEN_OFF = message(
 _STIRRING = (Move, Drive, Play, Home, RunProfile, SetVoltage)
 _PORTION_S = 0.016  # between two times that samples are worked up
 _LATEST_S = 0.019
-_MOST_STOPS = 16  # that wait to be told
 
 
 def _told(state: SessionState) -> tuple[object, ...]:

@@ -4,7 +4,7 @@ import logging
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell import commands, key_help, layout_menu, layouts
@@ -34,7 +33,7 @@ from rotemina.app.shell.host import find_panels
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.language_menu import LanguageMenu, language_entries
 from rotemina.app.shell.late_panels import LatePanels
-from rotemina.app.shell.leaving import may_lose_record, may_stop, moves
+from rotemina.app.shell.leaving import Leaving
 from rotemina.app.shell.log_page import LogPage
 from rotemina.app.shell.loop_watch import LoopWatch
 from rotemina.app.shell.machine_badge import Machine, window_title
@@ -49,7 +48,7 @@ from rotemina.app.shell.replay_bar import ReplayBar
 from rotemina.app.shell.status import StatusText
 from rotemina.app.shell.stops import StopWatch
 from rotemina.app.shell.support_page import SupportPage
-from rotemina.app.shell.workbench import FRAME_MS, Level, Workbench
+from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.sim.records.record import Record
 
 TOP_LINE = 4  # px: white where a real machine is driven
@@ -73,7 +72,7 @@ class MainWindow(ArrangedWindow):
         self.panels.failed = broken.__setitem__  # until there is a place to tell it
         self.docks: dict[str, QDockWidget] = {}
         self._menus: dict[str, QMenu] = {}
-        self._leaving = False
+        self._leaving = Leaving(self, workbench)
         self._seen: dict[str, Record] = {}  # what panels were brought up for
         self._support: SupportPage | None = None
         self.help_page = HelpPage(self)
@@ -398,52 +397,13 @@ class MainWindow(ArrangedWindow):
         self.late_panels.start()
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Ask before what moves is stopped; wait until it rests, and for what is being written.
-
-        To close it once more then leaves at once: what was recorded stays to be recovered. What a
-        stop has been asked for is not asked about again.
-        """
-        bench = self.workbench
-        state = bench.session.snapshot()
-        if moves(state) and not may_stop(self, state):
+        """Ask before what moves is stopped; wait until it rests, and for what is being written."""
+        if not self._leaving.may_close():
             event.ignore()
             return
-        if not state.stopping:
-            bench.stop()
-        ends = bench.playback.state.phase is PlaybackPhase.PLAYING
-        # In this order: what has just ended is counted before the playback says that it has.
-        if not self._leaving and (ends or bench.session.snapshot().stopping or bench.untold):
-            event.ignore()
-            QTimer.singleShot(FRAME_MS, self, self.close)
-            return
-        if not self._leaving and (bench.operation.recording is not None or bench.busy):
-            event.ignore()
-            self._leave_later()
-            return
-        if bench.unsaved is not None and not may_lose_record(self):
-            self._leaving = False
-            event.ignore()
-            return
-        self._leaving = True
         self.arrangement.remember()
         self.workbench.close()
         event.accept()
-
-    def _leave_later(self) -> None:
-        """Close when a recording is in its file, which may take long; the window lives on."""
-        self._leaving = True
-        self.workbench.notify(
-            Level.INFO,
-            translate(
-                "shell",
-                "The window closes as soon as everything is written. Close it once more to leave "
-                "at once: a recording can be recovered at the next start.",
-            ),
-        )
-        self.workbench.finish_recording(self.close, self._stay)
-
-    def _stay(self) -> None:
-        self._leaving = False
 
 
 def _come_up(page: QDialog) -> None:

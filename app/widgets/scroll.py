@@ -3,7 +3,15 @@
 from collections.abc import Mapping
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QScrollArea, QStackedWidget, QTabBar, QWidget
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QScrollArea,
+    QStackedWidget,
+    QTabBar,
+    QVBoxLayout,
+    QWidget,
+)
 
 
 def scrolled(content: QWidget, *, sideways: bool = False) -> QScrollArea:
@@ -34,3 +42,19 @@ def tabbed(name: str, pages: Mapping[str, QWidget]) -> tuple[QTabBar, QStackedWi
         views.addWidget(page)
     tabs.currentChanged.connect(views.setCurrentIndex)
     return tabs, views
+
+
+def lay_beside(
+    panel: QWidget, controls: QWidget, width: int, tabs: QTabBar, views: QStackedWidget
+) -> None:
+    """Lay a panel out: controls at the left, scrolled, at least ``width`` px wide; views beside."""
+    scroll = scrolled(controls)
+    scroll.setFixedWidth(max(least_width(scroll), width))
+    right = QVBoxLayout()
+    right.setSpacing(4)
+    right.addWidget(tabs)
+    right.addWidget(views, 1)
+    row = QHBoxLayout(panel)
+    row.setContentsMargins(10, 6, 10, 6)
+    row.addWidget(scroll)
+    row.addLayout(right, 1)

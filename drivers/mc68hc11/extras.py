@@ -17,12 +17,12 @@ from rotemina.drivers.gate import Permit
 from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.mc68hc11.capturing import Capturing
 from rotemina.drivers.mc68hc11.codes import AXES, Ability
-from rotemina.drivers.mc68hc11.connected import Connected
+from rotemina.drivers.mc68hc11.connection import Connected
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
 from rotemina.drivers.mc68hc11.orders import constant
+from rotemina.drivers.mc68hc11.profile_upload import profile_messages
 from rotemina.drivers.mc68hc11.requests import AbortProfile, Capture, ShowText, TriggerProfile
 from rotemina.drivers.mc68hc11.total_quality import total_quality
-from rotemina.drivers.mc68hc11.uploading import profile_messages
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState

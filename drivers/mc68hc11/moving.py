@@ -10,7 +10,7 @@ from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.codes import Ability
-from rotemina.drivers.mc68hc11.connected import Connected
+from rotemina.drivers.mc68hc11.connection import Connected
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.orders import constant
 from rotemina.drivers.mc68hc11.parameters import CODES, PER_AXIS

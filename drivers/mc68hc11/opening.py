@@ -13,6 +13,7 @@ from rotemina.drivers.mc68hc11.codes import VERSION, Ability, Fault, State
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
 from rotemina.drivers.mc68hc11.grid import Grid
 from rotemina.drivers.mc68hc11.message import Message
+from rotemina.drivers.mc68hc11.parameter_check import Trust
 from rotemina.drivers.mc68hc11.reports import AxisDescription, Identity, Rates, Telemetry
 from rotemina.drivers.mc68hc11.requests import (
     AskRates,
@@ -24,7 +25,6 @@ from rotemina.drivers.mc68hc11.requests import (
     Stop,
     Watch,
 )
-from rotemina.drivers.mc68hc11.trust import Trust
 from rotemina.sim.messages import joined, marked, message
 from rotemina.sim.robot.model import Robot
 

@@ -17,10 +17,10 @@ from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.feedback.regulation import Regulation
-from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.effect_switch import taken_over
 from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.randomness import Chance
 from rotemina.sim.plant.state import PlantState
-from rotemina.sim.plant.takeover import taken_over
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
 from rotemina.sim.trajectory.setpoint_limits import SetpointLimits

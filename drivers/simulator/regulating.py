@@ -13,8 +13,8 @@ from rotemina.sim.feedback.controller import Controller
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.messages import message
-from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.randomness import Chance
 from rotemina.sim.plant.state import Motion, PlantState
 
 _WHOLE = 1e-6  # how near to a whole number a rate must be

@@ -36,11 +36,6 @@ class Port:
         self._line = line
 
     @property
-    def shared(self) -> bool:
-        """Whether both boards share it as a bus."""
-        return self._line.bus
-
-    @property
     def numbers(self) -> tuple[int, ...]:
         """The boards at its end."""
         return tuple(board.number for board in self._line.boards)

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.randomness import Chance
 from rotemina.sim.plant.state import PlantState
 
 _AHEAD = 100  # ticks

@@ -8,8 +8,8 @@ import numpy as np
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.virtual_board.lookahead import PlantRun
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.plant.effect_switch import taken_over
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.takeover import taken_over
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
 
 Preview = Callable[[int], FloatArray | None]  # whole steps (ticks, own axes) that will come next

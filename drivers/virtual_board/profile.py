@@ -4,8 +4,8 @@ from binascii import crc_hqx
 
 import numpy as np
 
+from rotemina.drivers.mc68hc11.profile_upload import FRACTION, ticks_of
 from rotemina.drivers.mc68hc11.requests import Quadratic, Segments
-from rotemina.drivers.mc68hc11.uploading import FRACTION, ticks_of
 from rotemina.sim.arrays import FloatArray, IntArray
 
 _START = 0xFFFF  # of the check

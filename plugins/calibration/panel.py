@@ -4,11 +4,6 @@ from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QVBoxLayout,
-)
-
 from rotemina.app.calibration.files import Source, kept, source_of
 from rotemina.app.calibration.run import CalibrationRun, Phase, RunState
 from rotemina.app.calibration.store import Stored
@@ -20,7 +15,7 @@ from rotemina.app.shell.file_dialog import ask_files
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.scroll import least_width, scrolled, tabbed
+from rotemina.app.widgets.scroll import lay_beside, tabbed
 from rotemina.plugins.calibration.procedure import Procedure
 from rotemina.plugins.calibration.result_view import ResultView
 from rotemina.plugins.calibration.stored_view import StoredView
@@ -64,7 +59,7 @@ class CalibrationPanel(Panel):
             },
         )
         self.tabs.setTabEnabled(_ISO, False)
-        self._lay_out()
+        lay_beside(self, self.procedure, _WIDTH, self.tabs, self.views)
         self._connect()
         self._look()
 
@@ -261,15 +256,3 @@ class CalibrationPanel(Panel):
         self.follow(self._refresh)
         self.workbench.theme_changed.connect(self._use_theme)
         self.workbench.closing.connect(self._close_run)
-
-    def _lay_out(self) -> None:
-        scroll = scrolled(self.procedure)
-        scroll.setFixedWidth(max(least_width(scroll), _WIDTH))
-        right = QVBoxLayout()
-        right.setSpacing(4)
-        right.addWidget(self.tabs)
-        right.addWidget(self.views, 1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(10, 6, 10, 6)
-        row.addWidget(scroll)
-        row.addLayout(right, 1)

@@ -7,8 +7,6 @@ from pathlib import Path
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import (
     QDockWidget,
-    QHBoxLayout,
-    QVBoxLayout,
 )
 
 from rotemina.app.motion.compensation import NamedInverse, check_belongs
@@ -21,17 +19,17 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.scroll import least_width, scrolled, tabbed
+from rotemina.app.widgets.scroll import lay_beside, tabbed
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.compensation.actuation import Actuation
 from rotemina.plugins.compensation.controls import Controls
+from rotemina.plugins.compensation.gain_search import GainSearch
 from rotemina.plugins.compensation.learning import (
     Learned,
     Listener,
     learned_from,
     learned_simulated,
 )
-from rotemina.plugins.compensation.searching import Searching
 from rotemina.plugins.compensation.trial_motion import NAME
 from rotemina.plugins.compensation.views import CheckView, FrontView, LiveView
 from rotemina.plugins.compensation.words import NO_FRONT, NOTHING, kind_name
@@ -62,7 +60,7 @@ class CompensationPanel(Panel):
         self.controls = Controls(workbench.robot)
         self.check, self.live, self.front = CheckView(theme), LiveView(theme), FrontView(theme)
         self.actuation = Actuation(workbench, self.controls, self.live)
-        self.search = Searching(workbench, self.controls, self.front)
+        self.search = GainSearch(workbench, self.controls, self.front)
         self.job = Job(self)
         self.learned: Learned | None = None
         self._source = ""
@@ -74,7 +72,7 @@ class CompensationPanel(Panel):
                 translate("compensation", "Tuning"): self.front,
             },
         )
-        self._lay_out()
+        lay_beside(self, self.controls, _WIDTH, self.tabs, self.views)
         self._connect()
         self._change_axis()
         self.controls.tell("", None)
@@ -364,15 +362,3 @@ class CompensationPanel(Panel):
         self._unsubscribe()
         self.job.close()
         self.search.close()
-
-    def _lay_out(self) -> None:
-        scroll = scrolled(self.controls)
-        scroll.setFixedWidth(max(least_width(scroll), _WIDTH))
-        right = QVBoxLayout()
-        right.setSpacing(4)
-        right.addWidget(self.tabs)
-        right.addWidget(self.views, 1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(10, 6, 10, 6)
-        row.addWidget(scroll)
-        row.addLayout(right, 1)

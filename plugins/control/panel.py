@@ -24,7 +24,7 @@ from rotemina.app.widgets.scroll import scrolled
 from rotemina.plugins.control.axes_page import AxesPage
 from rotemina.plugins.control.axis_row import AxisRow
 from rotemina.plugins.control.hand_page import HandPage
-from rotemina.plugins.control.head import Head
+from rotemina.plugins.control.overview import Overview
 from rotemina.plugins.control.penetration_page import PenetrationPage
 from rotemina.plugins.control.positions_page import PositionsPage
 from rotemina.plugins.control.step_choice import StepChoice
@@ -99,7 +99,7 @@ class ControlPanel(Panel):
         self._bounds: tuple[KeepOutZone | None, dict[str, float]] | None = None
         self._forbidden: dict[str, tuple[tuple[float, float], ...]] = {}
         self.steps: dict[str, StepChoice] = {}
-        self.head = Head(workbench)
+        self.head = Overview(workbench)
         self.hand, self.tip = HandPage(workbench), TipPage(workbench)
         self.positions = PositionsPage(
             workbench, self.head.speed, lambda name: self.main_window.bring_up(name)

@@ -24,7 +24,7 @@ from rotemina.app.widgets.labels import hint
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.blind_result import HEAD, BlindResult
 from rotemina.plugins.gap.blind_run import BlindRun
-from rotemina.plugins.gap.robots import RobotChoice
+from rotemina.plugins.gap.robot_choice import RobotChoice
 from rotemina.plugins.gap.words import effect_title, effect_word
 from rotemina.sim.quantities import percent
 from rotemina.sim.robot.file import load_robot, shipped_robots

@@ -13,12 +13,12 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.cell import parts
-from rotemina.plugins.gap.cell_view import CellView
+from rotemina.plugins.gap.heat_cell import parts
+from rotemina.plugins.gap.heat_cell_view import HeatCellView
 from rotemina.plugins.gap.words import regime_name
 from rotemina.sim.gap.document import shares
+from rotemina.sim.gap.location import LocatedGap
 from rotemina.sim.gap.report.heat import Heat
-from rotemina.sim.gap.where import Place
 from rotemina.sim.quantities import NOTHING, amount, percent, percents, rounded
 
 HEAD = (
@@ -56,7 +56,7 @@ class DistributionView(QSplitter):
         super().__init__(Qt.Orientation.Horizontal)
         self._theme = theme
         self._answer: Answer | None = None
-        self._places: list[Place] = []
+        self._places: list[LocatedGap] = []
         self.places = Table(
             translate("gap", "Where the gap lies"), [translate("gap", text) for text in HEAD]
         )
@@ -69,7 +69,7 @@ class DistributionView(QSplitter):
         self.heat.setCursor(Qt.CursorShape.PointingHandCursor)
         self.heat.cellClicked.connect(self.open_cell)
         self.heat.cellActivated.connect(self.open_cell)
-        self.cell = CellView(theme)
+        self.cell = HeatCellView(theme)
         self.cell.closed.connect(lambda: self.right.setCurrentIndex(0))
         whole = QWidget()
         column = QVBoxLayout(whole)
@@ -131,7 +131,7 @@ class DistributionView(QSplitter):
             self.show_answer(self._answer)
 
     @property
-    def _place(self) -> Place | None:
+    def _place(self) -> LocatedGap | None:
         row = self.places.currentRow()
         return self._places[row] if 0 <= row < len(self._places) else None
 
@@ -209,7 +209,7 @@ def _few(value: float) -> str:
 
 
 def _row(
-    place: Place, answer: Answer, share: tuple[float, tuple[float, float]] | None
+    place: LocatedGap, answer: Answer, share: tuple[float, tuple[float, float]] | None
 ) -> tuple[str, ...]:
     unit = answer.unit(place.axis, place.tap)
     band = place.worst_band_hz

@@ -38,12 +38,12 @@ from rotemina.plugins.gap.headline_view import HEIGHT, LITTLE, Headline
 from rotemina.plugins.gap.hidden_machine import HiddenMachineTrial
 from rotemina.plugins.gap.model_switch import ModelSwitch, against, candidate
 from rotemina.plugins.gap.playing import Playing
+from rotemina.plugins.gap.progress_view import ProgressView
 from rotemina.plugins.gap.proof import Proof, new_motion, prove
 from rotemina.plugins.gap.proof_view import ProofView
-from rotemina.plugins.gap.rail import Rail
 from rotemina.plugins.gap.records import Records
-from rotemina.plugins.gap.running import RunningView
 from rotemina.plugins.gap.shrinkage_view import ShrinkageView
+from rotemina.plugins.gap.start_section import StartSection
 from rotemina.plugins.gap.words import stage_name
 from rotemina.sim.gap.suggestion import suggestion
 
@@ -91,7 +91,7 @@ class GapPanel(Panel):
         self.model_switch = ModelSwitch(workbench, self)
         self.hidden_trial = HiddenMachineTrial(workbench, self)
         self.records = Records(workbench, self)
-        self.rail = Rail(workbench, self.records)
+        self.rail = StartSection(workbench, self.records)
         self.robots, self.start, self.stop = self.rail.robots, self.rail.start, self.rail.stop
         self.progress, self.doing = self.rail.progress, self.rail.doing
         self.blind: BlindPage | None = None
@@ -130,7 +130,7 @@ class GapPanel(Panel):
             CausesView(theme),
             ShrinkageView(theme),
         )
-        self.proof, self.running = ProofView(theme), RunningView(theme)
+        self.proof, self.running = ProofView(theme), ProgressView(theme)
         self.hint = hint(readiness(0))
         self.views = QStackedWidget()
         for view in (

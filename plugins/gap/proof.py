@@ -112,13 +112,6 @@ def _shrunk(run: Run, axis: str, figure: GapFigure, robot: Robot) -> Shrunk:
     return Shrunk(trace, figure, times, (float(low), float(high)))
 
 
-def leading(proof: Proof, axes: Sequence[str]) -> Shrunk | None:
-    """Return what shrinks most among axes that have a cause, or of all where they have none."""
-    return next((one for one in proof.shrunk if one.trace.axis in axes), None) or next(
-        iter(proof.shrunk), None
-    )
-
-
 def new_motion(diagnosis: Diagnosis, records: Sequence[Record], axes: Sequence[str]) -> Record:
     """Return a motion of these axes, where the records went, that none of them holds.
 

@@ -1,18 +1,144 @@
 """What runs now, with pause and stop, and what came of the last run."""
 
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from collections.abc import Callable
 
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.display import label
 from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.gap_words import RUN, size, small_print
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow
+from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.widgets.controls import allow, fill, plain_tip
+from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.app.widgets.scroll import scrolled
 from rotemina.plugins.job import words
-from rotemina.plugins.job.card import Card
-from rotemina.plugins.job.result import ResultView
+from rotemina.plugins.job.words import Running
 from rotemina.plugins.trajectory.transport import against_playing, play_word
+from rotemina.sim.records.record import Tap
+
+_STEPS = 1000
+
+
+class Card(QFrame):
+    """Shows how something stands, with a row of buttons below it."""
+
+    def __init__(self, kind: str) -> None:
+        super().__init__()
+        self.setObjectName("section")
+        self.name, self.doing = ElidedLabel(), ElidedLabel()
+        self.kind, self.time = QLabel(kind), QLabel()
+        self.time.setTextFormat(Qt.TextFormat.PlainText)
+        for quiet in (self.kind, self.doing):
+            quiet.setProperty("quiet", True)
+        self.name.setProperty("heading", True)
+        self.bar = QProgressBar()
+        self.bar.setRange(0, _STEPS)
+        self.bar.setTextVisible(False)
+        self.bar.setAccessibleName(kind)
+        self._buttons = QHBoxLayout()
+        self._buttons.setSpacing(6)
+        self._buttons.addStretch(1)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(2, 4, 2, 6)
+        grid.setVerticalSpacing(3)
+        grid.setColumnStretch(0, 1)
+        grid.addWidget(self.kind, 0, 0)
+        grid.addWidget(self.time, 0, 1)
+        for row, widget in enumerate((self.name, self.doing, self.bar), start=1):
+            grid.addWidget(widget, row, 0, 1, 2)
+        grid.addLayout(self._buttons, 4, 0, 1, 2)
+
+    def add_button(self, text: str, tip: str, run: Callable[[], object]) -> QPushButton:
+        """Add a button at the right."""
+        button = QPushButton(text)
+        button.clicked.connect(lambda _: run())
+        allow(button, None, tip)
+        self._buttons.addWidget(button)
+        return button
+
+    def show_running(self, running: Running | None) -> None:
+        """Show how it stands; None hides the card."""
+        self.setVisible(running is not None)
+        if running is None:
+            return
+        self.name.show_text(running.name)
+        self.doing.show_text(running.doing)
+        self.doing.setVisible(bool(running.doing))
+        if self.time.text() != running.time:
+            self.time.setText(running.time)
+        self.bar.setVisible(running.share is not None)
+        if running.share is not None:
+            fill(self.bar, round(_STEPS * running.share))
+
+
+_COLUMNS = 2
+
+
+class ResultView(QFrame):
+    """The gaps of a run in two columns; unseen before the first."""
+
+    def __init__(self, bring_up: Callable[[str], object]) -> None:
+        super().__init__()
+        self.setObjectName("section")
+        heading = QLabel(translate("shell", RUN))
+        heading.setProperty("quiet", True)
+        self.name = ElidedLabel()
+        self.name.setProperty("heading", True)
+        self.gaps = QGridLayout()
+        self.gaps.setHorizontalSpacing(12)
+        buttons = QHBoxLayout()
+        buttons.addStretch(1)
+        for text, tip, panel in (
+            (
+                translate("job", "Compare"),
+                translate("job", "Model and real of this run, axis by axis"),
+                "comparison",
+            ),
+            (
+                translate("job", "Diagnose"),
+                translate("job", "Which effects explain the gap"),
+                "gap",
+            ),
+        ):
+            button = QPushButton(text)
+            button.setToolTip(plain_tip(tip))
+            button.clicked.connect(lambda _=False, panel=panel: bring_up(panel))
+            buttons.addWidget(button)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(2, 4, 2, 6)
+        column.setSpacing(3)
+        for widget in (heading, self.name):
+            column.addWidget(widget)
+        column.addLayout(self.gaps)
+        column.addLayout(buttons)
+        self.hide()
+
+    def show_run(self, run: Run) -> None:
+        """Show the gaps of a run."""
+        self.name.show_text(run.name)
+        while (item := self.gaps.takeAt(0)) is not None:
+            if (old := item.widget()) is not None:
+                old.deleteLater()
+        found = [(axis, gap) for (axis, tap), gap in run.gaps.items() if tap is Tap.MEAS]
+        for number, (axis, figure) in enumerate(found):
+            unit = run.record.units[axis]
+            text = QLabel(f"{label(axis)}  {size(figure, unit)}")
+            text.setToolTip(plain_tip(small_print(figure, unit)))
+            self.gaps.addWidget(text, *divmod(number, _COLUMNS))
+        self.show()
 
 
 class JobPanel(Panel):

@@ -4,7 +4,9 @@ from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
+    QFrame,
     QHBoxLayout,
+    QLabel,
     QScrollArea,
     QStackedWidget,
     QVBoxLayout,
@@ -18,6 +20,7 @@ from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import button
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.app.widgets.scroll import scrolled
 from rotemina.drivers.cameras.frame import Frame
@@ -27,7 +30,6 @@ from rotemina.plugins.microscope.move_section import MoveSection, TargetSection
 from rotemina.plugins.microscope.picture_section import LayerSection, PictureSection
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
 from rotemina.plugins.microscope.pointer_tools import PointerTools
-from rotemina.plugins.microscope.question import Question
 from rotemina.plugins.microscope.readout import cursor_text
 from rotemina.plugins.microscope.saving_section import SavingSection
 from rotemina.plugins.microscope.stack_section import StackSection
@@ -44,6 +46,37 @@ TOOLS = (
     marked("microscope", "– no tools –"),
 )
 _WIDTH = 250  # of the tools, px
+
+
+class Question(QFrame):
+    """One question with a yes and a no; Enter and the space bar answer neither by accident."""
+
+    def __init__(self, yes: str, answer: Callable[[bool], None]) -> None:
+        super().__init__()
+        self.setObjectName("question")
+        self.text = QLabel()
+        self.text.setTextFormat(Qt.TextFormat.PlainText)
+        self.text.setWordWrap(True)
+        self.yes = button(yes, lambda: answer(True), translate("microscope", "Make the move"))
+        self.yes.setProperty("primary", True)
+        self.no = button(
+            translate("microscope", "Cancel"),
+            lambda: answer(False),
+            translate("microscope", "Make no move"),
+        )
+        for one in (self.yes, self.no):
+            one.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(8, 4, 8, 4)
+        row.addWidget(self.text, 1)
+        row.addWidget(self.yes)
+        row.addWidget(self.no)
+        self.hide()
+
+    def ask(self, text: str) -> None:
+        """Show the question; an empty one hides it."""
+        self.text.setText(text)
+        self.setVisible(bool(text))
 
 
 class MicroscopePanel(Panel):

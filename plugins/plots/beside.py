@@ -1,18 +1,132 @@
-"""A record of the library, to be drawn beside the present run."""
+"""Another run beside the present one: which it is, and by how much it is moved in time."""
 
 from collections.abc import Callable
 
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QComboBox
+
+from rotemina.app.motion.history import LiveWindow
 from rotemina.app.panel import Panel
 from rotemina.app.records.entry import Entry
 from rotemina.app.records.library import read
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.record_chooser import ask_records
-from rotemina.app.shell.workbench import Level
-from rotemina.plugins.plots.overlay import OtherRun
+from rotemina.app.shell.workbench import Level, Run
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.plots.overlay import OtherRun, alignment
 from rotemina.sim.records.record import Record
 
+_ALONE, _KEPT, _IN_HAND, _RECORD = "alone", "kept", "run", "record"
 
-def ask_run(panel: Panel, use: Callable[[OtherRun], None]) -> None:
+
+class RunBeside(QComboBox):
+    """The choice of a run to be drawn beside the present one.
+
+    ``other`` is that run, or None, and ``shift_s`` what is added to its times. ``shown`` returns
+    what is drawn at present, and ``whole`` all that may be.
+
+    Signals
+    -------
+    changed() : another run, or none, is to be drawn, or the same at other times.
+    """
+
+    changed = Signal()
+
+    def __init__(
+        self, panel: Panel, shown: Callable[[], LiveWindow], whole: Callable[[], LiveWindow]
+    ) -> None:
+        super().__init__()
+        self.other: OtherRun | None = None
+        self.shift_s = 0.0
+        self._panel, self._shown, self._whole = panel, shown, whole
+        self._workbench = panel.workbench
+        for choice, text in (
+            (_ALONE, translate("plots", "No other run")),
+            (_KEPT, translate("plots", "Keep this run")),
+            (_IN_HAND, translate("plots", "Run in hand")),
+            (_RECORD, translate("plots", "Record …")),
+        ):
+            self.addItem(text, choice)
+        self.setAccessibleName(translate("plots", "Another run beside the present one"))
+        self.setToolTip(
+            plain_tip(
+                translate("plots", "Keep this run: what is shown now stays beside what comes."),
+                translate("plots", "Run in hand: the record that was opened or played last."),
+                translate("plots", "Record …: one of the library."),
+            )
+        )
+        self.activated.connect(lambda _: self._choose())
+        self._workbench.run_changed.connect(self._take_run)
+
+    def align(self) -> None:
+        """Move the other run in time to where its commands are those that are shown."""
+        if self.other is None:
+            self._workbench.notify(
+                Level.WARNING,
+                translate("plots", "There is no other run to align: choose one."),
+                about=self._panel,
+            )
+            return
+        window = self._whole()
+        shift = alignment(window, self.other)
+        if shift is None and len(window):
+            self._workbench.notify(
+                Level.INFO,
+                translate(
+                    "plots", "{name} has no motion to align by: the ends are aligned."
+                ).format(name=self.other.name),
+            )
+            shift = float(window.device_time_s[-1] - self.other.time_s[-1])
+        self.shift_s = shift or 0.0
+        self.changed.emit()
+
+    def _choose(self) -> None:
+        chosen = self.currentData()
+        if chosen == _IN_HAND:
+            self._take_run(self._workbench.run)
+            return
+        self.other = None
+        if chosen == _RECORD:
+            _ask_run(self._panel, self._use)
+        if chosen == _KEPT:
+            window = self._shown()
+            self._workbench.ask(lambda: self._keep(window))
+        self._show_choice()
+        self.changed.emit()
+
+    def _keep(self, window: LiveWindow) -> None:
+        self.other = OtherRun.of_window(translate("plots", "The kept run"), window)
+        self.shift_s = 0.0
+
+    def _use(self, other: OtherRun) -> None:
+        """Draw a record of the library beside the present run."""
+        self.other = other
+        self.setCurrentIndex(self.findData(_RECORD))
+        self.align()
+
+    def _take_run(self, run: Run | None) -> None:
+        """Put the run in hand beside the present one, where that is chosen."""
+        if self.currentData() != _IN_HAND:
+            return
+        self.other = None
+        if run is None:
+            self._workbench.notify(
+                Level.WARNING,
+                translate("plots", "There is no run in hand: open or play one."),
+                about=self._panel,
+            )
+            self._show_choice()
+            self.changed.emit()
+        else:
+            self.other = OtherRun.of_record(run.name, run.record, self._workbench.robot)
+            self.align()
+
+    def _show_choice(self) -> None:
+        if self.other is None:
+            self.setCurrentIndex(0)
+
+
+def _ask_run(panel: Panel, use: Callable[[OtherRun], None]) -> None:
     """Ask for a record, read it, and hand it on."""
     bench = panel.workbench
 

@@ -10,7 +10,6 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
-    QGridLayout,
     QHBoxLayout,
     QLabel,
     QMenu,
@@ -28,14 +27,13 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.legend import Entry, Legend
 from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
-from rotemina.app.shell.workbench import Level, Run, Workbench
-from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
-from rotemina.plugins.plots.beside import ask_run
+from rotemina.plugins.plots.beside import RunBeside
 from rotemina.plugins.plots.cursor_text import Shown, across_text
 from rotemina.plugins.plots.exporting import save_picture
-from rotemina.plugins.plots.overlay import OtherRun, alignment
+from rotemina.plugins.plots.plot_grid import PlotGrid
 from rotemina.plugins.plots.signals import SHORT_S, GapHistory, as_record, gaps_of, latest
 from rotemina.plugins.plots.view_plot import ViewPlot
 from rotemina.sim.comparison.gap import GapFigure
@@ -61,7 +59,6 @@ VIEWS = {
     Shown.LOOP: marked("plots", "Loop: over command"),
     Shown.SPECTRUM: marked("plots", "Spectrum"),
 }
-_ALONE, _KEPT, _IN_HAND, _RECORD = "alone", "kept", "run", "record"
 
 
 class PlotsPanel(Panel):
@@ -80,18 +77,13 @@ class PlotsPanel(Panel):
         self._gaps: Mapping[str, GapFigure | None] = {}
         self._course: GapHistory | None = None
         self._picture: Picture | None = None
-        self.other: OtherRun | None = None
-        self._shift_s = 0.0
         self._read_view: Shown | None = None  # the view that the cursors stand in
         lowest = {axes[-1] for axes in stages(workbench.robot).values() if axes}
         self.plots = {
             name: AxisPlot(workbench, column, times=name in lowest, moved=self._cursor_moved)
             for column, name in enumerate(workbench.robot.axes)
         }
-        self.area_of_plots = QWidget()
-        self._grid = QGridLayout(self.area_of_plots)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setSpacing(6)
+        self.grid = PlotGrid(self.plots, [list(axes) for axes in stages(workbench.robot).values()])
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(3)
@@ -105,9 +97,7 @@ class PlotsPanel(Panel):
         below.addWidget(self.age)
         rows.addLayout(below)
         column.addWidget(self._head)
-        column.addWidget(self.area_of_plots, 1)
-        self._in_strip = True
-        self._arrange(strip=False)
+        column.addWidget(self.grid, 1)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
         self._next = QTimer(self, singleShot=True, interval=0)
         self._next.timeout.connect(self._draw_next)
@@ -115,50 +105,16 @@ class PlotsPanel(Panel):
         workbench.shown.connect(lambda _: self._refresh_by_parts())
         workbench.replaying.changed.connect(self._begin_anew)
         workbench.theme_changed.connect(self._use_theme)
-        workbench.run_changed.connect(self._take_run)
         workbench.run_changed.connect(lambda _: self._tell_run())
         workbench.model_changed.connect(self._use_model)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Stand in one row without controls where there is room for a strip only."""
         super().resizeEvent(event)
-        self._arrange(strip=self.height() < self._least_height())
-        self._share_height()
-
-    def _least_height(self) -> int:
-        """Return the height below which controls and stacked plots would be cut, px."""
-        stack = max(stages(self.workbench.robot).values(), key=len)
-        plots = sum(self.plots[name].minimumSizeHint().height() for name in stack)
-        return self._head.sizeHint().height() + plots
-
-    def _share_height(self) -> None:
-        """Give all traces the same height: the lowest ones have the times below them as well."""
-        stacks = [list(axes) for axes in stages(self.workbench.robot).values()]
-        rows = 1 if self._in_strip else max(map(len, stacks))
-        lowest = self.plots[max(stacks, key=len)[-1]].plot.getPlotItem()
-        times = 0 if self._in_strip else round(lowest.getAxis("bottom").height())
-        trace = max((self.area_of_plots.height() - times) // rows, 1)
-        for row in range(max(map(len, stacks))):
-            stretch = trace + (times if row == rows - 1 else 0)
-            self._grid.setRowStretch(row, stretch if row < rows else 0)
-        title = self.plots[stacks[0][0]].figures.height()
-        for plot in self.plots.values():
-            plot.share_height(trace - title)
-
-    def _arrange(self, *, strip: bool) -> None:
-        if strip is self._in_strip:
-            return
-        self._in_strip = strip
-        number = 0
-        for place, axes in enumerate(stages(self.workbench.robot).values()):
-            for row, name in enumerate(axes):
-                self._grid.addWidget(self.plots[name], *((0, number) if strip else (row, place)))
-                self.plots[name].stand_in_strip(strip=strip)
-                number += 1
-        for column in range(number):  # those of the other arrangement take no room
-            used = strip or column < len(stages(self.workbench.robot))
-            self._grid.setColumnStretch(column, 1 if used else 0)
+        strip = self.height() < self._head.sizeHint().height() + self.grid.least_height
+        self.grid.arrange(strip=strip)
         self._head.setVisible(not strip)
+        self.grid.share_height()
 
     def refresh(self) -> None:
         """Draw the newest samples, unless paused or out of sight; recording goes on."""
@@ -201,28 +157,6 @@ class PlotsPanel(Panel):
     def _newest(self) -> LiveWindow:
         return self.workbench.source.history.tail(float(self.span.currentData()))
 
-    def align(self) -> None:
-        """Move the other run in time to where its commands are those that are shown."""
-        if self.other is None:
-            self.workbench.notify(
-                Level.WARNING,
-                translate("plots", "There is no other run to align: choose one."),
-                about=self,
-            )
-            return
-        window = self._whole()
-        shift = alignment(window, self.other)
-        if shift is None and len(window):
-            self.workbench.notify(
-                Level.INFO,
-                translate(
-                    "plots", "{name} has no motion to align by: the ends are aligned."
-                ).format(name=self.other.name),
-            )
-            shift = float(window.device_time_s[-1] - self.other.time_s[-1])
-        self._shift_s = shift or 0.0
-        self._draw_again()
-
     def save_data(self, path: Path) -> None:
         """Write what is shown as a record; a failure becomes a notice."""
         window, robot = self._stretch(), self.workbench.robot
@@ -237,7 +171,7 @@ class PlotsPanel(Panel):
 
     def save_picture(self, path: Path) -> None:
         """Write a picture of all plots, PNG or SVG by the name."""
-        if self.workbench.ask(lambda: save_picture(self.area_of_plots, path)):
+        if self.workbench.ask(lambda: save_picture(self.grid, path)):
             self.workbench.notify(Level.GOOD, translate("plots", "Saved {path}").format(path=path))
 
     # --- parts ------------------------------------------------------------------------------------
@@ -255,25 +189,10 @@ class PlotsPanel(Panel):
         self.shown.setMinimumContentsLength(9)
         self.span.setMinimumContentsLength(4)
         self.span.setCurrentIndex(SPANS_S.index(10))
-        self.beside = _choice(
-            translate("plots", "Another run beside the present one"),
-            (
-                (_ALONE, translate("plots", "No other run")),
-                (_KEPT, translate("plots", "Keep this run")),
-                (_IN_HAND, translate("plots", "Run in hand")),
-                (_RECORD, translate("plots", "Record …")),
-            ),
-        )
-        self.beside.setToolTip(
-            plain_tip(
-                translate("plots", "Keep this run: what is shown now stays beside what comes."),
-                translate("plots", "Run in hand: the record that was opened or played last."),
-                translate("plots", "Record …: one of the library."),
-            )
-        )
+        self.beside = RunBeside(self, self._stretch, self._whole)
+        self.beside.changed.connect(self._draw_other)
         self.shown.currentIndexChanged.connect(lambda _: self._change_view())
         self.span.currentIndexChanged.connect(lambda _: self._draw_again())
-        self.beside.activated.connect(lambda _: self._choose_other())
         self.cursors = QPushButton(translate("plots", "Cursors"))
         self.cursors.setCheckable(True)
         self.cursors.setToolTip(
@@ -306,7 +225,7 @@ class PlotsPanel(Panel):
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)
-        menu.addAction(translate("plots", "Align the other run"), self.align)
+        menu.addAction(translate("plots", "Align the other run"), self.beside.align)
         menu.addSeparator()
         for text, name, kinds, save in (
             (
@@ -350,8 +269,8 @@ class PlotsPanel(Panel):
             window,
             span_s,
             self._shown(),
-            self.other,
-            self._shift_s,
+            self.beside.other,
+            self.beside.shift_s,
             self._gaps,
             run.gaps if run is not None else {},
             self._course,
@@ -382,6 +301,10 @@ class PlotsPanel(Panel):
     def _draw_again(self) -> None:
         self._draw(latest(self._whole(), float(self.span.currentData())))
 
+    def _draw_other(self) -> None:
+        self._draw_again()
+        self._use_theme(self.workbench.theme)
+
     def _change_view(self) -> None:
         self._draw_again()
         self._show_cursors()
@@ -405,56 +328,6 @@ class PlotsPanel(Panel):
         """Draw what is shown now: no picture of the machine stays in a replay, nor the reverse."""
         self.pause.setChecked(False)
         self.refresh()
-
-    # --- the other run ----------------------------------------------------------------------------
-
-    def _choose_other(self) -> None:
-        chosen = self.beside.currentData()
-        if chosen == _IN_HAND:
-            self._take_run(self.workbench.run)
-            return
-        self.other = None
-        if chosen == _RECORD:
-            ask_run(self, self._use_other)
-        if chosen == _KEPT:
-            window = self._stretch()
-            self.workbench.ask(lambda: self._keep(window))
-        self._name_other()
-        self._draw_again()
-
-    def _keep(self, window: LiveWindow) -> None:
-        self.other, self._shift_s = (
-            OtherRun.of_window(translate("plots", "The kept run"), window),
-            0.0,
-        )
-
-    def _use_other(self, other: OtherRun) -> None:
-        """Draw a record of the library beside the present run."""
-        self.other = other
-        self.beside.setCurrentIndex(self.beside.findData(_RECORD))
-        self.align()
-        self._name_other()
-
-    def _take_run(self, run: Run | None) -> None:
-        """Put the run in hand beside the present one, where that is chosen."""
-        if self.beside.currentData() != _IN_HAND:
-            return
-        self.other = None
-        if run is None:
-            self.workbench.notify(
-                Level.WARNING,
-                translate("plots", "There is no run in hand: open or play one."),
-                about=self,
-            )
-        else:
-            self.other = OtherRun.of_record(run.name, run.record, self.workbench.robot)
-            self.align()
-        self._name_other()
-
-    def _name_other(self) -> None:
-        if self.other is None:
-            self.beside.setCurrentIndex(0)
-        self._use_theme(self.workbench.theme)
 
     # --- cursors ----------------------------------------------------------------------------------
 
@@ -493,8 +366,8 @@ class PlotsPanel(Panel):
         entries = [Entry(translate("plots", name), line) for name, line in LEGEND]
         if self.workbench.session.model.corrected:
             entries.append(Entry(translate("plots", "nominal"), LINES["nominal"]))
-        if self.other is not None:
-            entries.append(Entry(self.other.name, LINES["other"]))
+        if (other := self.beside.other) is not None:
+            entries.append(Entry(other.name, LINES["other"]))
         if self._shown() in (Shown.POSITION, Shown.GAP):
             short = rounded(SHORT_S, 2)
             for name, line in STRIP_LEGEND:

@@ -12,10 +12,10 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.scroll import scrolled, tabbed
 from rotemina.plugins.recorder.events import EventsView
-from rotemina.plugins.recorder.listing import Unfinished, look
 from rotemina.plugins.recorder.recording import RecordingSection
 from rotemina.plugins.recorder.records_view import RecordsView
 from rotemina.plugins.recorder.unfinished import UnfinishedBox
+from rotemina.plugins.recorder.unfinished_files import Unfinished, look
 from rotemina.plugins.recorder.words import listed
 
 _WIDTH = 240  # of the recording's own part, px

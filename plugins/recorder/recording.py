@@ -17,13 +17,13 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import duration_text, size_text
 from rotemina.app.motion.recording.merging import UNFINISHED
+from rotemina.app.motion.run_labels import MOST_LETTERS, RunLabels
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.record_library import free_bytes
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
 from rotemina.app.widgets.labels import ElidedLabel
-from rotemina.plugins.recorder.label_fields import LabelFields
 
 AT_START = "recorder.at_start"
 _LOOK_S = 5.0  # between looks at how much room there is
@@ -60,6 +60,48 @@ def scarce(free: int | None, written: int) -> str | None:
         "Only {free} are free, and ending the recording takes "
         "{size}: make room. Motion goes on in any case.",
     ).format(free=size_text(free), size=size_text(written))
+
+
+class LabelFields(QWidget):
+    """Three fields, one below the other; what is typed counts from Enter or the next field on."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._library = workbench.library
+        self.run, self.operator, self.sample = QLineEdit(), QLineEdit(), QLineEdit()
+        named = {
+            translate("recorder", "Run"): self.run,
+            translate("recorder", "Operator"): self.operator,
+            translate("recorder", "Sample"): self.sample,
+        }
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(10)
+        grid.setVerticalSpacing(2)
+        for row, (name, field) in enumerate(named.items()):
+            title = QLabel(name)
+            title.setProperty("quiet", True)
+            title.setBuddy(field)
+            field.setAccessibleName(name)
+            field.setMaxLength(MOST_LETTERS)
+            field.setToolTip(
+                translate("recorder", "Stands in every playback and recording from now on")
+            )
+            field.editingFinished.connect(self._use)
+            grid.addWidget(title, row, 0)
+            grid.addWidget(field, row, 1)
+        self._library.labels_changed.connect(self._show)
+        self._show()
+
+    def _use(self) -> None:
+        typed = (field.text() for field in (self.run, self.operator, self.sample))
+        self._library.use_labels(RunLabels.typed(*typed))
+
+    def _show(self) -> None:
+        labels = self._library.labels
+        self.run.setText(labels.run)
+        self.operator.setText(labels.operator)
+        self.sample.setText(labels.sample)
 
 
 class RecordingSection(QWidget):

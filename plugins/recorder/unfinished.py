@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.plugins.recorder.listing import Unfinished, recovered
+from rotemina.plugins.recorder.unfinished_files import Unfinished, recovered
 from rotemina.plugins.recorder.words import listed, unfinished_text
 
 

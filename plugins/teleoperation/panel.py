@@ -10,7 +10,7 @@ from rotemina.app.widgets.scroll import least_width, scrolled
 from rotemina.plugins.teleoperation.choices import ChoiceSection
 from rotemina.plugins.teleoperation.coordinates import CoordinateSection
 from rotemina.plugins.teleoperation.editor import ScaleEditor
-from rotemina.plugins.teleoperation.head import HeadSection
+from rotemina.plugins.teleoperation.overview import OverviewSection
 from rotemina.plugins.teleoperation.pad_section import PadSection
 from rotemina.plugins.teleoperation.reserve import ReserveSection
 
@@ -26,7 +26,7 @@ class TeleoperationPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self._operation = workbench.operation
-        self.head = HeadSection()
+        self.head = OverviewSection()
         self.pad = PadSection(workbench)
         self.choices = ChoiceSection(workbench)
         self.coordinates = CoordinateSection(workbench)

@@ -1,10 +1,17 @@
 """Scales and felt dynamics in words: what an operator reads beside a law."""
 
+from math import degrees
+
 from rotemina.app.motion.teleoperation.virtual_impedance import FeltDynamics
 from rotemina.app.shell.language import translate
 from rotemina.sim.quantities import exact, rounded
 
 _MM = 1e-3
+
+
+def tilt_text(tilt_rad: float) -> str:
+    """Return a change of orientation: ``"206 arcsec (1 mrad)"``."""
+    return f"{rounded(3600.0 * degrees(tilt_rad), 3)} arcsec ({rounded(1e3 * tilt_rad, 3)} mrad)"
 
 
 def position_text(scale: float, unit: str, what: str, stick_travel_m: float) -> str:

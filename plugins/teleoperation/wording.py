@@ -14,7 +14,6 @@ from rotemina.app.motion.teleoperation.linear_rate import LinearRate
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.app.motion.teleoperation.modes import ALL_AXES, TIP_MODES
-from rotemina.app.motion.teleoperation.plain_units import tilt_text
 from rotemina.app.motion.teleoperation.profile import OperatorRole
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
@@ -308,7 +307,7 @@ def tilt_shown(state: TeleoperationState) -> str:
     """Return by how much the tool was turned."""
     if state.tilt is None:
         return translate("teleoperation", "not by this mode") if state.coordinates else "–"
-    return tilt_text(round(state.tilt, _TILT_DIGITS))
+    return plain_units.tilt_text(round(state.tilt, _TILT_DIGITS))
 
 
 def _short(value: float) -> float:

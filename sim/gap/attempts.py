@@ -12,11 +12,11 @@ from typing import TypeVar
 from joblib import Parallel, delayed
 
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.explanations import MOST_STEPS, Explanation, beside, explanation
 from rotemina.sim.gap.fit import Fit, finished, sketched
-from rotemina.sim.gap.models import MOST_STEPS, Explanation, beside, explanation
 from rotemina.sim.gap.progress import Account
+from rotemina.sim.gap.ranking import Grade
 from rotemina.sim.gap.screening import Screened, screen
-from rotemina.sim.gap.standing import Grade
 from rotemina.sim.robot.model import AxisEffect
 
 _SKETCHED = 3  # steps after which attempts are compared
@@ -25,7 +25,7 @@ _BEHIND = 3.0  # times the cost of the best, from which an attempt is given up
 _Result = TypeVar("_Result")
 
 
-def looked_at(
+def screened_beside(
     evidence: Evidence,
     begun: Explanation,
     some: Sequence[AxisEffect],

@@ -7,8 +7,8 @@ from rotemina.sim.effects.kinship import Family
 from rotemina.sim.gap.baseline import baseline, is_whole_own
 from rotemina.sim.gap.catalogue import brought_along, is_of
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.explanations import Explanation, explanation, mean_squares
 from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.models import Explanation, explanation, mean_squares
 from rotemina.sim.gap.selection import LEAST_POWER, LEAST_SHARE
 from rotemina.sim.robot.model import AxisEffect
 

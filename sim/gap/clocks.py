@@ -6,7 +6,7 @@ import numpy as np
 
 from rotemina.sim.gap.caution import Caution, Labelled
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.leaps import holes
+from rotemina.sim.gap.time_leaps import holes
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Tap

@@ -9,14 +9,14 @@ nothing of the gap. What is asked of it here is much of what the loop leaves ins
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rotemina.sim.gap.attempts import fitted, looked_at
+from rotemina.sim.gap.attempts import fitted, screened_beside
 from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.candidates import scouts
 from rotemina.sim.gap.catalogue import catalogue, kinship_of
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.contest import Ranking
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.explanations import Explanation
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.rivals import Key, rivals
 from rotemina.sim.gap.selection import LEAST_SHARE, NOTICED, possible_causes
@@ -72,7 +72,7 @@ def _with_one_more(
     begun = replace(best, causes=causes)
 
     def looked(some: Sequence[AxisEffect]) -> list[AxisEffect]:
-        looks = looked_at(evidence, begun, some, account, jobs, briefly=True)
+        looks = screened_beside(evidence, begun, some, account, jobs, briefly=True)
         enough = [one for one in looks if one.cost <= _OF_SEEN * best.fit.cost]
         return [one.effect for one in sorted(enough, key=lambda one: one.cost)]
 

@@ -17,14 +17,14 @@ from rotemina.sim.gap.compare.decision import stands
 from rotemina.sim.gap.compare.score import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.models import (
+from rotemina.sim.gap.explanations import (
     MOST_STEPS,
     Explanation,
     beside,
     explain,
     explanation,
 )
+from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.richness import alike_axes
 from rotemina.sim.gap.rivals import Key, Rival, probability, rivals
 from rotemina.sim.gap.selection import Selection

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from rotemina.sim.gap.where import Place
+from rotemina.sim.gap.location import LocatedGap
 from rotemina.sim.messages import Message
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect, Robot
@@ -196,7 +196,7 @@ class AxisDiagnosis:
 
     axis: str
     verdict: Verdict
-    places: tuple[Place, ...]
+    places: tuple[LocatedGap, ...]
     causes: tuple[Cause, ...] = ()
     shrinkage: tuple[Shrinkage, ...] = ()
     ranking: tuple[Ranked, ...] = ()
@@ -257,7 +257,7 @@ class Diagnosis:
         return max((one.verdict for one in self.axes.values()), key=order.index, default=order[0])
 
     @property
-    def places(self) -> tuple[Place, ...]:
+    def places(self) -> tuple[LocatedGap, ...]:
         """Axes and taps whose gap is above the floor beyond doubt, largest first."""
         found = [place for one in self.axes.values() for place in one.places if place.significant]
         return tuple(sorted(found, key=lambda place: -place.excess))

@@ -20,8 +20,8 @@ from rotemina.sim.gap.diagnosis import (
     Shrinkage,
     Verdict,
 )
+from rotemina.sim.gap.location import LocatedGap, Portion
 from rotemina.sim.gap.report.quantities import named_unit
-from rotemina.sim.gap.where import Place, Portion
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.robot.writing import robot_text
@@ -101,7 +101,7 @@ def floor_at(axis: AxisDiagnosis, tap: Tap | None = None) -> float | None:
     return found[-1] if found else None
 
 
-def shares(places: Sequence[Place]) -> list[tuple[float, Interval]]:
+def shares(places: Sequence[LocatedGap]) -> list[tuple[float, Interval]]:
     """Return the share of each place in the gap above the floors of all, with its interval.
 
     The shares sum to 1. An end of an interval is what the share would be with the excess of this
@@ -116,7 +116,7 @@ def shares(places: Sequence[Place]) -> list[tuple[float, Interval]]:
     return found
 
 
-def _where(places: Sequence[Place]) -> list[Json]:
+def _where(places: Sequence[LocatedGap]) -> list[Json]:
     return [
         {
             "axis": place.axis,

@@ -19,7 +19,7 @@ from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.floors import floors
 from rotemina.sim.gap.history import other_starts, start
 from rotemina.sim.messages import message
-from rotemina.sim.plant.finely import respond
+from rotemina.sim.plant.fine_rows import respond
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import check_axes, run_of
 from rotemina.sim.plant.run import Run

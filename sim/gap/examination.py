@@ -12,6 +12,7 @@ from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.attribution import attributed
 from rotemina.sim.gap.baseline import is_own, is_whole_own
 from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.coarse_reading import steps_of
 from rotemina.sim.gap.companions import accompanied
 from rotemina.sim.gap.compare.decision import Closing, decide, is_sure
 from rotemina.sim.gap.compare.retained import with_retained
@@ -19,17 +20,17 @@ from rotemina.sim.gap.contest import Ranking, contested, rivals_of
 from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap, set_aside
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.many_modes import many_modes
-from rotemina.sim.gap.models import (
+from rotemina.sim.gap.explanations import (
     Explanation,
     counted_in,
     explain,
     mean_squares,
     untouched,
 )
+from rotemina.sim.gap.many_modes import many_modes
 from rotemina.sim.gap.origins import with_origins
-from rotemina.sim.gap.probe import Probe, probed
 from rotemina.sim.gap.progress import Account
+from rotemina.sim.gap.residual_features import Probe, probed
 from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.gap.rivals import Key, not_ruled_out
 from rotemina.sim.gap.row_weights import huber_weighted
@@ -41,7 +42,6 @@ from rotemina.sim.gap.selection import (
     Selection,
     select,
 )
-from rotemina.sim.gap.stepping import steps_of
 from rotemina.sim.gap.wander import wander
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect

@@ -14,9 +14,9 @@ from rotemina.sim.gap.clocks import check_clock
 from rotemina.sim.gap.copies import check_copies
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.following import check_following
-from rotemina.sim.gap.leaps import LEAST_ROWS, check_leaps, default_names, pieces
 from rotemina.sim.gap.scales import check_scales
 from rotemina.sim.gap.stuck import check_sensors
+from rotemina.sim.gap.time_leaps import LEAST_ROWS, check_leaps, default_names, pieces
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import ForceAxis, Robot

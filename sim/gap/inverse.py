@@ -15,7 +15,7 @@ from rotemina.sim.effects.facts import Facts
 from rotemina.sim.gap.evidence import Evidence, Part, Signals
 from rotemina.sim.gap.fit import Fit
 from rotemina.sim.gap.history import start
-from rotemina.sim.plant.finely import respond
+from rotemina.sim.plant.fine_rows import respond
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import run_of
 from rotemina.sim.records.record import Tap

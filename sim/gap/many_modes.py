@@ -15,8 +15,8 @@ from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray
 from rotemina.sim.effects.modes import MODES
 from rotemina.sim.gap.catalogue import by_spectra
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.explanations import Explanation, mean_squares
 from rotemina.sim.gap.fit import Fit
-from rotemina.sim.gap.models import Explanation, mean_squares
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.selection import LEAST_SHARE
 from rotemina.sim.identification.vector_fitting import (

@@ -1,6 +1,6 @@
 """The diagnosis of the sim-to-real gap, from records to verdict.
 
-Where the gap lies (:mod:`~rotemina.sim.gap.where`), which effects may cause it
+Where the gap lies (:mod:`~rotemina.sim.gap.location`), which effects may cause it
 (:mod:`~rotemina.sim.gap.candidates`, :mod:`~rotemina.sim.gap.screening`), how well they do on data
 that their fit did not see (:mod:`~rotemina.sim.gap.fit`, :mod:`~rotemina.sim.gap.selection`), what
 can be told apart (:mod:`~rotemina.sim.gap.rivals`, :mod:`~rotemina.sim.gap.contest`), by which
@@ -18,6 +18,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from rotemina.sim.gap.caution import Caution, remarks
+from rotemina.sim.gap.conclusions import concluded
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Offset, Verdict
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
@@ -25,12 +26,11 @@ from rotemina.sim.gap.examination import Examination, examine
 from rotemina.sim.gap.experiment import experiments
 from rotemina.sim.gap.fit import NUMERICAL
 from rotemina.sim.gap.intake import check
-from rotemina.sim.gap.leaps import pieces
+from rotemina.sim.gap.location import LocatedGap, locate
 from rotemina.sim.gap.offsets import offsets
 from rotemina.sim.gap.order import examination_order
 from rotemina.sim.gap.progress import Account, Listener, Progress, unheard
-from rotemina.sim.gap.telling import told_of
-from rotemina.sim.gap.where import Place, locate
+from rotemina.sim.gap.time_leaps import pieces
 from rotemina.sim.messages import AxisName, joined, message
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.group import coupled_axes
@@ -131,7 +131,7 @@ class _Run:
         gaps.sort(key=lambda name: -max(place.excess for place in places[name]))
         for number, name in enumerate(examination_order(evidences, gaps)):
             self._examine(name, evidences[name], 0.9 * number / len(gaps), 0.9 / len(gaps))
-        told = {name: self._told_of(name, places[name], name in gaps) for name in evidences}
+        told = {name: self._conclusion(name, places[name], name in gaps) for name in evidences}
         return {name: self._shaken(one, told) for name, one in told.items()}
 
     def offsets(self, axes: Mapping[str, AxisDiagnosis]) -> dict[str, dict[Tap, Offset | None]]:
@@ -184,9 +184,11 @@ class _Run:
     def _bare(self, name: str) -> Evidence:
         return Evidence.of(self.robot, name, self.records)
 
-    def _told_of(self, name: str, places: tuple[Place, ...], has_gap: bool) -> AxisDiagnosis:
+    def _conclusion(
+        self, name: str, places: tuple[LocatedGap, ...], has_gap: bool
+    ) -> AxisDiagnosis:
         if name in self.examined:
-            return told_of(self.examined[name], places, self.rng)
+            return concluded(self.examined[name], places, self.rng)
         if name in self.failed:
             why = message("gap", "Its numbers fail, so that no cause can be found: {error}.")
             said = (why.fill(error=self.failed[name]),)
@@ -222,7 +224,7 @@ def _excess(one: AxisDiagnosis) -> float:
     return max((place.excess for place in one.places), default=0.0)
 
 
-def _has_gap(places: Sequence[Place]) -> bool:
+def _has_gap(places: Sequence[LocatedGap]) -> bool:
     """Tell whether a gap matters: beside the sensor's, one at a finer reference must be clear."""
     by_sensor = any(place.tap is Tap.MEAS for place in places)
     least = {Tap.REF: _LEAST_BEYOND_THE_SENSOR} if by_sensor else {}

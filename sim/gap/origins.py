@@ -16,7 +16,7 @@ from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.gap.catalogue import catalogue
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.lines import line_over
+from rotemina.sim.gap.strongest_line import line_over
 from rotemina.sim.messages import Message, message
 from rotemina.sim.records.record import Tap
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from rotemina.sim.gap.standing import Grade, Ranking, Standings
+from rotemina.sim.gap.ranking import Grade, Ranking, Standings
 from rotemina.sim.robot.model import AxisEffect
 
 _STEPS = {"screening": 0.0, "fitting": 0.3, "deciding": 0.9}

@@ -5,7 +5,7 @@ import numpy as np
 from rotemina.sim.effects.formulation import Part, Stage
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.explanations import Explanation
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from rotemina.sim.gap.baseline import baseline
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.explanations import Explanation, explanation
 from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.models import Explanation, explanation
 from rotemina.sim.robot.model import AxisEffect
 
 _STEPS = 30  # a resonance that is far off is not found sooner

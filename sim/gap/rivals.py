@@ -15,7 +15,7 @@ from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.compare.score import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence, block_rows
-from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.explanations import Explanation
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 

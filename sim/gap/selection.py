@@ -9,14 +9,13 @@ from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.kinship import Family
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.attempts import fitted, looked_at
+from rotemina.sim.gap.attempts import fitted, screened_beside
 from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.candidates import candidates, is_slow, scouts, siblings
 from rotemina.sim.gap.catalogue import brought_along, is_of, kinship_of
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.models import (
+from rotemina.sim.gap.explanations import (
     MOST_STEPS,
     Explanation,
     beside,
@@ -24,11 +23,12 @@ from rotemina.sim.gap.models import (
     explanation,
     untouched,
 )
+from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.progress import Account
+from rotemina.sim.gap.ranking import Grade
 from rotemina.sim.gap.repeats import has_overtone, is_own_mode
 from rotemina.sim.gap.retuning import retuned
 from rotemina.sim.gap.screening import Screened
-from rotemina.sim.gap.standing import Grade
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
@@ -274,7 +274,7 @@ def _extended(
     little = begun is not bare and _is_little(bare, begun, inf)
     account.tell("screening", None)
     first = scouts(evidence, free)
-    looks = looked_at(evidence, begun, first, account, jobs, briefly=little or slow)
+    looks = screened_beside(evidence, begun, first, account, jobs, briefly=little or slow)
     if little and min(one.cost for one in looks) > _LEAST_PROMISE * begun.score:
         return []
     most = _FITTED_LATER if begun.causes else _FITTED
@@ -289,7 +289,7 @@ def _extended(
         # Other formulations, which take long, could do no better; but a curve bends to anything.
         others = [one for one in others if _is_bent_to(best, one, begun, found)]
     if others:
-        slower = looked_at(evidence, begun, others, account, jobs, briefly=True)
+        slower = screened_beside(evidence, begun, others, account, jobs, briefly=True)
         least = min(one.fit.cost for one in found)
         worth = _WORTH_A_TRY if begun.causes else _WORTH_A_FIRST_TRY
         slower = [

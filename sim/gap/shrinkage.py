@@ -11,8 +11,8 @@ from rotemina.sim.gap.blocks import drawn_means
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.diagnosis import Interval, Shrinkage, ShrinkageStep
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import Explanation
-from rotemina.sim.gap.probe import Probe
+from rotemina.sim.gap.explanations import Explanation
+from rotemina.sim.gap.residual_features import Probe
 from rotemina.sim.gap.rivals import paired_blocks
 from rotemina.sim.records.record import Tap
 

@@ -11,8 +11,8 @@ from rotemina.sim.effects.identification import Extent, Interval, Seen, Values
 from rotemina.sim.gap.baseline import is_whole_own
 from rotemina.sim.gap.evidence import Evidence, Signals
 from rotemina.sim.gap.fit import Fit
-from rotemina.sim.gap.lines import strongest_frequency, strongest_periods
-from rotemina.sim.gap.teeth import likeliest_grid
+from rotemina.sim.gap.quantization_grid import likeliest_grid
+from rotemina.sim.gap.strongest_line import strongest_frequency, strongest_periods
 from rotemina.sim.gap.tolerances import tolerance
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect

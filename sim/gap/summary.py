@@ -14,9 +14,9 @@ from rotemina.sim.gap.diagnosis import (
     Verdict,
 )
 from rotemina.sim.gap.document import ordered_causes, shares
+from rotemina.sim.gap.location import LocatedGap
 from rotemina.sim.gap.report.quantities import unit_of
 from rotemina.sim.gap.report.words import parameter_unit
-from rotemina.sim.gap.where import Place
 from rotemina.sim.messages import Message, Wording, joined, message
 from rotemina.sim.quantities import Number, amount, amounts, fixed, percent, percents, rounded
 from rotemina.sim.records.record import Record
@@ -95,7 +95,9 @@ def _named(name: str, what: str) -> Message:
     return message("gap", "{name}: {what}").fill(name=name, what=what)
 
 
-def _place(place: Place, share: float, interval: Interval, records: Sequence[Record]) -> Message:
+def _place(
+    place: LocatedGap, share: float, interval: Interval, records: Sequence[Record]
+) -> Message:
     unit = unit_of(place.axis, place.tap, records)
     said = [
         message("gap", "{share} of it").fill(share=_percent(share, interval)),

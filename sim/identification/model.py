@@ -54,18 +54,6 @@ class IdentifiedModel:
     iterations: int
 
     @property
-    def numerator_deviation(self) -> FloatArray:
-        """Standard deviations (nb,) of the numerator."""
-        count = len(self.transfer_function.numerator)
-        return np.sqrt(np.diag(self.covariance)[:count])
-
-    @property
-    def denominator_deviation(self) -> FloatArray:
-        """Standard deviations (na,) of the denominator, but for its leading 1."""
-        count = len(self.transfer_function.numerator)
-        return np.sqrt(np.diag(self.covariance)[count:])
-
-    @property
     def static_gain_deviation(self) -> float:
         """Standard deviation of the static gain, by linear propagation."""
         model = self.transfer_function

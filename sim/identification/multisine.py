@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray, IntArray
-from rotemina.sim.identification.errors import ExcitationError, SettingError, TooShortError
+from rotemina.sim.identification.errors import SettingError, TooShortError
 from rotemina.sim.identification.frequency_response import (
     EXCITED_ABOVE,
     FrequencyResponse,
@@ -169,34 +169,3 @@ def _estimate(
         spectra.period_samples,
         spectra.periods,
     )
-
-
-def relative_error(response: PeriodicResponse, *experiments: Signals) -> float:
-    """Return ‖y − H u‖ / ‖y‖ over experiments of the same period, means left out.
-
-    Lines that the response lacks count as not predicted. Noise counts through the average of the
-    periods.
-    """
-    check_alike(experiments)
-    gap = size = 0.0
-    for each in experiments:
-        spectra = period_spectra(each)
-        if spectra.period_samples != response.period_samples:
-            raise SettingError(
-                message(
-                    "engine",
-                    "relative error: a period of {period_samples} samples, the response has "
-                    "{response_period_samples}; both must be alike",
-                ).fill(
-                    period_samples=spectra.period_samples,
-                    response_period_samples=response.period_samples,
-                )
-            )
-        left = spectra.outputs.copy()
-        driven = spectra.inputs[response.lines][:, :, None]
-        left[response.lines] -= (response.total.response @ driven)[:, :, 0]
-        gap += float(np.sum(np.abs(left[1:]) ** 2))
-        size += float(np.sum(np.abs(spectra.outputs[1:]) ** 2))
-    if size == 0.0:
-        raise ExcitationError(message("engine", "relative error: the outputs do not move"))
-    return float(np.sqrt(gap / size))

@@ -12,7 +12,6 @@ from rotemina.sim.identification.signals import Signals
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 
-PAPER_FACTOR = 0.15
 PASSBAND = 0.8  # of the new Nyquist frequency, up to which signals pass unchanged
 STOPBAND_DB = 80.0
 _FINEST = 1000  # largest denominator of a factor

@@ -64,11 +64,6 @@ def turned_angle(first: FloatArray, second: FloatArray) -> FloatArray:
     return np.asarray(np.arctan2(sine, (one * other).sum(axis=-1)))
 
 
-def sideways(chain: Chain, tilt_rad: FloatArray | float, zn: float = 0.0) -> FloatArray:
-    """Return how far, m, a tilt of any shape moves the tip sideways: 40 µm for 1 mrad at 40 mm."""
-    return np.asarray((chain.pin_length - zn) * np.sin(tilt_rad))
-
-
 def _axis(thx: FloatArray, thy: FloatArray) -> FloatArray:
     sin_x, cos_x = np.sin(thx), np.cos(thx)
     parts = np.broadcast_arrays(np.sin(thy) * cos_x, -sin_x, np.cos(thy) * cos_x)

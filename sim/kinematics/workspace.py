@@ -90,18 +90,6 @@ class Workspace:
         half = 0.5 * (chain.upper - chain.lower)[TABLES]
         return np.asarray((half - np.abs(rest)).min(axis=-1))
 
-    def reachable(self, tip: FloatArray) -> np.ndarray:
-        """Return whether the tip (..., 3), m, can be reached: bool (...), rounding allowed."""
-        return np.asarray(self.margin(tip) >= -float(self.chain.slack[TABLES].min()))
-
-    def cylinder_margin(self, diameter: float, height: float) -> float:
-        """Return how much room, m, an upright cylinder has on each side in :attr:`core`.
-
-        Positive: the reach contains the cylinder about the core's centre, at any nano pose.
-        """
-        sides = self.core.high - self.core.low
-        return float(0.5 * (sides - [diameter, diameter, height]).min())
-
 
 _Interval = tuple[float, float]
 _Intervals = tuple[_Interval, _Interval]

@@ -157,14 +157,6 @@ class Optics:
         away = np.asarray(point_m, dtype=np.float64) - np.array(self.centre_m)
         return np.asarray(away @ self.view[2])
 
-    def point_of(self, pixel: FloatArray, depth_m: float = 0.0) -> FloatArray:
-        """Return the points (..., 3), m, that are seen at pixels (..., 2) at a depth."""
-        rows = np.vstack([self.mapping, self.view[2]])
-        off = np.asarray(pixel, dtype=np.float64) - self.middle_px
-        depth = np.full((*off.shape[:-1], 1), depth_m)
-        solved = np.concatenate([off, depth], axis=-1) @ np.linalg.inv(rows).T
-        return np.asarray(solved + np.array(self.centre_m))
-
     def blur_px(self, distance_m: FloatArray | float) -> FloatArray:
         """Return the standard deviation (...), px, of a point's image at distances from focus.
 

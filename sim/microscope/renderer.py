@@ -1,15 +1,12 @@
 """A scene made into pictures: what stays is prepared once, and only what moves is drawn anew."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, zoom
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.messages import message
 from rotemina.sim.microscope import kernels
 from rotemina.sim.microscope.cell import UNTOUCHED, CellState
 from rotemina.sim.microscope.cell_image import CellImage, draw_cell
-from rotemina.sim.microscope.errors import SceneError
 from rotemina.sim.microscope.kernels import Image, Numbers
 from rotemina.sim.microscope.pin_image import draw_pin
 from rotemina.sim.microscope.scene import Light, Scene
@@ -105,24 +102,6 @@ class Renderer:
         if self._drawn is not None:
             self._still[self._drawn.rows, self._drawn.columns] *= self._drawn.passed
         self._known = (seen, focus_m)
-
-
-def render(
-    scene: Scene,
-    tip_m: FloatArray,
-    tool_axis: FloatArray,
-    focus_m: float,
-    rng: np.random.Generator,
-    state: CellState = UNTOUCHED,
-) -> NDArray[np.uint16]:
-    """Return one picture of a scene; for more than one, keep a :class:`Renderer`."""
-    if not np.isfinite([*tip_m, *tool_axis, focus_m]).all():
-        raise SceneError(
-            message(
-                "engine", "tip {tip_m}, axis {tool_axis}, focus {focus_m}: must be finite"
-            ).fill(tip_m=str(tip_m), tool_axis=str(tool_axis), focus_m=focus_m)
-        )
-    return Renderer(scene).frame(tip_m, tool_axis, focus_m, rng, state)
 
 
 def _illuminated(light: Light, shape: tuple[int, int], rng: np.random.Generator) -> Image:

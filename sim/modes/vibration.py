@@ -1,7 +1,7 @@
 """Natural frequencies, damping ratios and shapes of a machine's modes.
 
-Undamped: ``C φ = ω² M φ`` (symmetric, generalised). Damped: ``A s = λ s`` of the first-order form
-with ``s = [φ, λ φ]``; a pair of complex λ is one mode with ``ω = |λ|``, ``ζ = −Re λ / |λ|``.
+``A s = λ s`` of the first-order form with ``s = [φ, λ φ]``; a pair of complex λ is one mode with
+``ω = |λ|``, ``ζ = −Re λ / |λ|``.
 Source: Ewins, "Modal Testing", 2nd ed. (2000), ch. 2.
 
 Axes that no coupling joins are solved apart, so equal frequencies of two axes never mix.
@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.plant.group import groups_of
@@ -27,28 +26,6 @@ from rotemina.sim.robot.model import Robot
 _DOUBLE_POLE_SHARE = 1e-7
 _SINGULAR = 1e-12  # eigenvalue of a stiffness scaled to a unit diagonal that counts as zero
 _EQUAL = 1e-9  # relative difference by which rounding may part equal axes of a mode
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class UndampedModes:
-    """Modes without damping, by rising frequency.
-
-    Attributes
-    ----------
-    axes : tuple of str, length m
-        The axes with dynamics: rows of ``shapes``.
-    frequency_hz : (m,)
-        Exactly 0 for a rigid motion.
-    shapes : (m, m)
-        One mode per column, mass-normalised.
-    dominant : tuple of str, length m
-        The axis that carries most of each mode.
-    """
-
-    axes: tuple[str, ...]
-    frequency_hz: FloatArray
-    shapes: FloatArray
-    dominant: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,28 +52,6 @@ class DampedModes:
     damping_ratio: FloatArray
     shapes: ComplexArray
     dominant: tuple[str, ...]
-
-    @property
-    def ringing_hz(self) -> FloatArray:
-        """Frequency (p,) at which a free decay oscillates: ``Im λ/2π``, Hz."""
-        return np.asarray(self.poles.imag / (2.0 * np.pi))
-
-
-def undamped_modes(robot: Robot) -> UndampedModes:
-    """Return the modes of ``robot`` with D left out."""
-    whole = inertia_matrices(robot)
-    m = len(whole.axes)
-    rates, shapes, column = np.zeros(m), np.zeros((m, m)), 0
-    for members, part in _parts(robot, whole):
-        squared, vectors = eigh(part.stiffness, part.mass)
-        squared[: _free_motions(part)] = 0.0
-        columns = slice(column, column + len(members))
-        rates[columns] = np.sqrt(np.maximum(squared, 0.0))
-        shapes[members, columns] = vectors
-        column += len(members)
-    order = np.argsort(rates, kind="stable")
-    normal, dominant = _normalised(whole, shapes[:, order])
-    return UndampedModes(whole.axes, rates[order] / (2.0 * np.pi), normal.real, dominant)
 
 
 def damped_modes(robot: Robot) -> DampedModes:

@@ -19,7 +19,6 @@ from rotemina.sim.effects.formulation import (
 )
 from rotemina.sim.messages import message
 from rotemina.sim.plant.group import Group, PlacedPart, coupled_axes, groups_of, static_groups_of
-from rotemina.sim.plant.lead import is_led
 from rotemina.sim.plant.machine import (
     Machine,
     PlacedEffect,
@@ -27,6 +26,7 @@ from rotemina.sim.plant.machine import (
     phase_of,
     states_of,
 )
+from rotemina.sim.plant.settling import is_led
 from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
 

@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
 from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.finely import respond
+from rotemina.sim.plant.fine_rows import respond
 from rotemina.sim.plant.history import measured_start, steady_start
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.run import Run

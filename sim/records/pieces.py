@@ -56,15 +56,6 @@ def _metadata(path: str | PathLike[str], limits: Limits) -> Mapping[str, str]:
     return comments.metadata
 
 
-def cut_record(record: Record, rows: int = PIECE_ROWS) -> Iterator[Record]:
-    """Give a record in pieces of ``rows`` rows, the last of what is left."""
-    if len(record.time_s) <= rows:
-        yield record
-        return
-    for start in range(0, len(record.time_s), rows):
-        yield record.part(slice(start, start + rows))
-
-
 def join_records(pieces: Sequence[Record]) -> Record:
     """Return pieces of the same columns, one behind the other, as one record.
 

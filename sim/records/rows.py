@@ -56,14 +56,14 @@ class RowParser:
 
     def _parse_fast(self, block: Block) -> FloatArray | None:
         """Return what the strict parser would, or None where it has to decide."""
-        from rotemina.sim.records import fast  # polars takes its time to import
+        from rotemina.sim.records import fast_rows  # polars takes its time to import
 
-        data, comments = fast.without_comments(block.data)
-        sign = fast.decimal_sign(data, self._layout.separator)
+        data, comments = fast_rows.without_comments(block.data)
+        sign = fast_rows.decimal_sign(data, self._layout.separator)
         if sign is None or (sign and self._decimal_sign not in ("", sign)):
             return None
         lines = block.lines - comments
-        rows = fast.parse(data, lines, self._layout.separator, len(self._layout.columns))
+        rows = fast_rows.parse(data, lines, self._layout.separator, len(self._layout.columns))
         if rows is None:
             return None
         for index, divisor in enumerate(self._per_si):

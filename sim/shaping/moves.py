@@ -9,7 +9,6 @@ from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
-from rotemina.sim.quantities import rounded
 from rotemina.sim.shaping.errors import ShapingError
 from rotemina.sim.shaping.shape import Shape
 
@@ -34,58 +33,6 @@ class MotionLimits:
                         name=name, value=getattr(self, name)
                     )
                 )
-
-
-def check_limits(shape: Shape, limits: MotionLimits) -> None:
-    """Refuse a move that exceeds a limit anywhere.
-
-    Raises
-    ------
-    ShapingError
-        With the quantity, its greatest amount and the bound.
-    """
-    for order, name in enumerate(("speed", "acceleration", "jerk"), 1):
-        found, most = shape.greatest(order), getattr(limits, name)
-        if found > most * (1.0 + 1e-9):
-            raise ShapingError(
-                message(
-                    "engine",
-                    "profile: its greatest {name} is {found}, {most} at most (SI units); let it "
-                    "take longer, or go less far",
-                ).fill(name=name, found=rounded(found, 4), most=rounded(most, 4))
-            )
-
-
-def s_curve(distance: float, limits: MotionLimits) -> Shape:
-    """Return the shortest move with a jerk that is the limit, its negative, or zero.
-
-    Up to seven pieces: the jerk, the acceleration and the speed meet their limits with equality
-    where the distance is long enough for that.
-
-    Source: Biagiotti and Melchiorri, Trajectory Planning (2008), section 3.4.
-
-    Raises
-    ------
-    ShapingError
-        If the distance is zero or not finite, or the jerk or everything else is unlimited.
-    """
-    _check_distance(distance)
-    if not isfinite(limits.jerk):
-        raise ShapingError(message("engine", "an S-curve needs a limit of the jerk"))
-    way, jerk = abs(distance), limits.jerk
-    rounding_s = min(
-        (way / (2.0 * jerk)) ** (1.0 / 3.0), sqrt(limits.speed / jerk), limits.acceleration / jerk
-    )
-    steady_s = 0.0
-    if rounding_s == limits.acceleration / jerk:
-        # a (t + steady)(2 t + steady) = way, unless the greatest speed comes first.
-        root = sqrt(rounding_s**2 + 4.0 * way / limits.acceleration)
-        by_speed = limits.speed / limits.acceleration - rounding_s
-        steady_s = max(min(0.5 * (root - 3.0 * rounding_s), by_speed), 0.0)
-    ramp_s = 2.0 * rounding_s + steady_s
-    speed = jerk * rounding_s * (rounding_s + steady_s)
-    cruise_s = max(way / speed - ramp_s, 0.0)
-    return _seven_pieces(distance, rounding_s, steady_s, cruise_s)
 
 
 def s_curve_in(

@@ -8,10 +8,10 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.assembly import assemble
-from rotemina.sim.plant.chance import Chance
 from rotemina.sim.plant.history import steady_start
 from rotemina.sim.plant.perturbation import Perturbation
 from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.randomness import Chance
 from rotemina.sim.plant.response import check_axes, run_of
 from rotemina.sim.plant.run import Run
 from rotemina.sim.plant.state import Motion, PlantState

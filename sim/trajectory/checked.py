@@ -8,12 +8,8 @@ import numpy as np
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import (
-    TrajectoryError,
-    check_trajectory,
-    commands_of,
-    controller_of,
-)
+from rotemina.sim.trajectory.limits import controller_of
+from rotemina.sim.trajectory.violations import TrajectoryError, check_trajectory, commands_of
 
 _SAME_PERIOD = 1e-6  # relative
 
@@ -66,7 +62,7 @@ def check(robot: Robot, trajectory: Record, setpoint_period_s: float) -> Checked
     Raises
     ------
     TrajectoryError, OutOfLimitsError
-        As :func:`rotemina.sim.trajectory.limits.check_trajectory`.
+        As :func:`rotemina.sim.trajectory.violations.check_trajectory`.
     """
     check_trajectory(robot, trajectory, setpoint_period_s=setpoint_period_s)
     return CheckedTrajectory.sealed(robot, trajectory, setpoint_period_s)

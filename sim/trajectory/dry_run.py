@@ -15,13 +15,12 @@ from rotemina.sim.trajectory.checked import CheckedTrajectory
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S, accelerations, jump_speeds
 from rotemina.sim.trajectory.limits import (
     OutOfLimitsError,
-    Violation,
     controller_of,
-    find_violations,
     resolution_of,
     voltage_bounds,
 )
 from rotemina.sim.trajectory.prediction import TrackingError, predict
+from rotemina.sim.trajectory.violations import Violation, find_violations
 
 
 class Bounds(NamedTuple):

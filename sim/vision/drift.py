@@ -7,7 +7,6 @@ little is in some of them; the drift is what most tiles agree on.
 from dataclasses import dataclass
 from itertools import pairwise
 
-import cv2
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
@@ -82,13 +81,3 @@ def background_drift(reference: Image, image: Image) -> Drift:
     agreed = seen[close[int(np.argmax(close.sum(axis=0)))]]
     spread = np.cov(agreed.T) / len(agreed)
     return Drift(agreed.mean(axis=0), spread, len(agreed), len(seen), count)
-
-
-def steadied(image: Image, drift: Drift) -> Image:
-    """Return the image moved back by the drift; what comes in at the edges is repeated."""
-    back = np.array([[1.0, 0.0, -drift.shift[0]], [0.0, 1.0, -drift.shift[1]]])
-    size = image.shape[1], image.shape[0]
-    moved = cv2.warpAffine(
-        image, back, size, flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE
-    )
-    return np.asarray(moved, dtype=np.float32)

@@ -17,7 +17,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from rotemina.app.motion.teleoperation.tables import STRICT, Format, Switch, Text
+from rotemina.app.toml_file import STRICT, Format, Switch, Text
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message

@@ -134,26 +134,6 @@ def check_controls(mapping: DeviceMapping, device: PluggedDevice) -> None:
             raise ProfileError(unknown)
 
 
-def check(
-    profile: Profile, robot_axes: Collection[str], devices: Collection[PluggedDevice]
-) -> None:
-    """Refuse a profile that does not fit robot and devices in any way.
-
-    Raises
-    ------
-    ProfileError
-        What, where, and what to do.
-    """
-    check_profile(profile, robot_axes)
-    absent = missing(profile, devices)
-    if absent is not None:
-        raise ProfileError(absent)
-    found = assigned(profile, devices)
-    for device in devices:
-        if device.identity.key in found:
-            check_controls(found[device.identity.key], device)
-
-
 def _axes_of(profile: Profile, seat: OperatorRole) -> Iterator[AxisMapping]:
     for device in profile.devices:
         if device.seat is seat:

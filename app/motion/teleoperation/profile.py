@@ -11,7 +11,7 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.tables import STRICT, Format, Switch, Text
+from rotemina.app.toml_file import STRICT, Format, Switch, Text
 from rotemina.sim.errors import InputError
 
 # It is the name of its file too, on every file system.

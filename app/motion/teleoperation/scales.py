@@ -22,8 +22,8 @@ from rotemina.app.motion.teleoperation.linear_position import LinearPosition
 from rotemina.app.motion.teleoperation.linear_rate import LinearRate
 from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
-from rotemina.app.motion.teleoperation.tables import STRICT, Format, Text
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance
+from rotemina.app.toml_file import STRICT, Format, Text
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, rounded
 
@@ -52,7 +52,6 @@ class LawKind(StrEnum):
 
 
 Positive = Annotated[float, Field(strict=True, gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(strict=True, ge=0, allow_inf_nan=False)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)

@@ -18,7 +18,7 @@ from rotemina.drivers.mc68hc11.firmware.cycles import (
     masked,
 )
 
-SOURCES = ("serial", "motion", "telling")
+SOURCES = ("serial", "motion", "telemetry")
 CLOCKS_HZ = (2_000_000, 4_000_000)
 BAUD = 125_000
 MOST_MASKED = 90  # cycles

@@ -3344,14 +3344,6 @@
         <translation>Spitze: das Ziel ist keine endliche Position; x, y und z in m angeben</translation>
     </message>
     <message>
-        <source>sample rate {rate_hz} Hz: must be positive and finite</source>
-        <translation>Abtastrate {rate_hz} Hz: muss positiv und endlich sein</translation>
-    </message>
-    <message>
-        <source>robot {name}: no axis has a controller; add [axis.….controller] to its file</source>
-        <translation>Roboter {name}: keine Achse hat einen Regler; in seiner Datei [axis.….controller] hinzufügen</translation>
-    </message>
-    <message>
         <source>{name} has shape {shape}; give it ({n}, {n}) finite numbers, a row and a column for each of {names}</source>
         <translation>{name} hat die Form {shape}; ({n}, {n}) endliche Zahlen angeben, je eine Zeile und Spalte für {names}</translation>
     </message>
@@ -3954,14 +3946,6 @@
         <translation>Grenze {name} einer Bewegung: {value}: muss größer als 0 sein</translation>
     </message>
     <message>
-        <source>profile: its greatest {name} is {found}, {most} at most (SI units); let it take longer, or go less far</source>
-        <translation>Profil: der größte Wert von {name} ist {found}, höchstens {most} (SI-Einheiten); länger dauern lassen oder weniger weit fahren</translation>
-    </message>
-    <message>
-        <source>an S-curve needs a limit of the jerk</source>
-        <translation>eine S-Kurve braucht eine Grenze für den Ruck</translation>
-    </message>
-    <message>
         <source>S-curve: ramp {ramp}, rounding {rounding}: more than 0, at most 0.5 and 1</source>
         <translation>S-Kurve: Rampe {ramp}, Verrundung {rounding}: größer als 0, höchstens 0,5 und 1</translation>
     </message>
@@ -4411,14 +4395,6 @@
         <translation>Experimente: Perioden von {periods} Abtastwerten; alle müssen gleich sein</translation>
     </message>
     <message>
-        <source>relative error: a period of {period_samples} samples, the response has {response_period_samples}; both must be alike</source>
-        <translation>relativer Fehler: eine Periode von {period_samples} Abtastwerten, die Antwort hat {response_period_samples}; beide müssen gleich sein</translation>
-    </message>
-    <message>
-        <source>relative error: the outputs do not move</source>
-        <translation>relativer Fehler: die Ausgänge bewegen sich nicht</translation>
-    </message>
-    <message>
         <source>loops: {lag_samples} samples of lag, least swing {least_swing}; use 0 or more, and a swing in (0, 1)</source>
         <translation>Schleifen: {lag_samples} Abtastwerte Nachlauf, kleinster Hub {least_swing}; 0 oder mehr und einen Hub in (0, 1) verwenden</translation>
     </message>
@@ -4503,10 +4479,6 @@
         <translation>Sprünge: {axis}.{drive} enthält keinen Sprung zwischen zwei Ruhephasen von {shortest_hold} Zeilen und {shortest_hold_s} s; eine Treppe aufzeichnen</translation>
     </message>
     <message>
-        <source>distortion: all {count} lines are excited, none is left to show it; use a multisine of odd lines with some left out</source>
-        <translation>Verzerrung: alle {count} Linien sind angeregt, keine bleibt, um sie zu zeigen; ein Multisinus aus ungeraden Linien mit Lücken verwenden</translation>
-    </message>
-    <message>
         <source>microscope: {name} = {value}: must be more than 0</source>
         <extracomment>Of light that falls anywhere on a pixel, px². The camera and objective where a robot file names none: AxioCam HRm behind 20× / 0.4.</extracomment>
         <translation>Mikroskop: {name} = {value}: muss größer als 0 sein</translation>
@@ -4526,10 +4498,6 @@
     <message>
         <source>cell: radii {radii_m}, nucleus {nucleus_radius_m}, breaking {breaking_m}, dimple {dimple_m}, membrane {membrane_m} m: each must be more than 0</source>
         <translation>Zelle: Radien {radii_m}, Zellkern {nucleus_radius_m}, Durchbruch {breaking_m}, Delle {dimple_m}, Membran {membrane_m} m: jedes muss größer als 0 sein</translation>
-    </message>
-    <message>
-        <source>tip {tip_m}, axis {tool_axis}, focus {focus_m}: must be finite</source>
-        <translation>Spitze {tip_m}, Achse {tool_axis}, Fokus {focus_m}: müssen endlich sein</translation>
     </message>
     <message>
         <source>plate.{key} = {value}: {bound}</source>

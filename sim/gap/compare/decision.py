@@ -13,7 +13,7 @@ from rotemina.sim.gap.compare.score import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import Explanation
+from rotemina.sim.gap.explanations import Explanation
 from rotemina.sim.gap.rivals import Rival
 
 _EXPLAINED = 0.95  # of the gap's power, that causes close which leave nothing worth a word

@@ -15,8 +15,8 @@ from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.compare.score import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.explanations import MOST_STEPS, Explanation, explanation
 from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.models import MOST_STEPS, Explanation, explanation
 
 
 def with_retained(evidence: Evidence, best: Explanation, *fuller: Explanation) -> Explanation:

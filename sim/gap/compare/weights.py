@@ -14,7 +14,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.compare.score import Power
 
 EFFECT = 0.07  # times as likely, for each effect that a hypothesis holds
@@ -43,8 +43,3 @@ def weigh(powers: Sequence[Power], effects: Sequence[int]) -> FloatArray:
         drawn -= 0.5 * one.counted * np.log(np.maximum(mean / least, 1.0) + SLACK)
     relative = np.exp(drawn - drawn.max(axis=1, keepdims=True))
     return np.asarray((relative / relative.sum(axis=1, keepdims=True)).mean(axis=0))
-
-
-def ordered(weights: FloatArray) -> IntArray:
-    """Return the numbers of hypotheses, the likeliest first."""
-    return np.asarray(np.argsort(-weights, kind="stable"), dtype=np.int64)

@@ -7,9 +7,9 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.bands import band_edges, bands, is_even
+from rotemina.sim.gap.location import others_move
 from rotemina.sim.gap.regimes import Regime, Ways, regimes
 from rotemina.sim.gap.report.traces import Trace
-from rotemina.sim.gap.where import others_move
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,7 +9,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.leaps import pieces
+from rotemina.sim.gap.time_leaps import pieces
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Axis
 

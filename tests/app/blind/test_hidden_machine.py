@@ -16,7 +16,7 @@ from rotemina.app.motion.state import CommandRefused, PlaybackFinished
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.blind.machine import Commands
-from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.randomness import Chance
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -28,7 +28,8 @@ from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory import checked as checked_module
 from rotemina.sim.trajectory.checked import check
 from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.limits import OutOfLimitsError, TrajectoryError
+from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.violations import TrajectoryError
 
 NOON = datetime(2026, 1, 2, 12)
 

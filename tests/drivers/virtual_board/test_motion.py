@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from rotemina.drivers.mc68hc11.codes import Fault, Refusal, State
 from rotemina.drivers.mc68hc11.framing import STOP_BYTES
+from rotemina.drivers.mc68hc11.profile_upload import profile_of, segments_of
 from rotemina.drivers.mc68hc11.reports import Captured, Done, Telemetry
 from rotemina.drivers.mc68hc11.requests import (
     AbortProfile,
@@ -29,7 +30,6 @@ from rotemina.drivers.mc68hc11.requests import (
     TriggerProfile,
     Watch,
 )
-from rotemina.drivers.mc68hc11.uploading import profile_of, segments_of
 from rotemina.drivers.virtual_board.faults import inject
 
 Z = 400_000  # where z stands at first

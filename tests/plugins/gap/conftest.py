@@ -18,7 +18,7 @@ from rotemina.plugins.gap.answer import Answer
 from rotemina.plugins.gap.panel import GapPanel
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.where import locate
+from rotemina.sim.gap.location import locate
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -23,7 +23,7 @@ from rotemina.sim.gap.diagnosis import Experiment
 from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.progress import Progress
-from rotemina.sim.gap.standing import Grade, Standings
+from rotemina.sim.gap.ranking import Grade, Standings
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Tap
 from rotemina.sim.records.writing import write_record

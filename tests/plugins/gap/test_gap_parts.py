@@ -11,7 +11,7 @@ from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.run import Run
 from rotemina.plugins.gap.advice import advice, readiness
 from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.cell import parts
+from rotemina.plugins.gap.heat_cell import parts
 from rotemina.plugins.gap.playing import told
 from rotemina.plugins.gap.proof import Shrunk, new_motion, prove
 from rotemina.sim.comparison.comparison import compare

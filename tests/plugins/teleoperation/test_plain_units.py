@@ -1,7 +1,12 @@
 """Scales and felt dynamics in words."""
 
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance
-from rotemina.plugins.teleoperation.plain_units import felt_text, position_text, rate_text
+from rotemina.plugins.teleoperation.plain_units import (
+    felt_text,
+    position_text,
+    rate_text,
+    tilt_text,
+)
 
 
 def test_scales_are_told_in_plain_units():
@@ -14,3 +19,7 @@ def test_scales_are_told_in_plain_units():
     assert felt_text(spring, "m", 0.1) == (
         "full stick ends 100 µm away: 1.5 Hz, damping ratio 0.5, time constant 0.212 s"
     )
+
+
+def test_a_tilt_is_told_in_both_units():
+    assert tilt_text(1.16355e-3) == "240 arcsec (1.16 mrad)"

@@ -11,7 +11,7 @@ from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.gains import Gains, Notch
 from rotemina.sim.feedback.lead import lead_taps
-from rotemina.sim.plant.chance import Chance
+from rotemina.sim.plant.randomness import Chance
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 

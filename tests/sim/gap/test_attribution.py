@@ -7,7 +7,7 @@ import numpy as np
 from rotemina.sim.gap import attribution
 from rotemina.sim.gap.attribution import attributed, without_own
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import explain, untouched
+from rotemina.sim.gap.explanations import explain, untouched
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

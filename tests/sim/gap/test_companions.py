@@ -6,7 +6,7 @@ import pytest
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.companions import accompanied
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import explain, untouched
+from rotemina.sim.gap.explanations import explain, untouched
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.selection import LEAST_SHARE
 from rotemina.sim.records.record import Record, Tap

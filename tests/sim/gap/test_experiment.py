@@ -10,15 +10,12 @@ from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination
 from rotemina.sim.gap.experiment import experiments
-from rotemina.sim.gap.fit import Fit, Free
-from rotemina.sim.gap.models import explain
+from rotemina.sim.gap.explanations import explain
 from rotemina.sim.gap.rivals import Rival
 from rotemina.sim.gap.selection import Selection
-from rotemina.sim.gap.separation import Player, Yielding, alike, apart, apart_by_fit
-from rotemina.sim.gap.trials import trials
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.robot.model import AxisEffect, KeepOut
+from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import simulate
 from rotemina.sim.trajectory.dry_run import dry_run
 
@@ -163,73 +160,3 @@ def test_for_a_coupling_one_of_the_two_axes_moves_while_the_other_is_held():
     moving = [axis for axis, command in found.commands.items() if np.ptp(command) > 0.0]
     assert len(moving) == 1
     assert "cross coupling from thy" in str(found.why)
-
-
-def test_an_axis_is_held_while_the_one_moves_that_may_leak_into_it():
-    record = commands(axes=("thx", "thy"))
-    able = trials(ROBOT, "thx", [record], ["thy"])
-    of_thy = [one.record for one in able if str(one.name).endswith("of thy while thx is held")]
-    assert len(of_thy) >= 3
-    assert all(np.ptp(one.signal("thx", Tap.CMD)) == 0.0 for one in of_thy)
-    assert all(np.ptp(one.signal("thy", Tap.CMD)) > 0.0 for one in of_thy)
-
-
-def test_near_a_keep_out_no_test_leaves_where_the_records_were():
-    record = commands(share=0.02)
-    low, high = (float(end(record.signal("zn", Tap.CMD))) for end in (np.min, np.max))
-    guarded = replace(ROBOT, keep_out=KeepOut(floor=0.0))
-    for robot, inside in ((ROBOT, False), (guarded, True)):
-        able = trials(robot, "zn", [record])
-        assert len(able) >= 12
-        ends = [(one.record.signal("zn", Tap.CMD)) for one in able]
-        slack = 1e-9 * (high - low)
-        kept = [one.min() >= low - slack and one.max() <= high + slack for one in ends]
-        assert all(kept) is inside
-
-
-@pytest.mark.parametrize(("farthest_m", "inside"), [(65.5e-6, True), (66.0e-6, False)])
-def test_a_test_that_a_rival_says_leaves_the_range_is_not_safe(farthest_m, inside):
-    player = Player(ROBOT, "zn", lambda: None)
-    assert player.stays_inside({Tap.REF: np.array([30e-6, farthest_m])}) is inside
-
-
-@pytest.mark.parametrize("axis", ROBOT.axes)
-def test_every_test_of_every_axis_may_be_played(axis):
-    able = trials(ROBOT, axis, [commands(axes=(axis,), share=0.1 if "th" in axis else 0.02)])
-    assert len(able) >= 12
-    assert all(dry_run(ROBOT, one.record).allowed for one in able)
-    assert max(one.record.duration_s for one in able) <= 30.0
-
-
-def test_an_axis_that_nothing_makes_follow_has_no_test():
-    robot = load_robot("emps")
-    free = replace(robot, axes={"q": replace(robot.axes["q"], controller=None)})
-    record = Record.from_signals(np.arange(100) / 1e3, {("q", Tap.CMD): np.ones(100)}, {"q": "m"})
-    assert trials(free, "q", [record]) == []
-
-
-def rival(answer, know=0.0):
-    """A rival of one parameter, on two rows, which moves the first of them."""
-    slopes = np.array([[1.0], [0.0]])
-    own = np.array(answer)
-    free = Free(0, "error", -100.0, 100.0, 1.0, 0.0)
-    effects = (AxisEffect(axis="zn", id="gain_error"),)
-    fitted = Fit(effects, (free,), np.zeros(1), np.zeros(2), np.zeros((2, 1)))
-    return Yielding(fitted, own, slopes, np.array([[know]]), lambda x: own + slopes @ x)
-
-
-def test_rivals_part_only_by_what_neither_can_take_up():
-    loose, stiff, other = rival([0.0, 0.0], 1e-9), rival([0.0, 0.0], 1e12), rival([3.0, 4.0], 1e-9)
-    assert loose.left_of(other) == pytest.approx(16.0)
-    assert loose.left_by_fit_of(other) == pytest.approx(16.0)
-    assert stiff.left_of(other) == pytest.approx(25.0)
-    assert stiff.left_by_fit_of(other) == pytest.approx(25.0)
-    assert apart([loose, other], 1) == pytest.approx(4.0)
-    assert apart_by_fit([loose, other], 1) == pytest.approx(4.0)
-    assert alike([loose, other, rival([3.0, 4.1], 1e-9)], 1, 0.5) == [1, 2]
-
-
-def test_a_rival_that_can_be_what_another_is_is_told_by_what_it_alone_can_be():
-    simple, richer = rival([0.0, 0.0], 1e12), rival([3.0, 0.0], 1e-9)
-    assert richer.left_of(simple) == pytest.approx(0.0, abs=1e-6)
-    assert apart([simple, richer], 1) == apart_by_fit([simple, richer], 1) == pytest.approx(3.0)

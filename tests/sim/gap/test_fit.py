@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.evidence import Evidence, beside, block_rows
+from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.fit import _bounded_minimum, fit, folds, held_out
 from rotemina.sim.gap.screening import screen
 from rotemina.sim.records.record import Record, Tap
@@ -107,24 +107,6 @@ def test_a_bound_that_is_hit_is_told():
     found = fit(evidence, [wrong, AxisEffect(axis="x", id="delay")])
     assert found.effects[1].parameters["delay"] == pytest.approx(0.002, rel=0.01)
     assert set(found.at_bound) <= {(0, "time_constant"), (0, "amplitude")}
-
-
-PARALLEL = np.outer(1e8 * np.sin(np.linspace(0.0, 9.0, 2000)), [1.0, 1.0])
-
-
-def test_memories_that_are_parallel_and_huge_are_nuisances_all_the_same():
-    """Normal equations of such columns are singular to the last digit."""
-    gap = PARALLEL[:, 0] * 1e-8 + np.cos(np.linspace(0.0, 40.0, 2000))
-    left = beside(list(PARALLEL.T), gap)
-    along = PARALLEL[:, 0] / np.linalg.norm(PARALLEL[:, 0])
-    expected = gap - along * (along @ gap)
-    assert np.max(np.abs(left - expected)) < 1e-3
-
-
-def test_a_memory_is_taken_in_amounts_of_about_one():
-    memory = np.full(4, 0.5)
-    left = beside([memory], 3.0 * memory)
-    assert left == pytest.approx(1.5 * memory)  # mᵀm = 1: half of what would take all away
 
 
 class Broken(Evidence):

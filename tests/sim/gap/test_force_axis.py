@@ -8,17 +8,20 @@ import pytest
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.gap.attribution import attributed
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.explanations import explain, explanation, untouched
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.method import diagnose
-from rotemina.sim.gap.models import explain, explanation, untouched
-from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import simulate
 
 ROBOT = load_robot("emps")
+
+
 AXIS = ROBOT.axes["q"]
+
+
 DRY = AxisEffect(
     axis="q", id="friction", parameters={"coulomb_forward": 25.0, "coulomb_backward": 15.0}
 )
@@ -124,14 +127,3 @@ def test_a_constant_force_is_mostly_the_records_own():
 def test_a_delay_behind_the_controller_hardly_changes_what_it_asks_for():
     late = AxisEffect(axis="q", id="delay", parameters={"delay": 1e-7})
     assert np.abs(evidence().residual([late]) - evidence().residual()).max() < 0.1
-
-
-def test_there_and_back_in_few_moves_is_no_sine():
-    time_s = np.arange(20_000) * 1e-3
-    ramp = np.clip(1.5 - np.abs(time_s % 5.0 - 2.5), 0.0, 1.0)
-    small = 0.1 + 0.05 * ramp
-    assert not is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, small)]))
-    sine = 0.1 + 0.02 * np.sin(2.0 * np.pi * 0.2 * time_s)
-    assert is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, sine)]))
-    wide = 0.125 + 0.08 * np.sin(2.0 * np.pi * 0.2 * time_s)
-    assert not is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, wide)]))

@@ -11,13 +11,15 @@ from rotemina.sim.gap.disturbances import set_aside
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.method import diagnose
-from rotemina.sim.gap.standing import Grade, Standings
+from rotemina.sim.gap.ranking import Grade
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import simulate
 
 ROBOT = load_robot("rotemina")
+
+
 TIME_S = np.arange(2500) / 500.0
 
 
@@ -261,20 +263,6 @@ def test_candidates_rank_while_they_are_tried(monkeypatch):
     assert last.whole == chosen.raw
     assert last.standings[0].causes == tuple((one.effect, None) for one in found.causes)
     assert last.standings[0].closed > 0.99
-
-
-def test_what_was_tried_further_counts_and_another_gap_begins_anew():
-    creep = AxisEffect(axis="zn", id="creep")
-    standings = Standings("zn")
-    standings.begin(101.0)
-    standings.add([creep], 11.0, Grade.LOOK)
-    standings.add([creep], 31.0, Grade.FIT)  # it holds less than it promised
-    standings.add([creep], 21.0, Grade.LOOK)
-    (one,) = standings.ranking().standings
-    assert (one.left, one.grade, one.closed) == (31.0, Grade.FIT, pytest.approx(0.7))
-    standings.begin(50.0)
-    assert standings.ranking().standings == ()
-    assert standings.ranking().tried == 1
 
 
 def test_progress_never_falls_and_what_a_listener_raises_ends_it():

@@ -71,9 +71,7 @@ def test_other_structures_are_recovered_too(identify, numerator, denominator, de
 def test_deviations_of_output_error_are_those_of_many_runs():
     """Sensor noise: over 60 seeds the normalised errors have mean 0 and spread 1."""
     models = [identify_oe(experiment(800, 0.1, seed), ORDERS) for seed in range(60)]
-    deviations = [
-        np.r_[1e9 * each.numerator_deviation, each.denominator_deviation] for each in models
-    ]
+    deviations = [[1e9, 1e9, 1, 1] * np.sqrt(np.diag(each.covariance)) for each in models]
     scores = (np.array([coefficients(each) for each in models]) - TRUTH) / deviations
     assert np.abs(scores.mean(axis=0)).max() < 3.5 / np.sqrt(60)
     assert scores.std(axis=0) == pytest.approx(np.ones(4), abs=0.35)
@@ -90,7 +88,7 @@ def test_deviations_of_arx_hold_for_its_own_noise():
         driven, noise = rng.standard_normal((2, 900))
         coloured = TransferFunction(np.ones(1), TRUE.denominator, 0, RATE_HZ).simulate(0.2 * noise)
         model = identify_arx(siso(driven, TRUE.simulate(driven) + coloured, RATE_HZ), ORDERS)
-        deviation = np.r_[model.numerator_deviation, model.denominator_deviation]
+        deviation = np.sqrt(np.diag(model.covariance))
         found = np.r_[model.transfer_function.numerator, model.transfer_function.denominator[1:]]
         scores.append((found - TRUTH) / deviation)
     assert np.std(scores, axis=0) == pytest.approx(np.ones(4), abs=0.35)

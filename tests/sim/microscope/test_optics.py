@@ -67,13 +67,6 @@ def test_the_rotation_is_where_the_x_axis_is_seen_whatever_the_skew(mirrored):
     np.testing.assert_allclose(right, [np.cos(0.4), np.sin(0.4)], atol=1e-12)
 
 
-@given(mountings, points)
-def test_a_pixel_and_a_depth_are_one_point(optics, point):
-    point = np.array(point)
-    found = optics.point_of(optics.pixel_of(point), float(optics.depth_of(point)))
-    np.testing.assert_allclose(found, point, atol=1e-12)
-
-
 @given(mountings)
 def test_the_view_is_a_right_handed_frame(optics):
     np.testing.assert_allclose(optics.view @ optics.view.T, np.eye(3), atol=1e-12)

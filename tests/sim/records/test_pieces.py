@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.sim.records.pieces import cut_record, join_records, read_pieces
+from rotemina.sim.records.pieces import join_records, read_pieces
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, RecordError, Tap
 from rotemina.sim.records.source import Limits
@@ -118,10 +118,14 @@ def test_the_bound_on_numbers_is_one_on_memory(tmp_path: Path) -> None:
     assert sum(len(p.time_s) for p in read_pieces(tmp_path / "a.csv", rows=10, limits=few)) == 1000
 
 
+def cut(record: Record, rows: int) -> list[Record]:
+    return [record.part(slice(at, at + rows)) for at in range(0, len(record.time_s), rows)]
+
+
 @pytest.mark.parametrize("rows", [1, 333, 1000, 5000])
 def test_a_record_is_cut_and_joined(rows: int) -> None:
     record = make_record(note="n")
-    pieces = list(cut_record(record, rows))
+    pieces = cut(record, rows)
     assert len(pieces) == -(-1000 // rows)
     joined = join_records(pieces)
     assert joined.time_s.tobytes() == record.time_s.tobytes()
@@ -135,7 +139,7 @@ def test_pieces_are_written_as_the_whole_is(tmp_path: Path, name: str, header: b
     record = make_record(note="n")
     write_record(record, tmp_path / name, units={"x": "um"}, header=header)
     target = tmp_path / f"pieces-{name}"
-    write_pieces(cut_record(record, 130), target, units={"x": "um"}, header=header)
+    write_pieces(cut(record, 130), target, units={"x": "um"}, header=header)
     read = gzip.decompress if name.endswith(".gz") else bytes
     assert read(target.read_bytes()) == read((tmp_path / name).read_bytes())
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotemina.sim.records import fast
+from rotemina.sim.records import fast_rows
 from rotemina.sim.records.layout import SEPARATORS, Layout, parse_columns
 from rotemina.sim.records.record import RecordError
 from rotemina.sim.records.rows import RowParser
@@ -105,7 +105,7 @@ def test_any_bytes_end_the_same(junk: bytes, at: int) -> None:
 
 @given(numbers)
 def test_every_decimal_number_is_rounded_as_python_does(text: str) -> None:
-    parsed = fast.parse(f"0,{text}\n".encode(), 1, ",", 2)
+    parsed = fast_rows.parse(f"0,{text}\n".encode(), 1, ",", 2)
     value = float(text)
     if abs(value) == float("inf"):
         assert parsed is None
@@ -140,7 +140,7 @@ def test_small_blocks_do_without_polars(monkeypatch: pytest.MonkeyPatch) -> None
     def refuse(*_: object) -> None:
         raise AssertionError("polars was used")
 
-    monkeypatch.setattr(fast, "parse", refuse)
+    monkeypatch.setattr(fast_rows, "parse", refuse)
     parser = RowParser("run.csv", Layout(",", COLUMNS))
     assert parser.parse(Block(1, b"0,1,2\n")).tolist() == [[0.0, 1e-6, 2.0]]
 

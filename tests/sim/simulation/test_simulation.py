@@ -5,7 +5,7 @@ import pytest
 
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.perturbation import Perturbation
-from rotemina.sim.records.pieces import PIECE_ROWS, cut_record, join_records
+from rotemina.sim.records.pieces import PIECE_ROWS, join_records
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -33,10 +33,10 @@ def make_commands(rows=600, axes=AXES, **metadata):
 def in_pieces(commands, effects, rng, rows, perturbation=None):
     simulation = Simulation(ROBOT, effects, commands.part(slice(0, rows)), rng)
     pieces = []
-    for number, piece in enumerate(cut_record(commands, rows)):
-        own = slice(number * rows, (number + 1) * rows)
+    for start in range(0, len(commands.time_s), rows):
+        own = slice(start, start + rows)
         shaken = None if perturbation is None else perturbation.part(own)
-        pieces.append(simulation.follow(piece, perturbation=shaken))
+        pieces.append(simulation.follow(commands.part(own), perturbation=shaken))
     return join_records(pieces)
 
 

@@ -11,7 +11,8 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory import prediction
 from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.limits import OutOfLimitsError, Quantity
+from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.violations import Quantity
 
 ROBOT = load_robot("rotemina")
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.microscope.cell import UNTOUCHED, Cell, met
-from rotemina.sim.vision.ground import Ground
+from rotemina.sim.vision.background import Ground
 from rotemina.sim.vision.image import relative_to
 from rotemina.sim.vision.tracking import begin_track, follow, learn
 

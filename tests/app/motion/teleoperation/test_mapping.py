@@ -5,7 +5,7 @@ from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.mapping import (
     PluggedDevice,
     assigned,
-    check,
+    check_controls,
     check_profile,
     missing,
 )
@@ -36,6 +36,17 @@ def action(control, action, **options):
 
 def profile(*devices):
     return Profile(name="Bench", devices=devices)
+
+
+def check(profile, robot_axes, devices):
+    """Refuse a profile that does not fit robot and devices in any way."""
+    check_profile(profile, robot_axes)
+    if (absent := missing(profile, devices)) is not None:
+        raise ProfileError(absent)
+    found = assigned(profile, devices)
+    for device in devices:
+        if device.identity.key in found:
+            check_controls(found[device.identity.key], device)
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import pytest
 
 from rotemina.sim.gap.compare.retained import with_retained
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.models import explain
+from rotemina.sim.gap.explanations import explain
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

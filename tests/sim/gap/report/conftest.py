@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.where import locate
+from rotemina.sim.gap.location import locate
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.bands import bands
 from rotemina.sim.gap.regimes import Regime
 from rotemina.sim.gap.report.heat import heat
-from rotemina.sim.gap.report.overlays import path
 from rotemina.sim.gap.report.traces import Trace
 from rotemina.sim.records.record import Record, Tap
 
@@ -21,16 +19,6 @@ def trace(command, gap, time_s=None):
     )
     real = record.signal("x", Tap.MEAS)
     return Trace(0, record, "x", Tap.MEAS, real, command, command, 1e-6)
-
-
-def test_bands_add_up_to_the_signal():
-    rng = np.random.default_rng(3)
-    signal = np.cumsum(rng.standard_normal(5001))
-    time_s = np.arange(5001) / RATE_HZ
-    parts = bands(time_s, signal, np.array([0.1, 1.0, 10.0, 100.0, 1000.0]))
-    assert parts.shape == (4, 5001)
-    assert parts.sum(axis=0) == pytest.approx(signal, abs=1e-9)
-    assert np.sum(parts**2) == pytest.approx(np.sum(signal**2))
 
 
 def test_a_tone_while_the_axis_rests_lies_in_one_cell():
@@ -59,14 +47,3 @@ def test_an_uneven_record_has_no_map():
     time_s = np.sort(np.random.default_rng(0).uniform(0.0, 1.0, 500))
     assert heat([trace(np.linspace(0, 1e-3, 500), np.ones(500), time_s)]) is None
     assert heat([]) is None
-
-
-def test_a_thinned_path_keeps_its_ends_and_its_shape():
-    phase = np.linspace(0.0, 40.0 * np.pi, 200_001)
-    across, up = path(np.cos(phase), np.sin(phase), 2000)
-    assert 1000 < len(across) <= 2001
-    assert (across[0], up[0]) == pytest.approx((1.0, 0.0))
-    assert np.hypot(across, up) == pytest.approx(np.ones(len(across)))
-    assert np.ptp(across) == pytest.approx(2.0, abs=0.02)
-    still = path(np.zeros(100), np.zeros(100), 50)
-    assert len(still[0]) == 2

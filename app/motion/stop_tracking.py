@@ -1,0 +1,61 @@
+"""What became of the stops that were asked for."""
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from rotemina.app.motion.state import SessionState
+from rotemina.app.motion.stop_request import StopRequest
+from rotemina.drivers.clock import Clock
+from rotemina.drivers.samples import DeviceState
+
+_MOST_STOPS = 16  # that wait to be told
+
+
+class StopTracking:
+    """Notes stops from any thread; the worker tells them and follows them until all rests."""
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        # Set by other threads, each in one assignment.
+        self._asked_s: float | None = None
+        self._unconfirmed_s: float | None = None
+        self._failure: Exception | None = None
+        self._to_tell: deque[StopRequest] = deque(maxlen=_MOST_STOPS)
+
+    def note(self, host_time_s: float, failure: Exception | None, request: StopRequest) -> None:
+        """Note, from any thread, that a stop was handed to the device, or failed to be."""
+        self._asked_s = self._unconfirmed_s = host_time_s
+        if failure is not None:  # a later stop that succeeds does not mend what this one found
+            self._failure = failure
+        self._to_tell.append(request)
+
+    def untold(self) -> Iterator[StopRequest]:
+        """Yield each stop that nobody was told of yet."""
+        while self._to_tell:
+            yield self._to_tell.popleft()
+
+    def take_failure(self) -> Exception | None:
+        """Return how a stop failed since the last call, or None."""
+        failure, self._failure = self._failure, None
+        return failure
+
+    def confirmed(
+        self, state: SessionState, now_s: float, pending: Callable[[], bool]
+    ) -> SessionState:
+        """Return the state with how long the device took to confirm the latest stop."""
+        asked_s = self._unconfirmed_s
+        if asked_s is None or pending():
+            return state
+        self._unconfirmed_s = None
+        return replace(state, stop_latency_s=now_s - asked_s)
+
+    def followed(self, state: SessionState, activity: DeviceState) -> SessionState:
+        """Return the state with whether the machine is still stopping, or how long that took."""
+        asked_s = self._asked_s
+        if asked_s is None:
+            return state
+        if activity not in (DeviceState.IDLE, DeviceState.FAULT):
+            return replace(state, standstill_s=None, stopping=True)
+        self._asked_s = None
+        return replace(state, standstill_s=self._clock() - asked_s, stopping=False)

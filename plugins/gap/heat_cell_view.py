@@ -1,0 +1,102 @@
+"""The traces behind a cell of the heat map: the whole gap, and what of it is in the cell."""
+
+from collections.abc import Sequence
+from html import escape
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.plot import Line, SignalPlot
+from rotemina.app.shell.theme import Theme
+from rotemina.plugins.gap.heat_cell import Part
+from rotemina.sim.quantities import amount, scale_of
+
+CURVES = (("whole", "command"), ("within", "real"))
+
+
+class HeatCellView(QWidget):
+    """A plot of one record, with a choice of the others, and a way back to the map.
+
+    Signals
+    -------
+    closed() : the map is wanted again.
+    """
+
+    closed = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.back = QPushButton(translate("gap", "◂ Map"))
+        self.back.setToolTip(translate("gap", "Back to the map of the gap by band and regime"))
+        self.back.clicked.connect(self.closed)
+        self.title = QLabel()
+        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.choice = QComboBox()
+        self.choice.setAccessibleName(translate("gap", "Record"))
+        self.choice.setToolTip(
+            translate("gap", "Records by what they hold of this place, the most first")
+        )
+        policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
+        self.choice.setSizeAdjustPolicy(policy)
+        self.choice.setMinimumContentsLength(10)
+        self.choice.activated.connect(lambda _: self._draw())
+        self.legend = QLabel()
+        self.plot = SignalPlot(theme)
+        for name, role in CURVES:
+            self.plot.add_curve(name, Line(role))
+        self.plot.show_times(True)
+        head = QHBoxLayout()
+        head.addWidget(self.back)
+        head.addWidget(self.title, 1)
+        head.addWidget(self.choice)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 0, 0, 0)
+        column.setSpacing(2)
+        column.addLayout(head)
+        column.addWidget(self.legend)
+        column.addWidget(self.plot, 1)
+
+    def show_parts(self, title: str, names: Sequence[str], parts: Sequence[Part]) -> None:
+        """Show what records hold of a cell."""
+        self.title.setText(title)
+        self.choice.clear()
+        for part in parts:
+            self.choice.addItem(names[part.trace.number], part)
+        self._draw()
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self._theme = theme
+        self.plot.set_theme(theme)
+        self._draw()
+
+    def _draw(self) -> None:
+        part: Part | None = self.choice.currentData()
+        for name, _ in CURVES:
+            self.plot.clear_signal(name)
+        if part is None:
+            self.legend.setText(translate("gap", "No record has a row of this place."))
+            return
+        trace, theme = part.trace, self._theme
+        scale = scale_of(trace.unit, float(np.abs(trace.before).max()))
+        text = translate(
+            "gap",
+            'gap [{unit}]: <span style="color:{command}">the whole</span>, '
+            '<span style="color:{real}">in this band meanwhile</span>: {rms} rms in {time:.3g} s',
+        )
+        self.legend.setText(
+            text.format(
+                unit=escape(scale.symbol),
+                command=theme.command,
+                real=theme.real,
+                rms=escape(amount(part.rms, trace.unit)),
+                time=part.seconds,
+            )
+        )
+        self.plot.show_signal("whole", trace.time_s, scale(trace.before))
+        self.plot.show_signal("within", trace.time_s, scale(part.within))
+        self.plot.set_time(0.0, max(float(trace.time_s[-1]), 1e-9))
+        self.plot.enableAutoRange(axis="y")

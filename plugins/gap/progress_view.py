@@ -1,0 +1,88 @@
+"""While a diagnosis is under way: what is done now, and how the candidates of each axis stand."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QWidget
+
+from rotemina.app.display import label
+from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.theme import Theme
+from rotemina.plugins.gap.ranking_view import RankingView
+from rotemina.sim.gap.progress import Progress
+
+STAGES = {
+    "reading": marked("gap", "The records are read."),
+    "where": marked(
+        "gap", "Where does the gap lie: on which axis, in which channel, at which frequencies?"
+    ),
+    "screening": marked("gap", "Screening every effect that the axis may have."),
+    "fitting": marked(
+        "gap", "The likeliest candidates are fitted to the records, one beside the other."
+    ),
+    "deciding": marked("gap", "Which of them holds on data that its fit has not seen?"),
+    "drawing": marked("gap", "Drawing the result."),
+}
+
+
+class ProgressView(QSplitter):
+    """A ranking for each axis on the left, what is done now on the right."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(Qt.Orientation.Horizontal)
+        self._theme = theme
+        self.rankings: dict[str, RankingView] = {}
+        self._row = QHBoxLayout()
+        self._row.setContentsMargins(0, 0, 0, 0)
+        self._row.setSpacing(12)
+        rankings = QWidget()
+        rankings.setLayout(self._row)
+        self.text = QLabel()
+        self.text.setTextFormat(Qt.TextFormat.PlainText)
+        self.text.setWordWrap(True)
+        self.text.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.text.setContentsMargins(10, 4, 4, 4)
+        self.addWidget(rankings)
+        self.addWidget(self.text)
+        self.setSizes([640, 300])
+
+    def begin(self) -> None:
+        """Forget what was shown of the diagnosis before."""
+        for view in self.rankings.values():
+            self._row.removeWidget(view)
+            view.deleteLater()
+        self.rankings.clear()
+        self.show_step(Progress("reading", None, None, 0.0))
+
+    def show_step(self, step: Progress) -> None:
+        """Say what is done now, and how candidates stand."""
+        if step.ranking is not None and step.axis is not None:
+            if step.axis not in self.rankings:
+                view = self.rankings[step.axis] = RankingView(self._theme)
+                self._row.addWidget(view)
+            self.rankings[step.axis].show_ranking(step.ranking, _being_fitted(step))
+        lines = [_of_axis(step.axis)] if step.axis is not None else []
+        lines.append(translate("gap", STAGES[step.stage]) if step.stage in STAGES else step.stage)
+        lines += ["", _meaning()] if self.rankings else []
+        self.text.setText("\n".join(lines))
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        self._theme = theme
+        for view in self.rankings.values():
+            view.set_theme(theme)
+
+
+def _being_fitted(step: Progress) -> str | None:
+    return step.candidate if step.stage == "fitting" else None
+
+
+def _of_axis(axis: str) -> str:
+    return translate("gap", "Axis {axis}.").format(axis=label(axis))
+
+
+def _meaning() -> str:
+    return translate(
+        "gap",
+        "A bar is the share of the gap that a candidate closes: an outline at a first look, light "
+        "once it is fitted, full once it is judged by data that its fit has not seen. The answer "
+        "also asks which causes are needed beside each other, and may be another.",
+    )

@@ -1,0 +1,62 @@
+"""Who drives, whether that is trusted, and why nothing moves."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy
+
+from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.views import TeleoperationState
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.section import Section
+from rotemina.plugins.teleoperation import wording
+
+
+class OverviewSection(Section):
+    """One word and three lines; its height stays, so that nothing below leaps."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.word = QLabel("–")
+        self.word.setTextFormat(Qt.TextFormat.PlainText)
+        self.word.setAccessibleName(translate("teleoperation", "How teleoperation stands"))
+        self.word.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        set_tone(self.word, Tone.QUIET)
+        self.device, self.trust, self.refused = ElidedLabel(), ElidedLabel(), ElidedLabel()
+        self.device.setProperty("heading", True)
+        self.device.setAccessibleName(translate("teleoperation", "Device that drives"))
+        self.trust.setProperty("quiet", True)
+        self.trust.setAccessibleName(translate("teleoperation", "Whether the stick is active"))
+        self.refused.setAccessibleName(translate("teleoperation", "Latest refusal or slowdown"))
+        self.reason = plain_text(lines=2)
+        self.reason.setAccessibleName(translate("teleoperation", "Why nothing moves"))
+        row = QHBoxLayout()
+        row.setSpacing(8)
+        row.addWidget(self.word)
+        row.addWidget(self.device, 1)
+        self.column.setSpacing(3)
+        self.column.addLayout(row)
+        self.column.addWidget(self.trust)
+        self.column.addWidget(self.reason)
+        self.column.addWidget(self.refused)
+
+    def refresh(self, view: DevicesView, state: TeleoperationState, *, stale: bool) -> None:
+        """Show a moment."""
+        word, tone = wording.standing(view, state, stale=stale)
+        self.word.setText(word)
+        set_tone(self.word, tone)
+        self.device.show_text(wording.driver_text(view))
+        self.trust.show_text(wording.trust_text(view))
+        set_property(self.device, "stale", stale)
+        why = wording.reason_text(state, stale=stale)
+        if why != self.reason.text():
+            self.reason.setText(why)
+            self.reason.setToolTip(plain_tip(why) if why else "")
+        self.refused.show_text(
+            translate("teleoperation", "Last: {refused}").format(refused=spoken(state.refused))
+            if state.refused
+            else ""
+        )
+        set_property(self.refused, "bad", state.refused is not None)

@@ -1,0 +1,23 @@
+"""Evidence: what records of unknown memory leave."""
+
+import numpy as np
+import pytest
+
+from rotemina.sim.gap.evidence import beside
+
+PARALLEL = np.outer(1e8 * np.sin(np.linspace(0.0, 9.0, 2000)), [1.0, 1.0])
+
+
+def test_memories_that_are_parallel_and_huge_are_nuisances_all_the_same():
+    """Normal equations of such columns are singular to the last digit."""
+    gap = PARALLEL[:, 0] * 1e-8 + np.cos(np.linspace(0.0, 40.0, 2000))
+    left = beside(list(PARALLEL.T), gap)
+    along = PARALLEL[:, 0] / np.linalg.norm(PARALLEL[:, 0])
+    expected = gap - along * (along @ gap)
+    assert np.max(np.abs(left - expected)) < 1e-3
+
+
+def test_a_memory_is_taken_in_amounts_of_about_one():
+    memory = np.full(4, 0.5)
+    left = beside([memory], 3.0 * memory)
+    assert left == pytest.approx(1.5 * memory)  # mᵀm = 1: half of what would take all away
