@@ -13,16 +13,16 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     """Add the subcommand."""
     parser = commands.add_parser(
         "doctor",
-        help="check this machine, and say what to do",
+        help="check this machine, and advise what to do",
         description="Check Python, packages, Qt, permissions of serial ports and joysticks, "
-        "folders, disk and clock. No board is opened, but for --port. Exit status: 0 the program "
-        "runs (what is limited is told), 1 something is broken.",
+        "folders, disk and clock. No board is opened except by --port. Exit status: 0"
+        " the program runs (limits are reported), 1 something is broken.",
     )
     parser.add_argument("--json", action="store_true", help="print the findings as JSON")
     parser.add_argument(
         "--port", action="append", default=[], metavar="DEVICE",
-        help="try whether this serial port makes the rate of the boards' line, 125000 baud; what "
-        "is connected may be reset by that",
+        help="test whether this serial port reaches the bit rate of the boards, 125000 "
+"baud; this may reset the connected device",
     )  # fmt: skip
     parser.set_defaults(run=run)
 

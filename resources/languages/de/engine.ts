@@ -4882,5 +4882,97 @@
         <source>profile of {count} ticks: a board counts {most} at most; make it shorter</source>
         <translation>Profil von {count} Takten: eine Karte zählt höchstens {most}; verkürzen</translation>
     </message>
+    <message>
+        <source>{folder}: there is no such folder; make it, or name another one</source>
+        <translation>{folder}: diesen Ordner gibt es nicht; anlegen oder einen anderen nennen</translation>
+    </message>
+    <message>
+        <source>{place}: it is there already and is not overwritten; choose another name or folder</source>
+        <translation>{place}: gibt es schon und wird nicht überschrieben; einen anderen Namen oder Ordner wählen</translation>
+    </message>
+    <message>
+        <source>{name} cannot be the name of a plugin: it must be small letters, digits and single underscores, a letter first, at most {longest} signs, such as &apos;glass_stage&apos;</source>
+        <translation>{name} kann kein Plugin heißen: erlaubt sind Kleinbuchstaben, Ziffern und einzelne Unterstriche, zuerst ein Buchstabe, höchstens {longest} Zeichen, etwa &apos;glass_stage&apos;</translation>
+    </message>
+    <message>
+        <source>the {kind} {name} is there already{package}; choose another name</source>
+        <translation>{kind} {name} gibt es schon{package}; einen anderen Namen wählen</translation>
+    </message>
+    <message>
+        <source>{place}: it cannot be written ({reason}); choose another folder or make room</source>
+        <translation>{place}: kann nicht geschrieben werden ({reason}); einen anderen Ordner wählen oder Platz schaffen</translation>
+    </message>
+    <message>
+        <source>{filename}: this file of the 3-D view cannot be read: {strerror}; install RoTeMiNa again</source>
+        <translation>{filename}: diese Datei der 3D-Ansicht kann nicht gelesen werden: {strerror}; RoTeMiNa neu installieren</translation>
+    </message>
+    <message>
+        <source>the 3-D view cannot listen on {host}: {strerror}; a firewall or a limit of open files may forbid it</source>
+        <translation>die 3D-Ansicht kann an {host} nicht lauschen: {strerror}; vielleicht verbietet es eine Firewall oder eine Grenze für offene Dateien</translation>
+    </message>
+    <message>
+        <source>reading before</source>
+        <translation>Messwert vorher</translation>
+    </message>
+    <message>
+        <source>after</source>
+        <translation>nachher</translation>
+    </message>
+    <message>
+        <source>position reached</source>
+        <translation>erreichte Position</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {runs} runs from {low} to {high}</source>
+        <translation>Achse {axis}: {runs} Durchläufe von {low} bis {high}</translation>
+    </message>
+    <message>
+        <source>error in the validation runs, rms: {before} before, {after} after</source>
+        <translation>Fehler in den Prüfdurchläufen, Effektivwert: {before} vorher, {after} nachher</translation>
+    </message>
+    <message>
+        <source>note: {note}</source>
+        <translation>Hinweis: {note}</translation>
+    </message>
+    <message>
+        <source>refused: {reason}</source>
+        <translation>abgelehnt: {reason}</translation>
+    </message>
+    <message>
+        <source>signal</source>
+        <translation>Signal</translation>
+    </message>
+    <message>
+        <source>rms</source>
+        <translation>Effektivwert</translation>
+    </message>
+    <message>
+        <source>peak</source>
+        <translation>Spitze</translation>
+    </message>
+    <message>
+        <source>of range</source>
+        <translation>vom Bereich</translation>
+    </message>
+    <message>
+        <source>rel. error</source>
+        <translation>rel. Fehler</translation>
+    </message>
+    <message>
+        <source>noise floor</source>
+        <translation>Rauschgrenze</translation>
+    </message>
+    <message>
+        <source>re-fitted</source>
+        <translation>neu angepasst</translation>
+    </message>
+    <message>
+        <source>tip path: the joints of a tip were not all measured in both runs</source>
+        <translation>Bahn der Spitze: nicht alle Gelenke einer Spitze wurden in beiden Läufen gemessen</translation>
+    </message>
+    <message>
+        <source>tip path: {rms} rms, {peak} peak apart</source>
+        <translation>Bahn der Spitze: Abstand {rms} effektiv, {peak} Spitze</translation>
+    </message>
 </context>
 </TS>
