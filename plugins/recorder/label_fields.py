@@ -30,7 +30,7 @@ class LabelFields(QWidget):
             field.setAccessibleName(name)
             field.setMaxLength(MOST_LETTERS)
             field.setToolTip(
-                translate("recorder", "Stands in every playback and recording from now on")
+                translate("recorder", "Stored with every playback and recording from now on")
             )
             field.editingFinished.connect(self._use)
             grid.addWidget(title, row, 0)

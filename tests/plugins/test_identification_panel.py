@@ -143,7 +143,10 @@ def test_the_page_opens_records_that_cannot_be_compared(qtbot, make_robot_window
     write_record(Record.from_signals(time_s, taps, {"q": "m"}), path)
     panel.open_record(path)
     qtbot.waitUntil(lambda: panel.findings is not None, timeout=LONG_MS)
-    assert "No nominal model beside it: axis 'q' is moved by a force" in panel.notices.toPlainText()
+    assert (
+        "The nominal model is not shown: axis 'q' is moved by a force"
+        in panel.notices.toPlainText()
+    )
     assert figure(panel, "gain, lowest line") == pytest.approx(1.0, abs=0.05)
 
 
@@ -315,7 +318,7 @@ def test_what_may_not_be_played_says_why(qtbot, exciting):
     workbench.emergency_stop()
     excite.refresh(workbench.session.snapshot())
     assert "latched" in why_not(excite.play)
-    assert why_not(excite.stop) == "it is not playing"
+    assert why_not(excite.stop) == "the motion is not playing"
     assert excite.minimumSizeHint().width() <= EXCITE_WIDTH
     assert exciting.minimumSizeHint().width() <= 720  # beside the control panel
 
@@ -331,7 +334,7 @@ def test_an_axis_is_excited_and_looked_at_beside_its_model(qtbot, exciting, answ
     with qtbot.waitSignal(workbench.run_changed, timeout=2 * LONG_MS):
         excite.play.click()
         qtbot.waitUntil(lambda: excite.progress.value() > 0, timeout=LONG_MS)
-        assert excite.owner.text() == "Z nano: driven by playback"
+        assert excite.owner.text() == "Z nano: controlled by playback"
         assert excite.stop.isEnabled()
     found = answers_of(exciting)
     assert exciting.controls.shown is View.FREQUENCY

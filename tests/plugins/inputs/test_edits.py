@@ -61,7 +61,9 @@ def test_an_action_gets_another_control_and_may_lose_it():
 
 @pytest.mark.parametrize("at", [0.05, -0.09, 1.2])
 def test_a_threshold_that_cannot_be_is_refused(at):
-    with pytest.raises(ProfileError, match=r"stop: .* % of the deflection cannot be a threshold"):
+    with pytest.raises(
+        ProfileError, match=r"stop: the threshold of .* % of the deflection must be"
+    ):
         edited(device=PEDAL).with_threshold(Action.STOP, at)
 
 

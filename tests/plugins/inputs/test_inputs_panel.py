@@ -83,7 +83,7 @@ def shown_live(hand, stick):
     assert "Down: 2" in panel.live.lamps.accessibleDescription()
     stick.release_all()
     hand.until(lambda: panel.live.rows["X"].about.text() == "→ Stick X")
-    assert "stick may drive" in panel.headline.text()
+    assert "stick may control" in panel.headline.text()
 
 
 def set_up(hand, stick):
@@ -126,7 +126,7 @@ def mapped(hand):
     hand.type(clutch.at, "5")
     assert "cannot be a threshold" in mapping.message.text()
     hand.press(rows["y"].control)
-    hand.until(lambda: rows["y"].control.text() == "move it now …")
+    hand.until(lambda: rows["y"].control.text() == "move it …")
     hand.press(rows["y"].control)
     hand.until(lambda: rows["y"].control.text() == "–")
 
@@ -162,7 +162,7 @@ def measured(hand, stick):
     assert panel.calibration.expo.property("bad")
     hand.type(panel.calibration.expo, "0.4")
     hand.press(panel.calibration.keep)
-    assert "The calibration of stick is kept" in hand.notices()
+    assert "The calibration of stick is stored" in hand.notices()
 
 
 def test_a_stick_is_seen_and_mapped_by_moving_it(make_hand, stick):

@@ -67,5 +67,5 @@ def test_a_playback_and_a_recording_are_steered_and_told(qtbot, window):
     def listed():
         return [events.list.item(row).text() for row in range(events.list.count())]
 
-    qtbot.waitUntil(lambda: "✓ Recorded " in " ".join(listed()[:2]), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "✓ Saved the recording " in " ".join(listed()[:2]), timeout=LONG_MS)
     assert len(listed()) == len(events.journal.entries)
