@@ -32,12 +32,12 @@ class ResultView(QFrame):
         for text, tip, panel in (
             (
                 translate("job", "Compare"),
-                translate("job", "Model and real of this run, axis by axis"),
+                translate("job", "Compare model and machine in this run, axis by axis"),
                 "comparison",
             ),
             (
                 translate("job", "Diagnose"),
-                translate("job", "Which effects explain the gap"),
+                translate("job", "Find the effects that explain the gap"),
                 "gap",
             ),
         ):

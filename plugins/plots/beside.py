@@ -29,7 +29,7 @@ def ask_run(panel: Panel, use: Callable[[OtherRun], None]) -> None:
         )
 
     def nothing_there() -> None:
-        text = translate("plots", "The library has no records yet: play or record something.")
+        text = translate("plots", "The library has no records: play or record a motion first.")
         bench.notify(Level.WARNING, text, about=panel)
 
     title = translate("plots", "Record beside the present run")

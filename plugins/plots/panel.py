@@ -206,7 +206,7 @@ class PlotsPanel(Panel):
         if self.other is None:
             self.workbench.notify(
                 Level.WARNING,
-                translate("plots", "There is no other run to align: choose one."),
+                translate("plots", "There is no second run to align: choose one."),
                 about=self,
             )
             return
@@ -244,11 +244,11 @@ class PlotsPanel(Panel):
 
     def _header(self) -> QHBoxLayout:
         self.shown = _choice(
-            translate("plots", "What the plots show"),
+            translate("plots", "Contents of the plots"),
             ((key, translate("plots", text)) for key, text in VIEWS.items()),
         )
         self.span = _choice(
-            translate("plots", "How far back the plots show"), ((s, f"{s} s") for s in SPANS_S)
+            translate("plots", "Time span of the plots"), ((s, f"{s} s") for s in SPANS_S)
         )
         for box in (self.shown, self.span):
             box.setSizeAdjustPolicy(box.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
@@ -260,14 +260,14 @@ class PlotsPanel(Panel):
             (
                 (_ALONE, translate("plots", "No other run")),
                 (_KEPT, translate("plots", "Keep this run")),
-                (_IN_HAND, translate("plots", "Run in hand")),
+                (_IN_HAND, translate("plots", "Latest run")),
                 (_RECORD, translate("plots", "Record …")),
             ),
         )
         self.beside.setToolTip(
             plain_tip(
-                translate("plots", "Keep this run: what is shown now stays beside what comes."),
-                translate("plots", "Run in hand: the record that was opened or played last."),
+                translate("plots", "Keep this run: displays it next to the following one."),
+                translate("plots", "Latest run: the record that was opened or played last."),
                 translate("plots", "Record …: one of the library."),
             )
         )
@@ -277,20 +277,18 @@ class PlotsPanel(Panel):
         self.cursors = QPushButton(translate("plots", "Cursors"))
         self.cursors.setCheckable(True)
         self.cursors.setToolTip(
-            translate("plots", "Two lines to be dragged; what they read stands above each plot")
+            translate("plots", "Two lines to drag; their values appear above each plot")
         )
         self.cursors.toggled.connect(lambda _: self._show_cursors())
         self.pause = QPushButton(translate("plots", "Pause"))
         self.pause.setCheckable(True)
         self.pause.setToolTip(
-            translate("plots", "Freeze the plots; motion, recording and replay go on")
+            translate("plots", "Freeze the plots; motion, recording and replay continue")
         )
         self.pause.toggled.connect(self._hold)
         self.more = QPushButton(translate("plots", "More"))
         self.more.setMenu(self._menu())
-        self.more.setToolTip(
-            translate("plots", "Further views, alignment, and files of what is shown")
-        )
+        self.more.setToolTip(translate("plots", "Alignment, and files of the plots"))
         self._legend = Legend(self.workbench.theme)
         self.age = QLabel()
         self.age.setProperty("tone", "warning")
@@ -443,7 +441,7 @@ class PlotsPanel(Panel):
         if run is None:
             self.workbench.notify(
                 Level.WARNING,
-                translate("plots", "There is no run in hand: open or play one."),
+                translate("plots", "There is no latest run: open or play one."),
                 about=self,
             )
         else:

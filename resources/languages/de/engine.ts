@@ -353,7 +353,7 @@
     </message>
     <message>
         <source>no stick is active: let go of it, and hold its dead-man switch if it has one</source>
-        <translation>kein verlässlicher Knüppel: loslassen; Zustimmtaster halten, falls vorhanden</translation>
+        <translation>kein verlässlicher Joystick: loslassen; Zustimmtaster halten, falls vorhanden</translation>
     </message>
     <message>
         <source>axes are moved by {owner}</source>
@@ -361,7 +361,7 @@
     </message>
     <message>
         <source>axis {axis} does not follow the stick</source>
-        <translation>Achse {axis} folgt dem Knüppel nicht</translation>
+        <translation>Achse {axis} folgt dem Joystick nicht</translation>
     </message>
     <message>
         <source>slowed: the tip is close to its bounds</source>
@@ -466,7 +466,7 @@
     </message>
     <message>
         <source>axis {axis} does not rest at an end: {where}; calibrate it as a stick</source>
-        <translation>Achse {axis} ruht nicht am Ende: {where}; als Knüppel kalibrieren</translation>
+        <translation>Achse {axis} ruht nicht am Ende: {where}; als Joystick kalibrieren</translation>
     </message>
     <message>
         <source>axis {axis} rests at an end: {where}; move it both ways, or declare it one-sided (a trigger)</source>

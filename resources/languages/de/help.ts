@@ -661,7 +661,7 @@
     </message>
     <message>
         <source>Plugins of all kinds: drivers, panels, effects, cameras, input devices.</source>
-        <translation>Plugins aller Arten: Treiber, Felder, Effekte, Kameras, Eingabegeräte.</translation>
+        <translation>Plugins aller Arten: Treiber, Panels, Effekte, Kameras, Eingabegeräte.</translation>
     </message>
     <message>
         <source>write a package with a working, tested plugin</source>

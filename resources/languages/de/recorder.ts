@@ -420,7 +420,7 @@
     </message>
     <message>
         <source>Interrupted recordings: {names}. Recover them in the panel {title}.</source>
-        <translation>Unterbrochene Aufnahmen: {names}. Im Feld {title} lassen sie sich wiederherstellen.</translation>
+        <translation>Unterbrochene Aufnahmen: {names}. Im Panel {title} lassen sie sich wiederherstellen.</translation>
     </message>
     <message>
         <source>Stored with every playback and recording from now on</source>

@@ -59,14 +59,12 @@ def test_an_unhomed_machine_is_homed_from_here(qtbot, make_robot_window, press):
     window = make_robot_window(driver=unhomed)
     panel = window.panels["connection"]
     phase_is(qtbot, panel, "position unknown")
-    assert panel.position.text.text() == "Unknown, to be homed: X, Y, Z"
+    assert panel.position.text.text() == "Not homed: X, Y, Z"
     assert "home first" in panel.state.reason.text()
     assert panel.tip.figures.values["Tip height"].text() == "unknown"
     assert not panel.tip.teach.isEnabled()
     press(panel.position.home["y"])
-    qtbot.waitUntil(
-        lambda: panel.position.text.text() == "Unknown, to be homed: X, Z", timeout=LONG_MS
-    )
+    qtbot.waitUntil(lambda: panel.position.text.text() == "Not homed: X, Z", timeout=LONG_MS)
     press(panel.position.home_all)
     phase_is(qtbot, panel, "ready")
     assert panel.position.text.text() == "All positions are known."

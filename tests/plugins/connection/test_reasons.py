@@ -89,7 +89,7 @@ def test_clearing_and_writing():
     assert reasons.against_clearing(state(fault="hot")) is None
     assert "no fault" in reasons.against_clearing(state())
     assert "connect" in reasons.against_clearing(FAILED)
-    assert "keeps no parameters" in reasons.against_writing(state(), SIMULATOR)
+    assert "stores no parameters" in reasons.against_writing(state(), SIMULATOR)
 
 
 def test_floor():
