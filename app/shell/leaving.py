@@ -17,7 +17,9 @@ def may_stop(parent: QWidget, state: SessionState) -> bool:
     playing = state.activity is DeviceState.PLAYING
     return _asked(
         parent,
-        translate("shell", "A trajectory is playing. Quitting stops it; what was played is kept.")
+        translate(
+            "shell", "A trajectory is playing. Quitting stops it and keeps the record so far."
+        )
         if playing
         else translate("shell", "The machine is moving. Quitting stops it."),
         translate("shell", "Stop and quit"),
@@ -30,8 +32,8 @@ def may_lose_record(parent: QWidget) -> bool:
         parent,
         translate(
             "shell",
-            "The last played record is in no file yet: quitting now loses it. "
-            "Stay, and save it with Ctrl+S.",
+            "The record of the last playback is not saved: quitting now loses it. To "
+            "save it, stay and press Ctrl+S.",
         ),
         translate("shell", "Quit and lose it"),
     )

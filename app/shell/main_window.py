@@ -436,8 +436,8 @@ class MainWindow(ArrangedWindow):
             Level.INFO,
             translate(
                 "shell",
-                "The window closes as soon as everything is written. Close it once more to leave "
-                "at once: a recording can be recovered at the next start.",
+                "The window closes as soon as everything is written. Close it again to "
+                "leave at once; the recording can then be recovered at the next start.",
             ),
         )
         self.workbench.finish_recording(self.close, self._stay)

@@ -112,7 +112,7 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
     if power and _is_loose(evidence):
         return evidence, []
     note = message(
-        "gap", "{n} sudden jumps by whole multiples of four full steps were taken back."
+        "gap", "{n} sudden jumps by whole multiples of four full steps were removed."
     ).fill(n=str(count))
     return evidence.with_observations(observations), [
         Disturbance(Sign.JUMPS, tap, total / _rows(evidence, tap), note)
@@ -266,7 +266,7 @@ def _without_tones(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
     quiet = evidence.with_observations(observations)
     before, after = evidence.residual(), quiet.residual()
     listed = Listed(tuple(Number(f"{rounded(float(np.mean(lines)))} Hz") for lines in shared))
-    note = message("gap", "A vibration of {frequencies}, whatever the axis did, was set aside.")
+    note = message("gap", "A vibration of {frequencies}, independent of the axis, was removed.")
     note = note.fill(frequencies=listed)
     return quiet, [
         Disturbance(Sign.TONES, tap, power, note)

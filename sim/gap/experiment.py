@@ -101,8 +101,8 @@ def _rich(axis: str, trial: Trial) -> Experiment:
         splits=(),
         why=message(
             "gap",
-            "The records move {axis} too little to tell effects apart. Play this: {test}; it goes "
-            "through many amplitudes and speeds.",
+            "The records move {axis} too little to distinguish effects. Play this: "
+            "{test}; it covers many amplitudes and speeds.",
         ).fill(axis=AxisName(axis), test=_described(trial, axis)),
         time_s=tuple(record.time_s.tolist()),
         commands={name: tuple(record.signal(name, Tap.CMD).tolist()) for name in record.axes},
@@ -275,17 +275,18 @@ def _why(
 ) -> Message:
     said = message(
         "gap",
-        "To tell {effects} apart, play this: {test}; it sets them{closest} {n} noise floors (rms) "
-        "apart, even once each is fitted to it{doubt}{reference}{others}.",
+        "To distinguish {effects}, play this: {test}; it separates them{closest} by"
+        " {n} noise floors (rms), even after each is fitted to "
+        "it{doubt}{reference}{others}.",
     )
     closest = message("gap", ", the closest two of them,")
     doubt = message("gap", ", which may be too little")
     reference = message(
         "gap",
-        ", if the reference (ref) of {axis} is recorded too: without it, it does not tell "
-        "{effects} apart",
+        ", if the reference (ref) of {axis} is recorded too: without it, the test "
+        "does not distinguish {effects}",
     ).fill(axis=AxisName(axis), effects=_listed(choice.need_reference))
-    others = message("gap", "; no test here tells {any} from one of them")
+    others = message("gap", "; no test here distinguishes {any} from one of them")
     return said.fill(
         effects=_listed(rivals),
         test=_described(choice.trial, axis),

@@ -151,24 +151,22 @@ def _missing(robot: Robot, records: Sequence[Record]) -> Iterator[Caution]:
         if not own:
             continue
         if not taps & set(_MEASURED):
-            said = message("gap", "The axis was commanded but not measured: nothing is said of it.")
+            said = message("gap", "The axis was commanded but not measured: it is not diagnosed.")
             yield Caution(said, axis)
             continue
         if all(np.ptp(record.signal(axis, Tap.CMD)) == 0.0 for record in own):
             said = message(
                 "gap",
-                "The axis was never commanded to move: only what acts without motion can show.",
+                "The axis was never commanded to move: only effects without motion are visible.",
             )
             yield Caution(said, axis)
         if Tap.MEAS not in taps:
-            said = message(
-                "gap", "The axis' own sensor was not recorded: nothing is said of that sensor."
-            )
+            said = message("gap", "The axis' own sensor was not recorded: it is not diagnosed.")
             yield Caution(said, axis)
         elif Tap.REF not in taps:
             said = message(
                 "gap",
-                "No independent reference (ref) was recorded: effects of the sensor cannot be told "
-                "from those of the axis.",
+                "No independent reference (ref) was recorded: effects of the sensor cannot "
+                "be distinguished from those of the axis.",
             )
             yield Caution(said, axis)

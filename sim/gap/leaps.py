@@ -127,11 +127,11 @@ def check_leaps(records: Sequence[Record], names: Sequence[str]) -> Iterator[Cau
                 )
             )
         short = rows[rows < LEAST_ROWS].sum()
-        left_out = message("gap", "; {rows} rows in pieces shorter than {least} are left out")
+        left_out = message("gap", "; {rows} rows in pieces shorter than {least} are omitted")
         said = message(
             "gap",
-            "Time leaps {n} ×, by up to {time} s: the record is split there, and what came before "
-            "a piece is unknown{left_out}.",
+            "Time leaps {n} ×, by up to {time} s: the record is split there, and the "
+            "history of each piece is unknown{left_out}.",
         ).fill(
             n=str(len(leaps)),
             time=rounded(longest_s, 3),

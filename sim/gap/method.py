@@ -188,10 +188,10 @@ class _Run:
         if name in self.examined:
             return told_of(self.examined[name], places, self.rng)
         if name in self.failed:
-            why = message("gap", "Its numbers fail, so that no cause can be found: {error}.")
+            why = message("gap", "The computation failed, so no cause can be found: {error}.")
             said = (why.fill(error=self.failed[name]),)
             return AxisDiagnosis(name, Verdict.UNKNOWN, places, remarks=said)
-        elsewhere = message("gap", "Its gap comes from what was found on other axes.")
+        elsewhere = message("gap", "Its gap comes from the causes on other axes.")
         return AxisDiagnosis(name, Verdict.NONE, places, remarks=(elsewhere,) if has_gap else ())
 
     def _shaken(self, one: AxisDiagnosis, told: Mapping[str, AxisDiagnosis]) -> AxisDiagnosis:

@@ -77,8 +77,8 @@ def origin_remarks(evidence: Evidence) -> tuple[Message, ...]:
         return ()
     said = message(
         "gap",
-        "{n} of {all} records count their place from another origin: what is locked to the "
-        "position has the same period in all, at another phase in these.",
+        "{n} of {all} records use another origin of position: effects locked to the"
+        " position have the same period in all records, but another phase in these.",
     )
     return (said.fill(n=str(count), all=str(len(evidence.observations))),)
 

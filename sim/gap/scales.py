@@ -75,8 +75,8 @@ def _check_command(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
         yield one.caution(
             message(
                 "gap",
-                "A command goes beyond the range {low} to {high}, to {value}; the model knows no "
-                "ends of the range.",
+                "A command of {value} is outside the range {low} to {high}; the model has "
+                "no end stops.",
             ).fill(
                 low=exact(low, unit, size=high),
                 high=exact(high, unit),
@@ -134,8 +134,8 @@ def _check_readings(
             yield one.caution(
                 message(
                     "gap",
-                    "The {tap} channel is {gain} × what is commanded, which no single effect "
-                    "brings about: check signs, units and the gain in the robot file.",
+                    "The {tap} channel is {gain} × the command, which no single effect causes: "
+                    "check signs, units and the gain in the robot file.",
                 ).fill(tap=str(tap), gain=rounded(gain, 3)),
                 axis,
             )

@@ -105,9 +105,9 @@ def _check_sensor(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
         yield one.caution(
             message(
                 "gap",
-                "The reading stands at exactly {stand} for {percent} % of the rows, while the axis "
-                "is commanded to move: either the axis does not follow, or the sensor is {fault}, "
-                "and the records cannot tell which.",
+                "The reading stays at exactly {stand} for {percent} % of the rows, while "
+                "the axis is commanded to move: either the axis does not follow, or the "
+                "sensor is {fault}. The records cannot distinguish the two.",
             ).fill(stand=stand, percent=percent, fault=what),
             axis,
         )

@@ -317,7 +317,5 @@ def _remarks(examination: Examination) -> tuple[Message, ...]:
             for name, part in probe.depends_on[:_MOST_GROUPS]
         )
     )
-    depends = message(
-        "gap", "What is left depends on {groups}, as far as simple features predict it."
-    )
+    depends = message("gap", "The rest depends on {groups}, as far as simple features predict it.")
     return (*said, depends.fill(groups=groups))

@@ -149,10 +149,10 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     if not proven or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
         return None
     note = message(
-        "gap", "The reading wanders whatever the axis does, though the reference does not."
+        "gap", "The reading drifts regardless of the motion, but the reference does not."
     )
     if rested:
-        note = message("gap", "The reading wanders whatever the axis does, at rest as well.")
+        note = message("gap", "The reading drifts regardless of the motion, also at rest.")
     return Disturbance(Sign.WANDER, Tap.MEAS, total / rows, note)
 
 

@@ -68,7 +68,7 @@ def _named(one: AxisDiagnosis) -> list[Cause]:
 def _finding(one: AxisDiagnosis) -> Message:
     axis, named = AxisName(one.axis), _named(one)
     if one.verdict is Verdict.INSUFFICIENT:
-        poor = message("gap", "{axis}: the records do not move it enough to tell what it lacks.")
+        poor = message("gap", "{axis}: the records do not move the axis enough for a diagnosis.")
         return poor.fill(axis=axis)
     if not named:
         return message("gap", "{axis}: a gap that no known effect explains.").fill(axis=axis)
@@ -84,7 +84,9 @@ def _cause(cause: Cause) -> Message:
     if cause.ambiguous_with:
         others = map(_titled, cause.ambiguous_with)
         effects = Listed((_effect(cause), *others), one_of_them=True)
-        return message("gap", "{effects} (these records cannot tell which)").fill(effects=effects)
+        return message("gap", "{effects} (these records cannot distinguish them)").fill(
+            effects=effects
+        )
     said = message("gap", "{cause} ({likelihood})")
     return said.fill(cause=_effect(cause), likelihood=_likelihood(cause))
 
@@ -156,8 +158,8 @@ def _figures(shrinkage: Shrinkage, records: Sequence[Record]) -> dict[str, str]:
 def _left(one: AxisDiagnosis) -> Message:
     depends = one.remainder.depends_on[:_MOST_GROUPS] if one.remainder is not None else ()
     if not depends:
-        return message("gap", "No known effect explains what is left.")
-    said = message("gap", "What is left depends on {groups}; no known effect explains it.")
+        return message("gap", "No known effect explains the rest.")
+    said = message("gap", "The rest depends on {groups}; no known effect explains it.")
     return said.fill(groups=Listed(tuple(group(name) for name, _ in depends)))
 
 

@@ -37,7 +37,7 @@
     </message>
     <message>
         <source>Signals and their gaps</source>
-        <translation>Signale und ihre Lücken</translation>
+        <translation>Signale und ihre Abweichungen</translation>
     </message>
     <message>
         <source>, stopped early</source>

@@ -4766,10 +4766,6 @@
         <translation>{name}: {speed} innerhalb einer Zeitkonstante von {time_constant_s} s ist mehr, als die Achsen beschleunigen können; höchstens {most} verwenden oder mindestens {other} s</translation>
     </message>
     <message>
-        <source>there is no move to undo</source>
-        <translation>keine Bewegung zum Zurücknehmen</translation>
-    </message>
-    <message>
         <source>axis {axis} is no stepper axis; only these have backlash to take up</source>
         <translation>Achse {axis} ist keine Schrittmotorachse; nur diese haben Spiel, das herauszunehmen ist</translation>
     </message>
@@ -4973,6 +4969,10 @@
     <message>
         <source>tip path: {rms} rms, {peak} peak apart</source>
         <translation>Bahn der Spitze: Abstand {rms} effektiv, {peak} Spitze</translation>
+    </message>
+    <message>
+        <source>there is no previous position</source>
+        <translation>es gibt keine frühere Position</translation>
     </message>
 </context>
 </TS>

@@ -421,7 +421,7 @@
     </message>
     <message>
         <source>diagnose the gap between model and machine, predict, correct the model</source>
-        <translation>diagnostiziert die Lücke zwischen Modell und Maschine, sagt voraus, korrigiert das Modell</translation>
+        <translation>diagnostiziert die Abweichung zwischen Modell und Maschine, sagt voraus, korrigiert das Modell</translation>
     </message>
     <message>
         <source>Diagnose the gap between the model and records of the real machine.</source>
@@ -473,7 +473,7 @@
     </message>
     <message>
         <source>Diagnose machines. Each is a folder with robot.toml, records train_*.csv for the diagnosis, records test_*.csv that no fit uses, and its known causes in truth.toml (optional). Print one line each: first cause, sets, how much of the gap closes on the test records, the remainder beside the figure to beat, time, verdict.</source>
-        <translation>Diagnostiziert Maschinen. Jede ist ein Ordner mit robot.toml, Aufzeichnungen train_*.csv für die Diagnose, Aufzeichnungen test_*.csv, die keine Anpassung benutzt, und ihren bekannten Ursachen in truth.toml (optional). Gibt je eine Zeile aus: erste Ursache, Mengen, wie viel der Lücke sich an den Testaufzeichnungen schließt, den Rest neben dem zu unterbietenden Wert, Zeit, Urteil.</translation>
+        <translation>Diagnostiziert Maschinen. Jede ist ein Ordner mit robot.toml, Aufzeichnungen train_*.csv für die Diagnose, Aufzeichnungen test_*.csv, die keine Anpassung benutzt, und ihren bekannten Ursachen in truth.toml (optional). Gibt je eine Zeile aus: erste Ursache, Mengen, wie viel der Abweichung sich an den Testaufzeichnungen schließt, den Rest neben dem zu unterbietenden Wert, Zeit, Urteil.</translation>
     </message>
     <message>
         <source>folder of a machine, or of several machines</source>
@@ -549,7 +549,7 @@
     </message>
     <message>
         <source>find where model and machine differ, which effects cause it, and how far the gap shrinks</source>
-        <translation>findet, wo Modell und Maschine sich unterscheiden, welche Effekte das bewirken und wie weit die Lücke schrumpft</translation>
+        <translation>findet, wo Modell und Maschine sich unterscheiden, welche Effekte das bewirken und wie weit die Abweichung schrumpft</translation>
     </message>
     <message>
         <source>Compare the model with records of the real machine, name the effects that the model lacks, and prove it with data that the fit never used. Several records of one robot are diagnosed together; they may differ in rate, length, axes and signals.</source>
@@ -569,7 +569,7 @@
     </message>
     <message>
         <source>Control, simulation and sim-to-real diagnosis of the RoTeMiNa robot. Without a subcommand the operator&apos;s window opens.</source>
-        <translation>Steuerung, Simulation und Diagnose der Lücke zwischen Modell und Wirklichkeit für den Roboter RoTeMiNa. Ohne Unterbefehl öffnet sich das Bedienfenster.</translation>
+        <translation>Steuerung, Simulation und Diagnose der Abweichung zwischen Modell und Wirklichkeit für den Roboter RoTeMiNa. Ohne Unterbefehl öffnet sich das Bedienfenster.</translation>
     </message>
     <message>
         <source>compute the plate that holds the pin by finite elements: stress, stiffness, modes</source>

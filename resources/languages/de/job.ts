@@ -109,7 +109,7 @@
     </message>
     <message>
         <source>Find the effects that explain the gap</source>
-        <translation>Die Effekte finden, die die Lücke erklären</translation>
+        <translation>Die Effekte finden, die die Abweichung erklären</translation>
     </message>
 </context>
 <context>

@@ -40,7 +40,7 @@
     </message>
     <message>
         <source>gap, last {n} s</source>
-        <translation>Lücke, letzte {n} s</translation>
+        <translation>Abweichung, letzte {n} s</translation>
     </message>
     <message>
         <source>noise floor</source>
@@ -52,7 +52,7 @@
     </message>
     <message>
         <source>Gap: measured − model</source>
-        <translation>Lücke: gemessen − Modell</translation>
+        <translation>Abweichung: gemessen − Modell</translation>
     </message>
     <message>
         <source>Loop: over command</source>
@@ -136,7 +136,7 @@
     </message>
     <message>
         <source>Gap of {axis}</source>
-        <translation>Lücke von {axis}</translation>
+        <translation>Abweichung von {axis}</translation>
     </message>
     <message>
         <source>Band: noise floor of the sensor, {floor}</source>
@@ -204,7 +204,7 @@
     </message>
     <message>
         <source>Gap of the last {n} s, while an axis moves; logarithmic scale</source>
-        <translation>Lücke der letzten {n} s, solange sich eine Achse bewegt; logarithmische Skala</translation>
+        <translation>Abweichung der letzten {n} s, solange sich eine Achse bewegt; logarithmische Skala</translation>
     </message>
     <message>
         <source>Amber: above the noise, {noise}</source>

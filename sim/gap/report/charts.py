@@ -30,7 +30,7 @@ def waterfall(shrinkage: Shrinkage, unit: str) -> Markup:
     """Draw the gap as it was, re-tuned and after each effect, beside floor and ceiling."""
     scale = scale_of(unit, shrinkage.raw)
     bars = [
-        (said(marked("gap", "model as it is")), shrinkage.raw),
+        (said(marked("gap", "original model")), shrinkage.raw),
         (said(marked("gap", "re-tuned")), shrinkage.retuned),
     ]
     bars += [(f"+ {short(effect_title(step.effect))}", step.rms) for step in shrinkage.steps]

@@ -33,8 +33,8 @@ TEXTS = (
     marked("gap", "No axis has a gap that exceeds the noise floor beyond doubt."),
     marked("gap", "{axis} at {tap}, by band and regime"),
     marked("gap", "regime"),
-    marked("gap", "share of the path's"),
-    marked("gap", "{share} of the whole path's"),
+    marked("gap", "share of the channel"),
+    marked("gap", "{share} of the channel"),
     marked(
         "gap",
         "Rms of the model's gap within each band, in noise floors. Regimes overlap: forward "

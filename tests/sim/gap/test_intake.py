@@ -120,7 +120,7 @@ def test_what_is_missing_is_told():
     texts = {one.axis: str(one.text) for one in check(ROBOT, [bare])}
     assert texts["x"].startswith("No independent reference (ref)")
     assert texts["thx"].startswith("The axis' own sensor was not recorded")
-    assert texts["zn"] == "The axis was commanded but not measured: nothing is said of it."
+    assert texts["zn"] == "The axis was commanded but not measured: it is not diagnosed."
     assert not [one for one in check(ROBOT, [bare, measured(seed=1)]) if one.axis == "x"]
 
 
@@ -251,7 +251,7 @@ def test_a_command_beyond_the_range_is_told():
     record = measured(axes=("zn",))
     beyond = changed(record, {("zn", Tap.CMD): record.signal("zn", Tap.CMD) + 2e-5})
     [caution] = check(ROBOT, [beyond])
-    assert str(caution.text).startswith("A command goes beyond the range 0 µm to 65 µm, to 7")
+    assert str(caution.text).startswith("A command of 7")
 
 
 def with_leap(record, leap_s, *rows):
@@ -265,8 +265,8 @@ def test_a_record_is_split_where_time_leaps():
     [caution] = check(ROBOT, [record])
     assert (caution.axis, caution.record) == (None, 0)
     assert str(caution.text) == (
-        "Time leaps 3 ×, by up to 1.5 s: the record is split there, and what came before a "
-        "piece is unknown; 100 rows in pieces shorter than 100 are left out."
+        "Time leaps 3 ×, by up to 1.5 s: the record is split there, and the history of "
+        "each piece is unknown; 100 rows in pieces shorter than 100 are omitted."
     )
     first, second = pieces([record], ["a.csv"])
     assert (first.name, first.number) == ("a.csv, rows 1 to 1000", 0)
@@ -359,8 +359,8 @@ def test_a_saturated_sensor_is_refused_where_it_is_sure_and_else_told():
         assert f"{axis}.meas stands at exactly " in refusal(bad)
         assert "the sensor is saturated; repair it, stay within what it can read" in refusal(bad)
     alone = changed(bad, {("x", Tap.REF): None})
-    assert [str(one.text)[:30] for one in check(ROBOT, [alone]) if one.record == 0] == [
-        "The reading stands at exactly "
+    assert [str(one.text)[:29] for one in check(ROBOT, [alone]) if one.record == 0] == [
+        "The reading stays at exactly "
     ]
 
 
