@@ -40,7 +40,7 @@ TOOLS = (
     marked("microscope", "Calibrate"),
     marked("microscope", "Move"),
     marked("microscope", "Vision"),
-    marked("microscope", "Keep"),
+    marked("microscope", "Save"),
     marked("microscope", "– no tools –"),
 )
 _WIDTH = 250  # of the tools, px

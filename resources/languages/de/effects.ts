@@ -4,24 +4,12 @@
 <context>
     <name>effects</name>
     <message>
-        <source>Add an effect, and tune it here while the simulator runs.</source>
-        <translation>Einen Effekt hinzufügen und hier einstellen, während der Simulator läuft.</translation>
-    </message>
-    <message>
         <source>Formulation</source>
         <translation>Ansatz</translation>
     </message>
     <message>
-        <source>Which equations the effect has; they stand below</source>
-        <translation>Welche Gleichungen der Effekt hat; sie stehen darunter</translation>
-    </message>
-    <message>
         <source>from</source>
         <translation>von</translation>
-    </message>
-    <message>
-        <source>The axis that the effect comes from</source>
-        <translation>Die Achse, von der der Effekt kommt</translation>
     </message>
     <message>
         <source>Must be {range}</source>
@@ -32,92 +20,40 @@
         <translation>Vorgabe {value}</translation>
     </message>
     <message>
-        <source>{name} back to its preset</source>
-        <translation>{name} zurück auf die Vorgabe</translation>
-    </message>
-    <message>
-        <source>Back to the preset, {value}</source>
-        <translation>Zurück auf die Vorgabe, {value}</translation>
-    </message>
-    <message>
         <source>not connected</source>
         <translation>nicht verbunden</translation>
-    </message>
-    <message>
-        <source>the simulator did not take the change</source>
-        <translation>der Simulator hat die Änderung nicht übernommen</translation>
     </message>
     <message>
         <source>Left out ({n})</source>
         <translation>Ausgelassen ({n})</translation>
     </message>
     <message>
-        <source>Effects belong to the simulator. A real machine has its own: connect to the simulator to switch and tune any.</source>
-        <translation>Effekte gehören zum Simulator. Eine echte Maschine hat ihre eigenen: mit dem Simulator verbinden, um Effekte zu schalten und einzustellen.</translation>
-    </message>
-    <message>
         <source>Add effect</source>
         <translation>Hinzufügen</translation>
-    </message>
-    <message>
-        <source>Choose an axis, an effect that it may have, and its formulation</source>
-        <translation>Eine Achse, einen möglichen Effekt und seinen Ansatz wählen</translation>
     </message>
     <message>
         <source>Machine</source>
         <translation>Maschine</translation>
     </message>
     <message>
-        <source>Let the simulator be as the robot file says, or worn, to demonstrate with</source>
-        <translation>Den Simulator so sein lassen, wie die Roboterdatei sagt, oder verschlissen, zur Vorführung</translation>
-    </message>
-    <message>
-        <source>Let the signal meet this effect earlier within its stage</source>
-        <translation>Diesen Effekt innerhalb seiner Stufe früher wirken lassen</translation>
-    </message>
-    <message>
-        <source>Let the signal meet this effect later within its stage</source>
-        <translation>Diesen Effekt innerhalb seiner Stufe später wirken lassen</translation>
-    </message>
-    <message>
         <source>Remove</source>
         <translation>Entfernen</translation>
-    </message>
-    <message>
-        <source>Take this effect away</source>
-        <translation>Diesen Effekt wegnehmen</translation>
     </message>
     <message>
         <source>Undo</source>
         <translation>Rückgängig</translation>
     </message>
     <message>
-        <source>Take back the last change of this list</source>
-        <translation>Die letzte Änderung dieser Liste zurücknehmen</translation>
-    </message>
-    <message>
         <source>All off</source>
         <translation>Alle aus</translation>
-    </message>
-    <message>
-        <source>Compare with the nominal machine: no effect acts until this is released</source>
-        <translation>Vergleich mit der nominellen Maschine: kein Effekt wirkt, bis dies gelöst wird</translation>
     </message>
     <message>
         <source>Load …</source>
         <translation>Laden …</translation>
     </message>
     <message>
-        <source>Take the effects of a robot file in place of these</source>
-        <translation>Die Effekte einer Roboterdatei anstelle dieser nehmen</translation>
-    </message>
-    <message>
         <source>Save robot …</source>
         <translation>Speichern …</translation>
-    </message>
-    <message>
-        <source>Write a robot file of this robot with these effects</source>
-        <translation>Eine Roboterdatei dieses Roboters mit diesen Effekten schreiben</translation>
     </message>
     <message>
         <source>{n} left out</source>
@@ -126,18 +62,6 @@
     <message>
         <source>Effects that cannot be loaded:</source>
         <translation>Effekte, die sich nicht laden lassen:</translation>
-    </message>
-    <message>
-        <source>As the robot file says</source>
-        <translation>Wie die Roboterdatei sagt</translation>
-    </message>
-    <message>
-        <source>Worn, to demonstrate with</source>
-        <translation>Verschlissen, zur Vorführung</translation>
-    </message>
-    <message>
-        <source>{path}: the robot file has no effects; these stay</source>
-        <translation>{path}: die Roboterdatei hat keine Effekte; diese bleiben</translation>
     </message>
     <message>
         <source>Reading {name} …</source>
@@ -200,18 +124,6 @@
         <translation>zwischen {low} und {high}</translation>
     </message>
     <message>
-        <source>{text} is no number; type one with a decimal point</source>
-        <translation>{text} ist keine Zahl; eine mit Dezimalkomma eingeben</translation>
-    </message>
-    <message>
-        <source>{text} is no number; type one in {unit} with a decimal point</source>
-        <translation>{text} ist keine Zahl; eine in {unit} mit Dezimalkomma eingeben</translation>
-    </message>
-    <message>
-        <source>{value} is refused: must be {range}</source>
-        <translation>{value} wird abgelehnt: muss {range} sein</translation>
-    </message>
-    <message>
         <source>On</source>
         <translation>An</translation>
     </message>
@@ -226,14 +138,6 @@
     <message>
         <source>Effect</source>
         <translation>Effekt</translation>
-    </message>
-    <message>
-        <source>Effects in place</source>
-        <translation>Vorhandene Effekte</translation>
-    </message>
-    <message>
-        <source>Whether the effect acts</source>
-        <translation>Ob der Effekt wirkt</translation>
     </message>
     <message>
         <source>{formulation}, from {axis}</source>
@@ -292,16 +196,8 @@
         <translation>Anstiegsbegrenzung</translation>
     </message>
     <message>
-        <source>Only large and fast motion suffers; it becomes a triangle.</source>
-        <translation>Nur große und schnelle Bewegung leidet; sie wird zum Dreieck.</translation>
-    </message>
-    <message>
         <source>Creep</source>
         <translation>Kriechen</translation>
-    </message>
-    <message>
-        <source>Goes on after a move, in proportion to it and with its sign, by the log of time.</source>
-        <translation>Geht nach einer Bewegung weiter, proportional zu ihr und mit ihrem Vorzeichen, mit dem Logarithmus der Zeit.</translation>
     </message>
     <message>
         <source>Gain error</source>
@@ -314,10 +210,6 @@
     <message>
         <source>Hysteresis</source>
         <translation>Hysterese</translation>
-    </message>
-    <message>
-        <source>Loops whose width grows faster than their amplitude, at any pace; odd distortion.</source>
-        <translation>Schleifen, deren Breite schneller wächst als ihre Amplitude, bei jedem Tempo; ungerade Verzerrung.</translation>
     </message>
     <message>
         <source>Lost steps</source>
@@ -348,16 +240,8 @@
         <translation>Umkehrspiel</translation>
     </message>
     <message>
-        <source>A dead band at each reversal, as wide at any amplitude and speed.</source>
-        <translation>Ein Totband bei jeder Umkehr, gleich breit bei jeder Amplitude und Geschwindigkeit.</translation>
-    </message>
-    <message>
         <source>Contact</source>
         <translation>Kontakt</translation>
-    </message>
-    <message>
-        <source>A stop or a membrane: acts beyond a position alone.</source>
-        <translation>Ein Anschlag oder eine Membran: wirkt nur jenseits einer Position.</translation>
     </message>
     <message>
         <source>Cross coupling</source>
@@ -396,32 +280,16 @@
         <translation>Resonanzabweichung</translation>
     </message>
     <message>
-        <source>Frequency or damping off: seen near the resonance alone.</source>
-        <translation>Frequenz oder Dämpfung falsch: nur nahe der Resonanz zu sehen.</translation>
-    </message>
-    <message>
         <source>Stiffness nonlinearity</source>
         <translation>Nichtlineare Steifigkeit</translation>
-    </message>
-    <message>
-        <source>A bowed static curve, and a resonance that moves with position.</source>
-        <translation>Eine gebogene statische Kennlinie und eine Resonanz, die mit der Position wandert.</translation>
     </message>
     <message>
         <source>Thermal drift</source>
         <translation>Thermische Drift</translation>
     </message>
     <message>
-        <source>Grows without motion and settles, whatever the command.</source>
-        <translation>Wächst ohne Bewegung und klingt ab, unabhängig vom Sollwert.</translation>
-    </message>
-    <message>
         <source>Vibration</source>
         <translation>Schwingung</translation>
-    </message>
-    <message>
-        <source>Periodic in time, whatever the position and the command.</source>
-        <translation>Periodisch in der Zeit, unabhängig von Position und Sollwert.</translation>
     </message>
     <message>
         <source>Clock skew</source>
@@ -436,16 +304,8 @@
         <translation>Interpolationsfehler</translation>
     </message>
     <message>
-        <source>Periodic in position with the grating&apos;s period, on the reading alone.</source>
-        <translation>Periodisch in der Position mit der Gitterperiode, nur im Messwert.</translation>
-    </message>
-    <message>
         <source>Sensor drift</source>
         <translation>Sensordrift</translation>
-    </message>
-    <message>
-        <source>The reading wanders slowly, at rest too; the reference does not.</source>
-        <translation>Der Messwert wandert langsam, auch in Ruhe; die Referenz nicht.</translation>
     </message>
     <message>
         <source>Sensor gain error</source>
@@ -468,10 +328,6 @@
         <translation>Sensorrauschen</translation>
     </message>
     <message>
-        <source>White scatter of the reading beyond the declared, without memory.</source>
-        <translation>Weiße Streuung des Messwerts über die angegebene hinaus, ohne Gedächtnis.</translation>
-    </message>
-    <message>
         <source>Sensor nonlinearity</source>
         <translation>Sensornichtlinearität</translation>
     </message>
@@ -482,10 +338,6 @@
     <message>
         <source>Sensor outliers</source>
         <translation>Sensorausreißer</translation>
-    </message>
-    <message>
-        <source>Single samples far off: spikes, or readings that drop out.</source>
-        <translation>Einzelne Werte weit daneben: Ausreißer oder Messwerte, die ausfallen.</translation>
     </message>
     <message>
         <source>Sensor quantization</source>
@@ -1034,6 +886,154 @@
     <message>
         <source>{name}, of the play with threshold {threshold}</source>
         <translation>{name}, des Spiels mit Schwelle {threshold}</translation>
+    </message>
+    <message>
+        <source>Reset {name} to its preset</source>
+        <translation>{name} zurück auf die Vorgabe</translation>
+    </message>
+    <message>
+        <source>Reset to the preset, {value}</source>
+        <translation>Zurück auf die Vorgabe, {value}</translation>
+    </message>
+    <message>
+        <source>Limits only large, fast motion, which becomes a triangle.</source>
+        <translation>Begrenzt nur große, schnelle Bewegung, die zum Dreieck wird.</translation>
+    </message>
+    <message>
+        <source>Motion continues after a move, proportional to it, with the logarithm of time.</source>
+        <translation>Die Bewegung geht nach einer Fahrt weiter, proportional zu ihr, mit dem Logarithmus der Zeit.</translation>
+    </message>
+    <message>
+        <source>Loops whose width grows faster than their amplitude, at any speed; odd distortion.</source>
+        <translation>Schleifen, deren Breite schneller wächst als ihre Amplitude, bei jeder Geschwindigkeit; ungerade Verzerrung.</translation>
+    </message>
+    <message>
+        <source>A dead band at each reversal, equally wide at any amplitude and speed.</source>
+        <translation>Ein Totband bei jeder Umkehr, gleich breit bei jeder Amplitude und Geschwindigkeit.</translation>
+    </message>
+    <message>
+        <source>A stop or a membrane: acts only beyond a position.</source>
+        <translation>Ein Anschlag oder eine Membran: wirkt nur jenseits einer Position.</translation>
+    </message>
+    <message>
+        <source>Wrong frequency or damping: visible only near the resonance.</source>
+        <translation>Falsche Frequenz oder Dämpfung: nur nahe der Resonanz sichtbar.</translation>
+    </message>
+    <message>
+        <source>A curved static characteristic, and a resonance that shifts with position.</source>
+        <translation>Eine gekrümmte statische Kennlinie und eine Resonanz, die mit der Position wandert.</translation>
+    </message>
+    <message>
+        <source>Grows without motion and settles, regardless of the command.</source>
+        <translation>Wächst ohne Bewegung und klingt ab, unabhängig vom Sollwert.</translation>
+    </message>
+    <message>
+        <source>Periodic in time, regardless of position and command.</source>
+        <translation>Periodisch in der Zeit, unabhängig von Position und Sollwert.</translation>
+    </message>
+    <message>
+        <source>Periodic in position with the period of the grating, only in the reading.</source>
+        <translation>Periodisch in der Position mit der Gitterperiode, nur im Messwert.</translation>
+    </message>
+    <message>
+        <source>The reading drifts slowly, also at rest; the reference does not.</source>
+        <translation>Der Messwert driftet langsam, auch in Ruhe; die Referenz nicht.</translation>
+    </message>
+    <message>
+        <source>White noise of the reading above the declared level, without memory.</source>
+        <translation>Weißes Rauschen des Messwerts über dem angegebenen Pegel, ohne Gedächtnis.</translation>
+    </message>
+    <message>
+        <source>Single wrong samples: spikes or dropouts of the reading.</source>
+        <translation>Einzelne falsche Werte: Ausreißer oder Ausfälle des Messwerts.</translation>
+    </message>
+    <message>
+        <source>{text} is not a number; enter one with a decimal point</source>
+        <translation>{text} ist keine Zahl; eine mit Dezimalkomma eingeben</translation>
+    </message>
+    <message>
+        <source>{value} must be {range}</source>
+        <translation>{value} muss {range} sein</translation>
+    </message>
+    <message>
+        <source>{text} is not a number; enter one in {unit} with a decimal point</source>
+        <translation>{text} ist keine Zahl; eine in {unit} mit Dezimalkomma eingeben</translation>
+    </message>
+    <message>
+        <source>Only the simulator has adjustable effects. Connect to the simulator to switch and adjust them.</source>
+        <translation>Nur der Simulator hat einstellbare Effekte. Mit dem Simulator verbinden, um sie zu schalten und einzustellen.</translation>
+    </message>
+    <message>
+        <source>Choose an axis, an effect and its formulation</source>
+        <translation>Eine Achse, einen Effekt und seinen Ansatz wählen</translation>
+    </message>
+    <message>
+        <source>Simulate the machine of the robot file, or a worn one for demonstration</source>
+        <translation>Die Maschine der Roboterdatei simulieren oder eine verschlissene zur Vorführung</translation>
+    </message>
+    <message>
+        <source>Apply this effect earlier within its stage</source>
+        <translation>Diesen Effekt innerhalb seiner Stufe früher anwenden</translation>
+    </message>
+    <message>
+        <source>Apply this effect later within its stage</source>
+        <translation>Diesen Effekt innerhalb seiner Stufe später anwenden</translation>
+    </message>
+    <message>
+        <source>Remove this effect</source>
+        <translation>Diesen Effekt entfernen</translation>
+    </message>
+    <message>
+        <source>Undo the last change of this list</source>
+        <translation>Die letzte Änderung dieser Liste zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Compare with the nominal machine: disable all effects until this is released</source>
+        <translation>Vergleich mit der nominellen Maschine: alle Effekte aus, bis dies gelöst wird</translation>
+    </message>
+    <message>
+        <source>Replace these effects by those of a robot file</source>
+        <translation>Diese Effekte durch die einer Roboterdatei ersetzen</translation>
+    </message>
+    <message>
+        <source>Save a robot file of this robot with these effects</source>
+        <translation>Eine Roboterdatei dieses Roboters mit diesen Effekten speichern</translation>
+    </message>
+    <message>
+        <source>From the robot file</source>
+        <translation>Laut Roboterdatei</translation>
+    </message>
+    <message>
+        <source>Worn, for demonstration</source>
+        <translation>Verschlissen, zur Vorführung</translation>
+    </message>
+    <message>
+        <source>{path}: the robot file has no effects; the list is unchanged</source>
+        <translation>{path}: die Roboterdatei hat keine Effekte; die Liste bleibt unverändert</translation>
+    </message>
+    <message>
+        <source>the simulator did not accept the change</source>
+        <translation>der Simulator hat die Änderung nicht übernommen</translation>
+    </message>
+    <message>
+        <source>Add an effect and adjust it while the simulator runs.</source>
+        <translation>Einen Effekt hinzufügen und einstellen, während der Simulator läuft.</translation>
+    </message>
+    <message>
+        <source>Formulation of the effect; its equations appear below</source>
+        <translation>Ansatz des Effekts; seine Gleichungen stehen darunter</translation>
+    </message>
+    <message>
+        <source>Axis in which the effect originates</source>
+        <translation>Achse, von der der Effekt ausgeht</translation>
+    </message>
+    <message>
+        <source>List of effects</source>
+        <translation>Liste der Effekte</translation>
+    </message>
+    <message>
+        <source>Turn the effect on or off</source>
+        <translation>Den Effekt ein- oder ausschalten</translation>
     </message>
 </context>
 <context>
