@@ -61,7 +61,7 @@ def _count(text: str) -> int:
         return int(text)
     except ValueError:
         raise ExcitationError(
-            message("cli", "{text} is no whole number").fill(text=repr(text[:40]))
+            message("cli", "{text} is not an integer").fill(text=repr(text[:40]))
         ) from None
 
 

@@ -57,7 +57,7 @@ class Backlash:
         if not isinstance(described, StepperAxis):
             raise OutOfLimitsError(
                 message(
-                    "engine", "axis {axis} is no stepper axis; only these have backlash to take up"
+                    "engine", "axis {axis} is not a stepper axis; only these have backlash"
                 ).fill(axis=AxisName(axis))
             )
         most = MOST_SHARE * described.span

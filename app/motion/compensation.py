@@ -93,9 +93,7 @@ class Inverses:
         permit = self._admission.drawn(permit)
         if axis not in self.applied:
             raise RefusedError(
-                message("engine", "axis {axis} has no inverse that could be taken off").fill(
-                    axis=AxisName(axis)
-                )
+                message("engine", "axis {axis} has no inverse to remove").fill(axis=AxisName(axis))
             )
         with self._admission.lock:
             self._admission.refuse_unless_at_rest("taking an inverse off")
@@ -198,8 +196,8 @@ def compensated_trajectory(
         raise OutOfLimitsError(
             message(
                 "engine",
-                "compensated trajectory: {error}; what brings the wanted path about "
-                "is beyond a limit: make it slower, smoother, or smaller",
+                "compensated trajectory: {error}; the commands for the desired path exceed "
+                "a limit: make it slower, smoother, or smaller",
             ).fill(error=str(error))
         ) from error
 
@@ -223,13 +221,13 @@ def check_belongs(robot: Robot, inverse: NamedInverse) -> None:
     described = robot.axes.get(axis)
     if not isinstance(described, PiezoAxis) or described.controller is not None:
         raise CompensationError(
-            message("engine", "{name}: axis {axis} is no piezo in open loop of robot {this}").fill(
-                name=inverse.name, axis=AxisName(axis), this=repr(robot.name)
-            )
+            message(
+                "engine", "{name}: axis {axis} of robot {this} is not a piezo in open loop"
+            ).fill(name=inverse.name, axis=AxisName(axis), this=repr(robot.name))
         )
     if not described.range[0] <= inverse.model.command_range[0] < described.range[1]:
         raise CompensationError(
-            message("engine", "{name}: axis {axis} had another range; train it anew").fill(
-                name=inverse.name, axis=AxisName(axis)
-            )
+            message(
+                "engine", "{name}: axis {axis} had another range; train the inverse again"
+            ).fill(name=inverse.name, axis=AxisName(axis))
         )

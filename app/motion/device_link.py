@@ -145,7 +145,7 @@ class DeviceLink:
         latched = self.gate.latched
         locked = self._locked(state)
         if latched is not None:
-            locked = message("engine", "{stop} is latched; release it first").fill(stop=latched)
+            locked = message("engine", "{stop} is active; release it first").fill(stop=latched)
         return replace(
             state,
             age_s=self._age_s(state),

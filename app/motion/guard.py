@@ -115,7 +115,7 @@ class Guard:
         """
         if self._zone is None:
             raise OutOfLimitsError(
-                message("engine", "robot {name} has no tip that a floor could hold").fill(
+                message("engine", "robot {name} has no tip for a floor to limit").fill(
                     name=repr(self._robot.name)
                 )
             )
@@ -201,9 +201,9 @@ class Guard:
         for column, at in end.items():
             if not nearer(zone, envelope, column, at, out):
                 raise OutOfLimitsError(
-                    message("engine", "{out}; axis {axes} brings it no nearer that way").fill(
-                        out=out_text(out), axes=self._axes[column]
-                    )
+                    message(
+                        "engine", "{out}; axis {axes} does not bring it nearer in this direction"
+                    ).fill(out=out_text(out), axes=self._axes[column])
                 )
         for bounds, present in zip(envelope.widened(end).seen(), envelope.seen(), strict=True):
             zone.beyond(zone.swept(*present)).check_sweep(*bounds)
@@ -325,7 +325,7 @@ class Guard:
                 return slower
         if refusal is None:
             raise OutOfLimitsError(
-                message("engine", "tip: too fast so close above its floor; go slower")
+                message("engine", "tip: too fast this close to its floor; move more slowly")
             )
         raise refusal
 

@@ -126,7 +126,7 @@ class Moves:
         driver = self._link.driver
         if not isinstance(driver, Homer):
             raise RefusedError(
-                message("engine", "driver {name} has no switches to be found").fill(
+                message("engine", "driver {name} has no limit switches").fill(
                     name=repr(driver.name)
                 )
             )
@@ -240,7 +240,7 @@ class Moves:
             if self._standing() != checked_for:
                 raise RefusedError(
                     message(
-                        "engine", "the machine or the tip's bounds have changed; play once more"
+                        "engine", "the machine or the bounds of the tip have changed; play again"
                     )
                 )
             loops = {axis: one.name for axis, one in self._loops.applied.items()}
@@ -308,9 +308,9 @@ class Moves:
         model = self._link.robot.axes.get(axis)
         if not isinstance(model, PiezoAxis) or model.controller is not None:
             raise OutOfLimitsError(
-                message(
-                    "engine", "axis {axis} has no amplifier that could be given a voltage"
-                ).fill(axis=repr(axis))
+                message("engine", "axis {axis} has no amplifier for a voltage").fill(
+                    axis=repr(axis)
+                )
             )
         bounds = model.voltage_range
         if bounds is not None and not bounds[0] <= voltage <= bounds[1]:

@@ -131,7 +131,7 @@ class Operation:
         for ticker in self._tickers:
             ticker.close()
         if self.teleoperator.state.driving:
-            self.session.stop(message("engine", "the input devices are let go of"))
+            self.session.stop(message("engine", "the input devices are released"))
         self.penetration.close()
         self.devices.close()
         if self._planning is not None:
@@ -258,7 +258,7 @@ class Operation:
                 now = {**state.command, **self.session.snapshot().command}
                 if any(now[axis] != state.command[axis] for axis in JOINTS):
                     raise RefusedError(
-                        message("engine", "the machine has moved meanwhile; ask once more")
+                        message("engine", "the machine has moved in the meantime; try again")
                     )
                 self.session.play(way.trajectory, permit=permit)
             except InputError as error:

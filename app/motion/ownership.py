@@ -74,7 +74,7 @@ class Ownership:
                     raise RefusedError(
                         message(
                             "engine",
-                            "axis {axis} is driven by {other}; stop it, or take over first",
+                            "{other} controls axis {axis}; stop it, or take over first",
                         ).fill(axis=AxisName(axis), other=other)
                     )
 

@@ -153,7 +153,7 @@ class Playback:
         """
         with self._lock:
             if self._state.phase is not PlaybackPhase.PLAYING:
-                raise RefusedError(message("engine", "nothing plays that could be paused"))
+                raise RefusedError(message("engine", "nothing is playing"))
             self._pausing = True
         self._session.stop(message("engine", "the playback is paused"), by=by)
 
@@ -225,9 +225,7 @@ class Playback:
     def _paused(self, what: str) -> tuple[CheckedTrajectory, DeviationWatch, PlaybackState]:
         with self._lock:
             if self._state.phase is not PlaybackPhase.PAUSED or not (self._whole and self._watch):
-                raise RefusedError(
-                    message("engine", "nothing is paused that one could {what}").fill(what=what)
-                )
+                raise RefusedError(message("engine", "nothing is paused to {what}").fill(what=what))
             return self._whole, self._watch, self._state
 
     def _begin(

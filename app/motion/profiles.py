@@ -117,7 +117,7 @@ class Profiles:
     def _profile_runner(self) -> None:
         if not isinstance(self._link.driver, ProfileRunner):
             raise RefusedError(
-                message("engine", "driver {name} cannot run profiles by itself").fill(
+                message("engine", "driver {name} cannot execute profiles").fill(
                     name=repr(self._link.driver.name)
                 )
             )

@@ -62,8 +62,7 @@ class NarrowedRanges:
                 raise OutOfLimitsError(
                     message(
                         "engine",
-                        "axis {axis} stands at {at}, outside of {low} to {high}; move it there "
-                        "first",
+                        "axis {axis} is at {at}, outside {low} to {high}; move it inside first",
                     ).fill(
                         axis=AxisName(axis),
                         at=exact(at, unit),

@@ -135,7 +135,7 @@ class SavedPositions:
             raise SavedPositionError(
                 message(
                     "engine",
-                    "{where}{name} is no name for a position; use 1 to {longest} "
+                    "{where}{name} is not a valid name of a position; use 1 to {longest} "
                     "letters without blanks at the ends",
                 ).fill(where=where, name=repr(name), longest=LONGEST_NAME)
             )

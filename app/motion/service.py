@@ -108,5 +108,5 @@ class Service:
         driver = self._link.driver
         if not isinstance(driver, Parameterised):
             raise RefusedError(
-                message("engine", "driver {name} keeps no parameters").fill(name=repr(driver.name))
+                message("engine", "driver {name} stores no parameters").fill(name=repr(driver.name))
             )

@@ -517,8 +517,9 @@ class GcodeStage(Homer, Linked):
         if not self._may_be_silent() and now_s - dialogue.heard_s > _LOST_S:
             self._lost = message(
                 "engine",
-                "{port}: the controller has said nothing for {seconds} s; it ends what it was told "
-                "within half a second and braking. Look at the machine, then connect again",
+                "{port}: the controller has not answered for {seconds} s; it ends its "
+                "motion within half a second plus braking. Check the machine, then "
+                "reconnect",
             ).fill(port=str(self.settings["port"]), seconds=_LOST_S)
             raise ConnectionLostError(self._lost)
 

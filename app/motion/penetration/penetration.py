@@ -196,9 +196,7 @@ class Penetration(PenetrationSequence):
         state = self._session.snapshot()
         if state.locked is not None:
             raise RefusedError(
-                message("engine", "the held tip cannot be moved: {locked}").fill(
-                    locked=state.locked
-                )
+                message("engine", "the tip cannot be moved: {locked}").fill(locked=state.locked)
             )
         if not self._session.reservations.held_by(OWNER):
             raise RefusedError(

@@ -71,7 +71,9 @@ class Replay:
         received_s = self._state.sample_host_time_s
         age_s = None if received_s is None else self.host_time_s - received_s
         return replace(
-            self._state, age_s=age_s, locked=message("engine", "this is a replay; nothing moves")
+            self._state,
+            age_s=age_s,
+            locked=message("engine", "this is a replay; the machine does not move"),
         )
 
     def subscribe(self, callback: Callback) -> Callable[[], None]:

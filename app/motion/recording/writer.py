@@ -271,8 +271,8 @@ class RecordingWriter:
             self._notice(
                 message(
                     "engine",
-                    "{name}: nothing more can be recorded ({reason}): motion goes on, what was "
-                    "recorded until now is safe in {path}; make room",
+                    "{name}: the recording has failed ({reason}); the data so far are safe in "
+                    "{path}. Free disk space; the motion continues",
                 ).fill(name=self.path.name, reason=reason, path=self._file.path),
                 problem=True,
             )
@@ -284,7 +284,7 @@ class RecordingWriter:
             self._failure = None
             what = gap or marked("engine", "nothing is missing")
             self._notice(
-                message("engine", "{file}: recording goes on; {what}").fill(
+                message("engine", "{file}: the recording continues; {what}").fill(
                     file=self.path.name, what=what
                 ),
                 problem=bool(gap),

@@ -124,10 +124,6 @@
         <translation>{text} ist nicht {advice}</translation>
     </message>
     <message>
-        <source>{text} is no whole number</source>
-        <translation>{text} ist keine ganze Zahl</translation>
-    </message>
-    <message>
         <source>--{option}: {error}</source>
         <translation>--{option}: {error}</translation>
     </message>
@@ -542,6 +538,10 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
     <message>
         <source>{output}: {rows} rows, {duration}</source>
         <translation>{output}: {rows} Zeilen, {duration}</translation>
+    </message>
+    <message>
+        <source>{text} is not an integer</source>
+        <translation>{text} ist keine ganze Zahl</translation>
     </message>
 </context>
 </TS>

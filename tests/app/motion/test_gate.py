@@ -185,7 +185,7 @@ def test_a_machine_that_moved_while_a_path_was_checked_does_not_play_it(stepped,
         stepped.step(0.02, 5)
 
     monkeypatch.setattr(session.bounds._guard, "play", meanwhile)
-    with pytest.raises(RefusedError, match="have changed; play once more"):
+    with pytest.raises(RefusedError, match="have changed; play again"):
         session.play(PATH)
     assert stands(stepped)
 

@@ -177,7 +177,7 @@ def test_two_connections_make_no_record(stepped, record, tmp_path):
         lambda: record_of(recording),
         lambda: trajectory(recording, recording.began_s, recording.ended_s, 1e-3),
     ):
-        with pytest.raises(RecordingError, match=r"connected anew 0\.2"):
+        with pytest.raises(RecordingError, match=r"reconnected 0\.2"):
             made()
     assert not (tmp_path / "out.csv").exists()
     assert len(record_of(recording, end_s=recording.began_s + 0.1).time_s) == 100

@@ -332,7 +332,9 @@ def test_a_dead_man_on_another_device_that_is_missing_holds_all_back():
     )
     bench = Bench(mapping("a"), pedal)
     assert bench.say(held=("dead",)).run(1.0)[-1].deflections == {}
-    assert "is for pedal, not plugged in; plugged in: stick a (a)" in bench.arbiter.problems[0]
+    assert (
+        "needs pedal, which is not connected; connected: stick a (a)" in bench.arbiter.problems[0]
+    )
     bench.arbiter.plug(stick("pedal"))
     bench.state["pedal"] = (REST, ())
     bench.run(0.2)
@@ -462,8 +464,8 @@ def test_a_profile_for_another_device_drives_nothing_and_says_so():
     bench = Bench(mapping("hid:046d:*"))
     assert bench.run(1.0)[-1].deflections == {}
     assert bench.arbiter.problems == (
-        "profile 'Bench' is for hid:046d:*, not plugged in; plugged in: stick a (a). Plug it in, "
-        "or choose or make a profile for what is there",
+        "profile 'Bench' needs hid:046d:*, which is not connected; connected: stick a (a). "
+        "Connect it, or choose or create another profile",
     )
 
 
@@ -534,7 +536,7 @@ def test_a_trainer_who_takes_over_by_moving_drives_from_rest_only(school):
     give_to_the_trainee(school)
     intents = school.say("a", axes=(0.9, 0.0)).run(1.0)
     assert all("x" not in intent.deflections for intent in intents)
-    assert "let go of it first" in school.reasons("a")[0]
+    assert "release it first" in school.reasons("a")[0]
 
 
 def test_a_touch_of_the_trainers_stick_does_not_take_over(school):
