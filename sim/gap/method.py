@@ -1,12 +1,12 @@
 """The diagnosis of the sim-to-real gap, from records to verdict.
 
-Where the gap lies (:mod:`~rotemina.sim.gap.where`), which effects may cause it
-(:mod:`~rotemina.sim.gap.candidates`, :mod:`~rotemina.sim.gap.screening`), how well they do on data
-that their fit did not see (:mod:`~rotemina.sim.gap.fit`, :mod:`~rotemina.sim.gap.selection`), what
-can be told apart (:mod:`~rotemina.sim.gap.rivals`, :mod:`~rotemina.sim.gap.contest`), by which
-further experiment (:mod:`~rotemina.sim.gap.experiment`), and what can be said
-(:mod:`~rotemina.sim.gap.compare.decision`), axis by axis: what one axis does may show on another
-(:mod:`~rotemina.sim.gap.order`).
+The steps are: locate the gap (:mod:`~rotemina.sim.gap.where`), find possible effects
+(:mod:`~rotemina.sim.gap.candidates`, :mod:`~rotemina.sim.gap.screening`), compare them on
+validation data (:mod:`~rotemina.sim.gap.fit`, :mod:`~rotemina.sim.gap.selection`), find which
+effects can be distinguished (:mod:`~rotemina.sim.gap.rivals`, :mod:`~rotemina.sim.gap.contest`),
+suggest an experiment (:mod:`~rotemina.sim.gap.experiment`), and decide
+(:mod:`~rotemina.sim.gap.compare.decision`). Axes are examined one after the other, because one axis
+may show effects of another (:mod:`~rotemina.sim.gap.order`).
 """
 
 import hashlib
@@ -54,7 +54,7 @@ def diagnose(
     listener: Listener = unheard,
     cautions: Sequence[Caution] | None = None,
 ) -> Diagnosis:
-    """Tell where the gap between a robot's model and records of it lies, and what causes it.
+    """Find where the gap between a robot's model and its records lies, and what causes it.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def diagnose(
 
 
 def _in_order(records: Sequence[Record]) -> list[Record]:
-    """Return records in an order that their contents alone decide."""
+    """Return records in an order that depends only on their contents."""
 
     def content(record: Record) -> str:
         digest = hashlib.sha256(record.time_s.tobytes())
@@ -195,7 +195,7 @@ class _Run:
         return AxisDiagnosis(name, Verdict.NONE, places, remarks=(elsewhere,) if has_gap else ())
 
     def _shaken(self, one: AxisDiagnosis, told: Mapping[str, AxisDiagnosis]) -> AxisDiagnosis:
-        """Return what is said of an axis that one without explanation shakes through a coupling."""
+        """Return the result for an axis shaken by an unexplained axis through a coupling."""
         if one.verdict not in (Verdict.UNKNOWN, Verdict.INSUFFICIENT):
             return one
         for group in coupled_axes(self.robot):
@@ -223,7 +223,7 @@ def _excess(one: AxisDiagnosis) -> float:
 
 
 def _has_gap(places: Sequence[Place]) -> bool:
-    """Tell whether a gap matters: beside the sensor's, one at a finer reference must be clear."""
+    """Tell whether a gap matters: at a reference finer than the sensor it must be clear."""
     by_sensor = any(place.tap is Tap.MEAS for place in places)
     least = {Tap.REF: _LEAST_BEYOND_THE_SENSOR} if by_sensor else {}
     return any(

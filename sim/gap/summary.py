@@ -1,4 +1,4 @@
-"""A diagnosis in words: what a terminal shows."""
+"""A diagnosis as text for a terminal."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from math import isfinite

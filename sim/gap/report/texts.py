@@ -1,4 +1,4 @@
-"""The texts of ``page.html``, marked for translation: the page looks each up by itself."""
+"""The texts of ``page.html``, marked for translation; the page looks them up itself."""
 
 from rotemina.sim.messages import marked
 

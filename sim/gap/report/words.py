@@ -52,7 +52,7 @@ _wording: ContextVar[Wording] = ContextVar("wording", default=_ENGLISH)
 
 @contextmanager
 def worded(wording: Wording) -> Iterator[None]:
-    """Write what is written meanwhile in a wording."""
+    """Use a wording while the context is active."""
     token = _wording.set(wording)
     try:
         yield
