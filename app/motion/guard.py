@@ -1,4 +1,4 @@
-"""What stands between every request and the machine: ranges, speeds, and the tip's keep-out."""
+"""Limits between every request and the machine: ranges, speeds, and the tip's keep-out."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -32,10 +32,10 @@ _LIFTING = ("z", "zn")  # axes that move the tip up and down
 
 
 class PositionEnvelope(NamedTuple):
-    """Where the axes may be just now: bounds (axes,) about all commands that may act.
+    """Possible present positions of the axes: bounds (axes,) of all commands that may act.
 
-    ``deviation`` (axes,) is by how much readings differ from commands, less what is noise: the tip
-    is judged where it is told to be, and that much beside it, where it is read to be.
+    ``deviation`` (axes,) is the difference of readings from commands, less noise: the tip is
+    checked at its commanded position, and shifted by this deviation, at its measured one.
     """
 
     low: FloatArray
@@ -106,7 +106,7 @@ class Guard:
         return self._zone
 
     def teach_floor(self, floor: float | None) -> None:
-        """Put the tip's floor at a height, m, or take it away.
+        """Set the tip's floor at a height, m, or remove it.
 
         Raises
         ------
@@ -124,10 +124,10 @@ class Guard:
     def envelope(
         self, deviation: FloatArray | None, *commands: Mapping[str, float]
     ) -> PositionEnvelope:
-        """Return bounds about all commands that may act; all axes are in them.
+        """Return bounds of all commands that may act, for all axes.
 
-        An axis of which nothing is known might be anywhere in its range. ``deviation`` (axes,) is
-        that of the readings, as :attr:`PositionEnvelope.deviation`; None: they say nothing else.
+        An axis without information may be anywhere in its range. ``deviation`` (axes,) is that of
+        the readings, as :attr:`PositionEnvelope.deviation`; None: readings agree with commands.
         """
         low, high = np.array([axis.range for axis in self._robot.axes.values()]).T
         for column, axis in enumerate(self._axes):
@@ -237,10 +237,10 @@ class Guard:
         *,
         thrust: bool,
     ) -> None:
-        """Refuse a profile of one axis, between ``ends``, m or rad, that the tip must not make.
+        """Refuse a profile of one axis, between ``ends``, m or rad, that the tip must not execute.
 
-        A ``thrust`` may be faster than the slow zone allows, but is :data:`MOST_THRUST` long at
-        most; nothing lets the tip out of its bounds.
+        A ``thrust`` may be faster than the slow zone permits, but at most :data:`MOST_THRUST` long;
+        no profile may take the tip out of its bounds.
 
         Raises
         ------
@@ -289,10 +289,10 @@ class Guard:
         lease_s: float,
         ranges: Ranges = WHOLE,
     ) -> dict[str, float]:
-        """Return the velocities, all slower by one factor where the tip's bounds are near.
+        """Return the velocities, all reduced by one factor near the tip's bounds.
 
-        At narrowed ends, and at those of ``ranges``, m or rad, no device halts by itself: the
-        closer an axis is to one, the slower it goes there.
+        No device stops on its own at narrowed ends, or at those of ``ranges``, m or rad: an axis
+        slows down as it approaches one.
 
         Raises
         ------
@@ -330,9 +330,9 @@ class Guard:
         raise refusal
 
     def ways(self, velocities: Mapping[str, float], lease_s: float) -> dict[str, float]:
-        """Return how far each axis still goes, m or rad, if nobody renews the lease.
+        """Return how far each axis still moves, m or rad, if nobody renews the lease.
 
-        Its braking counts, and what goes by before it is told to brake; a lease of 0 leaves those.
+        This includes braking and the delay before it; a lease of 0 leaves only those.
         """
         return {axis: self._way(axis, speed, lease_s) for axis, speed in velocities.items()}
 
@@ -365,7 +365,7 @@ class Guard:
         return float(np.copysign(abs(speed) * (lease_s + _REACTION_S) + braking, speed))
 
     def play(self, envelope: PositionEnvelope, trajectory: CheckedTrajectory) -> None:
-        """Refuse a trajectory on which, or on the way to which, the tip leaves its bounds.
+        """Refuse a trajectory if it, or the move to its start, takes the tip out of its bounds.
 
         Raises
         ------
@@ -394,7 +394,7 @@ class Guard:
         return TipPath(tips[0], tips[1:], self._zone)
 
     def _positions(self, envelope: PositionEnvelope, commands: Record) -> FloatArray:
-        """Return the axes (n, axes) at each row; those that the commands leave alone stay."""
+        """Return the axes (n, axes) at each row; axes without commands stay."""
         positions = np.tile(0.5 * (envelope.low + envelope.high), (len(commands.time_s), 1))
         for axis, signal in commands_of(self._robot, commands).items():
             positions[:, self._axes.index(axis)] = signal

@@ -60,7 +60,7 @@ class Ownership:
                 raise
 
     def check(self, axes: Iterable[str], owner: str) -> None:
-        """Refuse axes of which one is another's; nobody's change.
+        """Refuse axes if any has another owner; change nothing.
 
         Raises
         ------

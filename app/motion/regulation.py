@@ -26,7 +26,7 @@ if TYPE_CHECKING:  # a search and what it needs take their time to import
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NamedRegulation:
-    """A loop that was found stable, and what a record is to call it."""
+    """A loop that was found stable, and its name in records."""
 
     regulation: Regulation
     name: str
@@ -86,7 +86,7 @@ class Loops:
             self._known = MappingProxyType({**self._known, axis: loop})
 
     def remove(self, axis: str, *, permit: Permit | None = None) -> None:
-        """Open the loop of an axis, which stays where it is; no way leads back from there.
+        """Open the loop of an axis, which stays in place; undo cannot cross this point.
 
         Raises
         ------

@@ -51,7 +51,7 @@ def _spread(values: Values, facts: Facts) -> tuple[float, ...]:
 
 
 def fine_enough(_values: Values, facts: Facts) -> float:
-    """Return a step with which turning points are seen; a static axis turns at samples alone."""
+    """Return a step that resolves turning points; a static axis turns only at samples."""
     if facts.is_static:
         return inf
     return _INNER_SHARE / facts.frequency_hz if facts.frequency_hz > 0.0 else _FREE_STEP_S

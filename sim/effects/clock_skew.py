@@ -1,4 +1,4 @@
-"""A sensor that keeps a time of its own, faster or slower than the controller's."""
+"""A sensor whose clock runs faster or slower than the controller's."""
 
 from collections.abc import Iterator
 

@@ -1,7 +1,7 @@
-"""Contact on one side: a stop, a dish, a cell membrane; nothing before it.
+"""One-sided contact: a stop, a dish or a cell membrane; no effect before it.
 
-The sign of the strength says on which side: positive for what is met on the way up, negative for
-what is met on the way down. So a fit goes smoothly through "no contact" from one to the other.
+The sign of the strength gives the side: positive for an obstacle met on the way up, negative for
+one met on the way down. A fit therefore passes smoothly through "no contact" from one to the other.
 """
 
 from collections.abc import Iterator
@@ -159,9 +159,9 @@ def _places(view: View) -> Iterator[Values]:
 
 
 def _from_stop(fitted: Values) -> Values:
-    """Return place and stiffness of a contact whose crude form blocks a share of the motion.
+    """Return position and stiffness of a contact whose crude form blocks a share of the motion.
 
-    A spring k beside the axis' own K takes the share k/(k + K).
+    A spring k next to the axis' own K takes the share k/(k + K).
     """
     share = min(abs(fitted["blocked"]), _ALL_BUT)
     return {
@@ -171,9 +171,9 @@ def _from_stop(fitted: Values) -> Values:
 
 
 def _met_on_the_way(values: Values, facts: Facts, _bounds: Interval, extent: Extent) -> Interval:
-    """Return where a contact may be, from the low end of the range: a good part of the way is free.
+    """Return possible positions of a contact, from the low end: part of the travel is free.
 
-    What acts wherever the axis goes is no contact but another characteristic of it.
+    An effect that acts at all positions is not a contact but another characteristic.
     """
     least, most = extent.reach
     strength = values.get("stiffness", values.get("blocked", 1.0))

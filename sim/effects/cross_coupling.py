@@ -1,8 +1,8 @@
 """Cross coupling: the motion of another axis leaks into this one.
 
-``q_j`` is the position of ``from_axis`` itself, absolute, before any effect on it; so a static
-coupling also shifts the axis by what the other one rests at. The unit of k is this axis' unit over
-that of ``from_axis``.
+``q_j`` is the absolute position of ``from_axis`` before any effect on it, so a static coupling also
+shifts the axis by the other one's position of rest. The unit of k is this axis' unit over that of
+``from_axis``.
 """
 
 from collections.abc import Iterator

@@ -52,10 +52,10 @@ def _appendage(values: Values, facts: Facts) -> LinearPart:
 
 
 def _parallel(values: Values, facts: Facts) -> LinearPart:
-    """Give the input a second way to the position, with a mode of its own.
+    """Give the input a second path to the position, with a mode of its own.
 
-    A free axis has no static motion to share: the mode is added to it, and r is its modal mass
-    over the axis' (``z̈ + 2ζω ż + ω² z = gain/M · u``).
+    A free axis has no static motion to share: the mode is added to it, and r is its modal mass over
+    the axis' (``z̈ + 2ζω ż + ω² z = gain/M · u``).
     """
     rate, loss = _oscillator(values)
     share = values["share"]

@@ -92,9 +92,9 @@ def springs(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
     """``f = −Σ kᵢ zᵢ − D v``; each spring follows the motion up to the deflection where it slips.
 
     Solved for the speed that the force leaves at the end of the step, ``v + b f``: the sum rises
-    with the speed and is straight between the slips, so that Newton's steps end exactly. A spring
-    that the step follows pulls by the mean of begin and end, which keeps its energy; one that is
-    too stiff for that by the end, which damps.
+    with the speed and is straight between the slips, so Newton's steps end exactly. A spring that
+    the step resolves pulls by the mean of start and end, which conserves its energy; a stiffer one
+    by the end, which damps.
 
     p: force of one spring, backward over forward, D, each kᵢ; s: each zᵢ.
     """
@@ -203,7 +203,7 @@ def _dry(name: str, meaning: str) -> Parameter:
 
 
 def _viscous(name: str, meaning: str) -> Parameter:
-    """Return a viscous friction that may take away what the model has where nothing holds it."""
+    """Return a viscous friction that may remove the model's own, on a free axis."""
     return Parameter(name, meaning, "N s/q", 0.0, inf, 0.0, spare="free_damping")
 
 
@@ -226,7 +226,7 @@ def _slips(view: View) -> Iterator[Values]:
 
 
 def _damping(facts: Facts) -> Retuning | None:
-    """Return that the damping of what a force moves and nothing holds is viscous friction."""
+    """Return that the damping of a free, force-driven axis is viscous friction."""
     free = facts.kind == "force" and facts.mass > 0.0 and facts.stiffness == 0.0
     return Retuning("viscous", {"viscous": 0.0}) if free else None
 

@@ -1,7 +1,7 @@
-"""Hysteresis of a piezo: the way up is not the way down, whatever the pace.
+"""Hysteresis of a piezo: the way up differs from the way down at any speed.
 
-The gain from end to end of the range is kept at 1 (nearly so where the loop is bent, or ℓ is not
-short beside the range), so that hysteresis is apart from a gain error. A run begins as after a
+The gain from end to end of the range stays 1 (approximately if the loop is bent, or ℓ is not short
+compared with the range), which separates hysteresis from a gain error. A run starts as after a
 first rise from the low end, where all operators are at rest.
 """
 
@@ -61,8 +61,8 @@ def plays_and_dead_zones(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped
 def bouc_wen(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``y = k x − (W/2) ζ``, ``ℓ dζ = dx − |ζ|ⁿ (β |dx| sign ζ + (1 − β) dx)(1 + δ sign ζ)``.
 
-    Integrated along x by the classical Runge–Kutta rule, in steps that are short beside ℓ; where
-    they are very short, by the midpoint rule, which is then as good.
+    Integrated along x by the classical Runge–Kutta rule in steps that are short compared with ℓ; by
+    the midpoint rule, equally accurate, if they are very short.
 
     p: x₀, k, W/2, ℓ, n, β, δ; s: ζ, x, from the low end.
     """
@@ -133,7 +133,7 @@ def _single(values: Values, facts: Facts) -> tuple[float, ...]:
 def _bent(values: Values, facts: Facts) -> tuple[float, ...]:
     """Add the dead zones: slopes from ``1 − α/2`` at the low end to ``1 + α/2`` at the high one.
 
-    The first dead zone begins at the low end and counts above it alone.
+    The first dead zone starts at the low end and acts only above it.
     """
     spacing = 1.0 / DEAD_ZONES
     more = values["asymmetry"] / (DEAD_ZONES - 1)

@@ -64,7 +64,7 @@ _RARELY = 0.002  # of the rows
 
 
 def _margins(view: View) -> Iterator[Values]:
-    """Give ends beyond which an amplifier does not go: a little of the way that is asked for."""
+    """Return limits of an amplifier, a little inside the requested range."""
     facts, soft = view.facts, "softness" in view.values
     seen = [one.real[Tap.U] for one in view.records if Tap.U in one.real]
     if seen:

@@ -1,8 +1,8 @@
-"""A sensor that now and then says something else: spikes and dropouts.
+"""Outliers of a sensor: spikes and dropouts.
 
-One standard normal variate a sample decides all: the share of variates above it tells whether
-something happens, and where within that share, what (Barnett and Lewis, Outliers in Statistical
-Data, 3rd ed. (1994), treats such contaminated samples).
+One standard normal variate per sample decides: the share of variates above it tells whether an
+outlier occurs, and its place within that share tells which (Barnett and Lewis, Outliers in
+Statistical Data, 3rd ed. (1994), treats such contaminated samples).
 """
 
 from math import erfc

@@ -75,9 +75,9 @@ _AT_ONCE_S = 5e-4  # over which an axis may be asked to go all its way
 
 
 def _slower_than_asked(_values: Values, facts: Facts, bounds: Interval, extent: Extent) -> Interval:
-    """Return rates, in inputs per second, of which the greatest is one that hardly anything asks.
+    """Return rates, in inputs per second, the largest of which hardly any motion requests.
 
-    Beyond it is no limit: a soft one that never acts would pass for a lag.
+    Above it there is no limit: a soft one that never acts would look like a lag.
     """
     low, high = bounds
     asked = (extent.reach[1] - extent.reach[0]) / facts.gain / _AT_ONCE_S

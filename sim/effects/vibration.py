@@ -59,7 +59,7 @@ def _lines(view: View) -> Iterator[Values]:
 
 
 def _seen_to_return(_values: Values, _facts: Facts, bounds: Interval, extent: Extent) -> Interval:
-    """Return frequencies, in Hz, of which a record holds a few periods."""
+    """Return frequencies, in Hz, with at least a few periods in a record."""
     low, high = bounds
     return min(max(low, _PERIODS / extent.longest_s), high), high
 

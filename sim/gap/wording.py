@@ -1,4 +1,4 @@
-"""A diagnosis in sentences: what was found, how far the gap shrinks, what is left."""
+"""A diagnosis in sentences: the causes, how far the gap shrinks, and the remainder."""
 
 from collections.abc import Iterator, Sequence
 
@@ -32,12 +32,12 @@ _MOST_GROUPS = 2
 
 
 def findings(diagnosis: Diagnosis) -> tuple[Message, ...]:
-    """Return what each axis lacks, one sentence for an axis that has a gap of its own."""
+    """Return the causes of each axis with a gap of its own, one sentence per axis."""
     return tuple(_finding(one) for one in _speaking(diagnosis))
 
 
 def details(diagnosis: Diagnosis, records: Sequence[Record]) -> tuple[Message, ...]:
-    """Return how far the gap of each axis shrinks, what is left, and which axes have none."""
+    """Return how far the gap of each axis shrinks, the remainder, and axes without a gap."""
     said = [message for one in _speaking(diagnosis) for message in _details(one, records)]
     return (*said, *_quiet(diagnosis))
 
@@ -143,7 +143,7 @@ def _shrinks(shrinkage: Shrinkage, several: bool, records: Sequence[Record]) -> 
 
 
 def _gap(shrinkage: Shrinkage, *, begins: bool = False) -> Message:
-    """Return what the gap is called: one that the axis' own sensor shows needs no tap."""
+    """Return the name of the gap; a gap in the axis' own sensor needs no tap."""
     if shrinkage.tap is Tap.MEAS:
         return message("gap", "The gap") if begins else message("gap", "the gap")
     at_tap = message("gap", "The gap at {tap}") if begins else message("gap", "the gap at {tap}")
@@ -164,7 +164,7 @@ def _left(one: AxisDiagnosis) -> Message:
 
 
 def group(name: str) -> Message:
-    """Return what a remainder depends on; of another axis by its name."""
+    """Return a predictor of a remainder; another axis is named."""
     kind, _, axis = name.partition(" ")
     if kind == "axis":
         return message("gap", "axis {axis}").fill(axis=AxisName(axis))

@@ -34,7 +34,7 @@ class DistortionLines:
 
     @property
     def noise_rms(self) -> float:
-        """Root mean square that noise alone would leave on these lines."""
+        """Expected root mean square of noise on these lines."""
         return float(np.sqrt(np.sum(self.noise_deviation**2) / 2.0))
 
     @property
@@ -45,11 +45,11 @@ class DistortionLines:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Distortion:
-    """What an output holds on excited lines, and on even and odd lines that are not.
+    """The content of an output on excited lines, and on even and odd lines that are not excited.
 
-    ``excited_hz`` (k,) and ``excited_amplitude`` (k,) complex; ``base_line`` the line of which
-    all excited ones are multiples; parities are those of the multiple. ``linear_rms`` is the
-    output on the excited lines.
+    ``excited_hz`` (k,) and ``excited_amplitude`` (k,) complex; ``base_line`` is the line of which
+    all excited ones are multiples; parities are those of the multiple. ``linear_rms`` is the output
+    on the excited lines.
     """
 
     excited_hz: FloatArray
@@ -83,9 +83,9 @@ def distortion(
 ) -> Distortion:
     """Split the output of a sparse multisine (or a sine) by the parity of its lines.
 
-    A linear system answers on the excited lines alone. If those are odd multiples of one line, a
+    A linear system answers only on the excited lines. If those are odd multiples of one line, a
     characteristic of even order shows on even lines, one of odd order on the odd lines left out.
-    What the input itself holds there is taken off through the response interpolated between its
+    The input's own content there is subtracted through the response interpolated between its
     excited neighbours. Source: R. Pintelon, J. Schoukens, *System Identification: A Frequency
     Domain Approach*, 2nd ed., 2012, section 4.3.
 

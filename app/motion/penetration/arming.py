@@ -19,7 +19,7 @@ _OVERSHOOT_S = 0.2  # of approach: until a contact is sure, seen, and the axis a
 
 
 class TravelMargin(NamedTuple):
-    """The way that a penetration takes at most, and what the range leaves for it; m.
+    """The travel that a penetration needs at most, and the travel available; m.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class TravelMargin(NamedTuple):
 
 
 def armed(session: MotionSession, parameters: PenetrationParameters, owner: str) -> Attempt:
-    """Reserve every axis and return the attempt, all of whose way has been checked.
+    """Reserve all axes and return the attempt, with its whole path checked.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def check_now(
 
 
 def planned(session: MotionSession, parameters: PenetrationParameters) -> ThrustPlan:
-    """Return the thrust of parameters on this robot, wherever it stands.
+    """Return the thrust for parameters on this robot, at any position.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Recordings made into records: of what a machine did, and of what it can be told to do again."""
+"""Export of recordings as records, and as trajectories that can be played."""
 
 from collections.abc import Iterator
 from contextlib import suppress
@@ -30,7 +30,7 @@ _REST_S = 0.02  # for so long an axis must stand to count as at rest
 def export(
     recording: Recording, path: Path, begin_s: float = -np.inf, end_s: float = np.inf
 ) -> int:
-    """Write the samples between two host times as an ASCII record; return how many.
+    """Write the samples between two host times as an ASCII record; return their number.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def trajectory(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Span:
-    """What the pieces of a record share: where it begins, and which axes tell their ``u``."""
+    """The common data of the pieces of a record: its start, and the axes with ``u``."""
 
     first_s: float
     told: BoolArray
