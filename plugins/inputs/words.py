@@ -20,7 +20,7 @@ NOTHING_SENT = marked("inputs", "During set-up only stops are sent to the robot.
 ACTIONS = {
     Action.STOP: marked("inputs", "Stop"),
     Action.EMERGENCY_STOP: marked("inputs", "Stop and lock"),
-    Action.DEAD_MAN: marked("inputs", "Enable"),
+    Action.DEAD_MAN: marked("inputs", "Dead-man"),
     Action.CLUTCH: marked("inputs", "Clutch"),
     Action.FINE: marked("inputs", "Fine"),
     Action.COARSE: marked("inputs", "Coarse"),

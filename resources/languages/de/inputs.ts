@@ -415,10 +415,6 @@
         <translation>Während der Einrichtung wird nur Halt an den Roboter gesendet.</translation>
     </message>
     <message>
-        <source>Enable</source>
-        <translation>Zustimmung</translation>
-    </message>
-    <message>
         <source>Stop all axes; works from every device at any time</source>
         <translation>Alle Achsen anhalten; wirkt jederzeit von jedem Gerät</translation>
     </message>
@@ -719,6 +715,10 @@
     <message>
         <source>no axis is chosen: choose the axes to measure</source>
         <translation>keine Achse gewählt: die zu messenden wählen</translation>
+    </message>
+    <message>
+        <source>Dead-man</source>
+        <translation>Zustimmung</translation>
     </message>
 </context>
 <context>
