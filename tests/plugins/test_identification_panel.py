@@ -162,7 +162,7 @@ def test_an_axis_without_an_answer_is_named(qtbot, panel, answers, record):
     panel.take_record("noise", record)
     answers()
     choose(panel.controls.axis, "m2")
-    assert "m2 has no pair" in panel.notices.toPlainText()
+    assert "m2 lacks an input" in panel.notices.toPlainText()
     assert panel.findings is None
     choose(panel.controls.axis, "m1")
     assert answers().question.axis == "m1"
@@ -363,7 +363,7 @@ def test_a_health_card_is_kept_and_compared_with(qtbot, panel, answers, record):
     panel.controls.view.setCurrentText(View.HEALTH)
     first = answers()
     assert [row[0] for row in first.rows][:2] == ["gain", "resonance"]
-    assert "No card of this axis" in first.notices[0]
+    assert "no card of this axis" in first.notices[0]
     panel.controls.keep.click()
     qtbot.waitUntil(
         lambda: panel.findings is not None and "Last card" in panel.findings.notices[0],

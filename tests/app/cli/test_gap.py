@@ -104,10 +104,10 @@ def test_cautions_are_told_once_for_all_axes_and_files_are_named(asked, capsys):
     )
     assert main(["gap", "diagnose", "a.csv", "b.csv"]) == 0
     assert capsys.readouterr().err.splitlines()[:2] == [
-        "rotemina: a.csv: Rows are missing at 1 places of a record; the commands are taken as held "
-        "there.",
+        "rotemina: a.csv: Rows are missing at 1 places of a record; the commands are assumed "
+        "constant there.",
         "rotemina: x, zn: No independent reference (ref) was recorded: effects of the sensor "
-        "cannot be told from those of the axis.",
+        "cannot be distinguished from those of the axis.",
     ]
 
 

@@ -75,7 +75,7 @@ def test_a_wrong_reading_of_z_opens_nothing(misread, z):
         lambda: stepped.session.set_voltage("zn", 60.0),
         lambda: stepped.session.go_safely({"z": 0.05}),
     ):
-        with pytest.raises(OutOfLimitsError, match="only moves back in"):
+        with pytest.raises(OutOfLimitsError, match="may only move back inside"):
             request()
     stepped.step(times=10)
     assert stepped.session.snapshot().command["z"] == before

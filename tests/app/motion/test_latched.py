@@ -193,7 +193,7 @@ def test_while_latched_it_is_refused_and_nothing_moves(stepped, name):
     stepped.until_idle()
     stepped.session.emergency_stop("the operator")
     stepped.step(0.02, 3)
-    with pytest.raises(InputError, match="latched; release it first"):
+    with pytest.raises(InputError, match="active; release it first"):
         REFUSED[name](stepped.session)
     assert stands(stepped)
 

@@ -236,7 +236,7 @@ def test_undo_goes_back_by_a_safe_way(free):
     across = (x < there["x"] - 1e-4) & (x > begin["x"] + 1e-4)
     back = across & (np.arange(len(x)) > len(x) // 2)
     assert z[back].min() >= max(begin["z"], there["z"]) + 0.9e-3
-    with pytest.raises(RefusedError, match="no move to undo"):
+    with pytest.raises(RefusedError, match="no previous position"):
         free.session.undo()
 
 
@@ -253,7 +253,7 @@ def test_whether_there_is_a_move_to_take_back_is_known_and_ends_with_the_device(
     free.session.use(Simulator(free.driver.robot, clock=free.clock))
     free.step(times=3)
     assert not free.session.undoable
-    with pytest.raises(RefusedError, match="no move to undo"):
+    with pytest.raises(RefusedError, match="no previous position"):
         free.session.undo()
 
 

@@ -266,7 +266,7 @@ def test_a_playback_that_could_not_be_kept_is_not_lost_without_asking(
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
     assert len(question) == 2
     assert question[0].defaultButton().text() == "Stay"  # what Enter chooses
-    assert "in no file yet" in question[0].text()
+    assert "is not saved" in question[0].text()
 
 
 def test_quitting_during_a_playback_asks_first_and_keeps_what_was_played(

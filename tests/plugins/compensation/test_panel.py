@@ -87,7 +87,7 @@ def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
     controls, session = panel.controls, panel.workbench.session
     assert [controls.axis.itemData(k) for k in range(3)] == ["thx", "thy", "zn"]
     controls.axis.setCurrentIndex(2)
-    qtbot.waitUntil(lambda: "There is no inverse yet" in controls.switch.toolTip(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "There is no inverse" in controls.switch.toolTip(), timeout=LONG_MS)
     assert not controls.record.isEnabled()
 
     panel.workbench.record = _record(swing=0.01)  # holds no loop: nothing is replaced
@@ -144,7 +144,7 @@ def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_tak
 ):
     controls, session, search = panel.controls, panel.workbench.session, panel.search
     controls.axis.setCurrentIndex(2)
-    qtbot.waitUntil(lambda: "there is no front yet" in controls.keep.toolTip(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "there is no front" in controls.keep.toolTip(), timeout=LONG_MS)
     controls.generations.setValue(60)
     panel.tune()
     qtbot.waitUntil(lambda: "generations" in controls.doing.text(), timeout=LONG_MS)

@@ -96,7 +96,7 @@ def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
 def test_a_move_is_taken_back(qtbot, window, panel, press):
     session = window.workbench.session
     phase_is(qtbot, panel, "ready")
-    assert "no move to undo" in panel.position.back.toolTip()
+    assert "no previous position" in panel.position.back.toolTip()
     start = session.snapshot().command["zn"]
     window.workbench.jog("zn", 1e-6)
     press(panel.position.back)
@@ -134,7 +134,7 @@ def test_a_question_is_withdrawn_when_the_tip_moves(qtbot, window, panel, press)
     press(panel.tip.teach)
     window.workbench.jog("z", 1e-4)
     qtbot.waitUntil(panel.tip.question.isHidden, timeout=LONG_MS)
-    assert "no floor was taught" in notices(window)
+    assert "no floor was set" in notices(window)
 
 
 def test_a_voltage_is_put_out_after_a_question_that_says_where_it_leads(
@@ -344,7 +344,7 @@ def test_a_robot_without_tip_and_switches_says_so(qtbot, make_robot_window):
     window = make_robot_window("picma")
     panel = window.panels["connection"]
     qtbot.waitSignal(window.workbench.refreshed).wait()
-    assert "no switches" in panel.position.home_all.toolTip()
+    assert "no limit switches" in panel.position.home_all.toolTip()
     assert "no tip" in panel.tip.teach.toolTip()
     assert not panel.position.home
 

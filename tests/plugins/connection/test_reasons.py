@@ -35,7 +35,7 @@ DISTRUSTED = state(locked="the connection was lost: home, or confirm")
         (state(), True, "connected with these settings"),
         (GONE, True, None),
         (FAILED, True, None),
-        (CONNECTING, False, "still connecting"),
+        (CONNECTING, False, "is being opened"),
         (MOVING, False, "still moving"),
     ],
 )
@@ -68,7 +68,7 @@ def test_disconnecting_and_reconnecting_exclude_each_other():
 def test_homing(given, why):
     told = reasons.against_homing(given, SIMULATOR)
     assert told is None if why is None else why in told
-    assert "no switches" in reasons.against_homing(given, PIEZO_ONLY)
+    assert "no limit switches" in reasons.against_homing(given, PIEZO_ONLY)
 
 
 def test_only_a_doubtful_position_is_confirmed():

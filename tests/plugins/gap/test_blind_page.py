@@ -81,7 +81,7 @@ def test_shares_of_the_matrix_are_of_what_is_there(result):
 
 
 def test_a_result_that_cannot_be_read_is_told(tmp_path):
-    with pytest.raises(InputError, match="run it once more"):
+    with pytest.raises(InputError, match="run it again"):
         BlindResult.read(tmp_path / "missing.json")
     (tmp_path / "half.json").write_text("{")
     with pytest.raises(InputError, match=r"half\.json"):

@@ -160,7 +160,7 @@ def test_a_file_that_cannot_be_read_or_needs_names_becomes_a_notice(
     (tmp_path / "bare.csv").write_text("0,1\n1,2\n2,3\n")
     write_record(record, tmp_path / "good.csv")
     panel.records.add_files([tmp_path / "bare.csv", tmp_path / "good.csv"])
-    qtbot.waitUntil(lambda: "it has no header" in newest(window), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "no header" in newest(window), timeout=LONG_MS)
     qtbot.waitUntil(lambda: len(panel.records.chosen) == 1, timeout=LONG_MS)
     panel.records.add_files([tmp_path / "missing.csv"])
     qtbot.waitUntil(lambda: "missing.csv" in newest(window), timeout=LONG_MS)

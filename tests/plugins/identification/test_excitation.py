@@ -39,7 +39,7 @@ def test_every_motion_suits_the_axis_where_nothing_is_typed(robot, wave):
     assert motion.objection == ""
     assert motion.name == f"{wave} of Z nano"
     assert "of 5 mm/s" in motion.words
-    assert "inside all limits" in motion.words
+    assert "within all limits" in motion.words
 
 
 def test_what_is_typed_is_what_moves(robot):

@@ -177,7 +177,7 @@ def test_words_tell_uncertainties(status):
     assert tip_text(TipSeen(TipState.LOST, reason="covered")) == "lost: covered"
     known = stage_text("micro", status.calibration.micro)
     assert known.startswith("micro: 335.00 × 335.00 ± 0.00 nm/px, turned 0.000")
-    assert "residual 0.07 px, of 2026-03-04 05:06" in known
+    assert "residual 0.07 px, 2026-03-04 05:06" in known
     assert stage_text("nano", None) == "nano: not calibrated"
     assert target_text(2, Target(7.0, 8.0, Visit.FAILED, "no")) == "2   7, 8 px   failed: no"
     line = Measured(np.zeros(2), np.array([3.0, 4.0]), 5.0, None, np.radians(53.0), None)

@@ -259,7 +259,7 @@ def test_cells_are_gone_to_one_after_the_other_and_a_run_is_noted_with_the_armed
     qtbot.waitUntil(lambda: session.at_rest and at_the_second(), timeout=LONG_MS)
     press(qtbot, view.penetrate)
     assert phase(panel) is Phase.ARMED
-    qtbot.waitUntil(lambda: "armed or runs" in view.next.toolTip(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "armed or running" in view.next.toolTip(), timeout=LONG_MS)
     status = panel.workbench.operation.penetration.status
     failed = SimpleNamespace(verdict=Verdict.FAILED, thrust=None, started="now", reason="too soft")
     view.refresh(session.snapshot(), replace(status, phase=Phase.FAILED, run=failed), None)

@@ -147,7 +147,7 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
         assert "The recording has failed: No space left" in complaint.text()
         sign = window._bar.recording
         qtbot.waitUntil(lambda: sign.property("tone") == "danger", timeout=LONG_MS)
-        qtbot.waitUntil(lambda: "motion goes on" in notices(window)[0], timeout=LONG_MS)
+        qtbot.waitUntil(lambda: "the motion continues" in notices(window)[0], timeout=LONG_MS)
     qtbot.waitUntil(complaint.isHidden, timeout=LONG_MS)
 
     window.workbench.close()

@@ -61,7 +61,7 @@ def test_a_typed_number_has_the_unit_beside_it(name, text, value):
         ("contact_gain", "101", "101 %: must be at most 100 %"),
         ("way", "0,5", "'0,5' is not a number; enter one in mm with a decimal point"),
         ("damping_ratio", "", "'' is not a number; enter one with a decimal point"),
-        ("way", "nan", "'nan' is no number"),
+        ("way", "nan", "'nan' is not a number"),
     ],
 )
 def test_what_is_refused_names_its_bound(name, text, told):

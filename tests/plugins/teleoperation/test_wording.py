@@ -30,7 +30,7 @@ def device(source="hid", seat=OperatorRole.TRAINER, drives=True, problem=None, *
     name = {"hid": "Thrust <3>", "keys": "pad"}[source]
     identity = InputIdentity(f"{source}:1", name, source)
     axes = tuple(AxisView(a.upper(), 0.0, 0.0, a, reasons.get(a)) for a in "xyz")
-    axes += (AxisView("slider", 0.0, 0.0, None, "not yet seen at rest"),)
+    axes += (AxisView("slider", 0.0, 0.0, None, "not at rest yet"),)
     plugged = PluggedDevice(identity, ("X", "Y", "Z", "slider"), ())
     return DeviceView(
         plugged, seat, drives, problem, axes, frozenset(), None, Calibration(device=identity.key)
@@ -90,11 +90,11 @@ def test_a_loop_that_does_not_answer_is_told_before_all_else():
 @pytest.mark.parametrize(
     ("found", "why"),
     [
-        (DevicesView(), "just being opened"),
+        (DevicesView(), "being opened"),
         (PAD, None),
         (replace(PAD, setting_up=True), "being set up"),
-        (STICK, "Thrust <3> drives; take over"),
-        (DevicesView(1.0, (device("keys", None, drives=False),)), "nothing for the pad"),
+        (STICK, "Thrust <3> is in control; take over"),
+        (DevicesView(1.0, (device("keys", None, drives=False),)), "does not map the pad"),
     ],
 )
 def test_the_pad_says_why_it_moves_nothing(found, why):

@@ -219,7 +219,7 @@ def test_odd_gains_and_signs_are_told():
         odd = changed(record, {("zn", Tap.MEAS): factor * record.signal("zn", Tap.MEAS)})
         [caution] = check(ROBOT, [odd])
         assert (caution.axis, caution.record) == ("zn", 0)
-        assert f"{factor:.3g} × what is commanded" in str(caution.text)
+        assert f"{factor:.3g} × the command" in str(caution.text)
 
 
 def test_a_factor_on_axes_that_move_together_may_be_a_coupling():
@@ -235,7 +235,7 @@ def test_a_factor_on_axes_that_move_together_may_be_a_coupling():
     )
     cautions = check(ROBOT, [simulate(ROBOT, [coupled], together, np.random.default_rng(0))])
     assert [str(one.text).split(",")[0] for one in cautions] == [
-        f"The {tap} channel is 0.21 × what is commanded" for tap in ("ref", "meas")
+        f"The {tap} channel is 0.21 × the command" for tap in ("ref", "meas")
     ]
 
 
@@ -330,7 +330,7 @@ def test_single_missing_rows_and_scattered_times_are_told():
     assert str(caution.text).startswith("Rows are missing at 3 places of a record")
     scatter = 3e-4 * np.random.default_rng(0).uniform(-1.0, 1.0, 4000)
     [caution] = check(ROBOT, [timed(record, record.time_s + scatter)])
-    assert "their scatter passes for noise of the sensors" in str(caution.text)
+    assert "their scatter appears as sensor noise" in str(caution.text)
 
 
 def test_a_periodic_record_repeats_its_commands():

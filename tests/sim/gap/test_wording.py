@@ -94,7 +94,7 @@ def test_axes_without_a_gap_come_last_and_poor_records_say_so():
     poor = axis(Verdict.INSUFFICIENT, shrinkage=())
     quiet = {name: AxisDiagnosis(name, Verdict.NONE, ()) for name in ("x", "y")}
     assert said(poor, **quiet) == [
-        "zn: the records do not move it enough to tell what it lacks.",
+        "zn: the records do not move the axis enough for a diagnosis.",
         "No gap of its own on x and y.",
     ]
     assert details(Diagnosis(ROBOT, quiet), []) == summary(Diagnosis(ROBOT, quiet), [])

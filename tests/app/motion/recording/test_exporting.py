@@ -160,7 +160,7 @@ def test_a_gap_in_mid_move_is_refused(stepped, record):
     recorded.session.tap(recorded.recorder._on_samples)
     recorded.step(0.02, 40)
     recording = Recording.open(recorded.recorder.close())
-    with pytest.raises(RecordingError, match="ms of samples are missing in mid-move"):
+    with pytest.raises(RecordingError, match="ms of samples are missing during a move"):
         trajectory(recording, recording.began_s, recording.ended_s, 1e-3)
 
 

@@ -126,7 +126,7 @@ def test_a_stick_that_was_never_centred_moves_nothing_on_that_axis_only():
 def test_a_saturated_stick_is_named():
     bench = Bench().say(axes=(1.0, 0.0))
     assert "x" not in bench.run(1.0)[-1].deflections
-    assert "at its end from the first moment" in bench.reasons()[0]
+    assert "at its end from the start" in bench.reasons()[0]
 
 
 def test_a_jittering_axis_stops_acting_and_the_other_goes_on():
