@@ -6,7 +6,26 @@ import os
 from dataclasses import asdict
 from itertools import chain
 
+from rotemina.sim.messages import marked
+
 _BROKEN = 1
+_STATES = {
+    "ok": marked("cli", "ok"),
+    "limited": marked("cli", "limited"),
+    "broken": marked("cli", "broken"),
+}
+_NAMES = (
+    marked("cli", "dependencies"),
+    marked("cli", "Qt libraries"),
+    marked("cli", "Qt platform"),
+    marked("cli", "rendering"),
+    marked("cli", "serial ports"),
+    marked("cli", "line rate"),
+    marked("cli", "joysticks"),
+    marked("cli", "folders"),
+    marked("cli", "disk"),
+    marked("cli", "clock"),
+)
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -36,9 +55,12 @@ def run(options: argparse.Namespace) -> int:
     for found in chain(examine(os.environ), map(line_rate, options.port)):
         findings.append(found)
         if not options.json:
-            print(f"{found.state:9}{found.name:14}{found.seen}", flush=True)
+            say = options.wording
+            name = say.text("cli", found.name) if found.name in _NAMES else found.name
+            state = say.text("cli", _STATES[found.state])
+            print(f"{state:16}{name:22}{say.shown(found.seen)}", flush=True)
             if found.advice:
-                print(f"{'':23}→ {found.advice}", flush=True)
+                print(f"{'':38}→ {say.shown(found.advice)}", flush=True)
     if options.json:
         print(json.dumps([asdict(found) for found in findings], indent=1, ensure_ascii=False))
     return _BROKEN if any(found.state is State.BROKEN for found in findings) else 0

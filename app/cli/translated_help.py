@@ -32,6 +32,6 @@ def translate_parser(parser: argparse.ArgumentParser, text: Callable[[str], str]
             action.help = text(action.help)
         if isinstance(action, argparse._SubParsersAction):
             for listed in action._choices_actions:
-                listed.help = text(listed.help)
+                listed.help = text(listed.help or "")
             for own in action.choices.values():
                 translate_parser(own, text)

@@ -543,5 +543,57 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
         <source>{text} is not an integer</source>
         <translation>{text} ist keine ganze Zahl</translation>
     </message>
+    <message>
+        <source>ok</source>
+        <translation>in Ordnung</translation>
+    </message>
+    <message>
+        <source>limited</source>
+        <translation>eingeschränkt</translation>
+    </message>
+    <message>
+        <source>broken</source>
+        <translation>defekt</translation>
+    </message>
+    <message>
+        <source>dependencies</source>
+        <translation>Abhängigkeiten</translation>
+    </message>
+    <message>
+        <source>Qt libraries</source>
+        <translation>Qt-Bibliotheken</translation>
+    </message>
+    <message>
+        <source>Qt platform</source>
+        <translation>Qt-Plattform</translation>
+    </message>
+    <message>
+        <source>rendering</source>
+        <translation>Darstellung</translation>
+    </message>
+    <message>
+        <source>serial ports</source>
+        <translation>serielle Anschlüsse</translation>
+    </message>
+    <message>
+        <source>line rate</source>
+        <translation>Leitungsrate</translation>
+    </message>
+    <message>
+        <source>joysticks</source>
+        <translation>Joysticks</translation>
+    </message>
+    <message>
+        <source>folders</source>
+        <translation>Ordner</translation>
+    </message>
+    <message>
+        <source>disk</source>
+        <translation>Datenträger</translation>
+    </message>
+    <message>
+        <source>clock</source>
+        <translation>Uhr</translation>
+    </message>
 </context>
 </TS>

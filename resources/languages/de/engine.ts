@@ -4968,5 +4968,121 @@
         <source>{reason}: release it first</source>
         <translation>{reason}: zuerst loslassen</translation>
     </message>
+    <message>
+        <source>Plots need no GPU; the 3-D view is slower. A graphics driver speeds it up.</source>
+        <translation>Diagramme brauchen keine GPU; die 3-D-Ansicht ist langsamer. Ein Grafiktreiber beschleunigt sie.</translation>
+    </message>
+    <message>
+        <source>pip install &apos;rotemina[view3d]&apos;, or open the 3-D view in the browser.</source>
+        <translation>pip install &apos;rotemina[view3d]&apos;, oder die 3-D-Ansicht im Browser öffnen.</translation>
+    </message>
+    <message>
+        <source>the clock stands still</source>
+        <translation>die Uhr steht still</translation>
+    </message>
+    <message>
+        <source>Install again: pip install --upgrade rotemina (in its folder: pip install .).</source>
+        <translation>Neu installieren: pip install --upgrade rotemina (in seinem Ordner: pip install .).</translation>
+    </message>
+    <message>
+        <source>Without a display: QT_QPA_PLATFORM=offscreen. Otherwise see the Qt libraries above; with QT_DEBUG_PLUGINS=1 Qt names the missing plugin.</source>
+        <translation>Ohne Anzeige: QT_QPA_PLATFORM=offscreen. Sonst siehe die Qt-Bibliotheken oben; mit QT_DEBUG_PLUGINS=1 nennt Qt das fehlende Plugin.</translation>
+    </message>
+    <message>
+        <source>Commands work anyway. Start the window from a desktop.</source>
+        <translation>Befehle funktionieren trotzdem. Das Fenster von einem Desktop aus starten.</translation>
+    </message>
+    <message>
+        <source>not installed</source>
+        <translation>nicht installiert</translation>
+    </message>
+    <message>
+        <source>See &apos;When a joystick is missing&apos; in docs/inputs.md.</source>
+        <translation>Siehe „When a joystick is missing“ in docs/inputs.md.</translation>
+    </message>
+    <message>
+        <source>Give the user permission to write there, or set HOME or XDG_*_HOME elsewhere.</source>
+        <translation>Dem Benutzer dort Schreibrecht geben oder HOME bzw. XDG_*_HOME anders setzen.</translation>
+    </message>
+    <message>
+        <source>{count} packages, versions as required</source>
+        <translation>{count} Pakete, Versionen wie verlangt</translation>
+    </message>
+    <message>
+        <source>all for the platform {platform}</source>
+        <translation>alle für die Plattform {platform}</translation>
+    </message>
+    <message>
+        <source>it ended without a message</source>
+        <translation>es endete ohne Meldung</translation>
+    </message>
+    <message>
+        <source>by software ({renderer})</source>
+        <translation>durch Software ({renderer})</translation>
+    </message>
+    <message>
+        <source>installed</source>
+        <translation>installiert</translation>
+    </message>
+    <message>
+        <source>none connected</source>
+        <translation>keine angeschlossen</translation>
+    </message>
+    <message>
+        <source>{free} GB free for {folder}</source>
+        <translation>{free} GB frei für {folder}</translation>
+    </message>
+    <message>
+        <source>Install Python &gt;= {version}.</source>
+        <translation>Python &gt;= {version} installieren.</translation>
+    </message>
+    <message>
+        <source>missing: {names}</source>
+        <translation>es fehlen: {names}</translation>
+    </message>
+    <message>
+        <source>Qt does not start on {platform}: {reason}</source>
+        <translation>Qt startet auf {platform} nicht: {reason}</translation>
+    </message>
+    <message>
+        <source>{platform}: no display for a window</source>
+        <translation>{platform}: keine Anzeige für ein Fenster</translation>
+    </message>
+    <message>
+        <source>no OpenGL</source>
+        <translation>kein OpenGL</translation>
+    </message>
+    <message>
+        <source>sudo usermod -aG {group} $USER, then log in again.</source>
+        <translation>sudo usermod -aG {group} $USER, dann neu anmelden.</translation>
+    </message>
+    <message>
+        <source>no permission for {names}</source>
+        <translation>keine Berechtigung für {names}</translation>
+    </message>
+    <message>
+        <source>Free at least {least} MB.</source>
+        <translation>Mindestens {least} MB freigeben.</translation>
+    </message>
+    <message>
+        <source>An hour at 1 kHz takes 0.8 GB; {ample} GB are ample.</source>
+        <translation>Eine Stunde bei 1 kHz braucht 0,8 GB; {ample} GB reichen gut.</translation>
+    </message>
+    <message>
+        <source>steps of {step}</source>
+        <translation>Schritte von {step}</translation>
+    </message>
+    <message>
+        <source>Times are wrong by more than {bound} ms: use Python &gt;= 3.13.</source>
+        <translation>Zeiten sind um mehr als {bound} ms falsch: Python &gt;= 3.13 verwenden.</translation>
+    </message>
+    <message>
+        <source>{name} {found}, {needed} needed</source>
+        <translation>{name} {found}, nötig ist {needed}</translation>
+    </message>
+    <message>
+        <source>no answer within {limit} s</source>
+        <translation>keine Antwort binnen {limit} s</translation>
+    </message>
 </context>
 </TS>

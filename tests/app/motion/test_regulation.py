@@ -167,7 +167,7 @@ def test_what_does_not_fit_is_refused_before_anything_moves():
         regulation_of(ROBOT, tuning(delay=2), "a.toml")
     with pytest.raises(FeedbackError, match="tuned for robot 'RoTeMiNa', not for"):
         regulation_of(load_robot("picma"), tuning(), "a.toml")
-    with pytest.raises(FeedbackError, match="axis x of robot .* is not a piezo"):
+    with pytest.raises(FeedbackError, match=r"axis x of robot .* is not a piezo"):
         regulation_of(ROBOT, tuning(axis="x"), "a.toml")
     slow = NamedRegulation(Regulation(ROBOT, "zn", Gains(integral=5.0), 1500.0), "slow")
     with pytest.raises(InputError, match="must be a whole multiple"):
