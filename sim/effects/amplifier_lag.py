@@ -155,7 +155,7 @@ AMPLIFIER_LAG = Effect(
             parameters=(
                 TIME_CONSTANT,
                 Parameter("damping_ratio", "ζ; 0.5 with r = 1: Butterworth", "", 0.05, 0.95, 0.5),
-                Parameter("ratio", "r, of both time constants", "", 0.05, 20.0, 1.0),
+                Parameter("ratio", "r, ratio of both time constants", "", 0.05, 20.0, 1.0),
             ),
             acts=Drive(step=third_order, states=3, timed=True),
             inner_step_s=inner_step,

@@ -57,7 +57,7 @@ def fine_enough(_values: Values, facts: Facts) -> float:
     return _INNER_SHARE / facts.frequency_hz if facts.frequency_hz > 0.0 else _FREE_STEP_S
 
 
-SOFTNESS = Parameter("softness", "0: rigid; 1: taken up from the start on", "", 0.0, 1.0, 0.5)
+SOFTNESS = Parameter("softness", "0: rigid; 1: absorbed from the start", "", 0.0, 1.0, 0.5)
 WIDTH = Parameter("width", "of the play", "q", 0.0, 0.2, 1e-4, per="span")
 
 BACKLASH = Effect(

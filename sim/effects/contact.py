@@ -121,12 +121,23 @@ def _inner_step(values: Values, facts: Facts) -> float:
 
 
 _PLACE = Parameter(
-    "place", "where it is met, from the low end of the range", "q", 0.01, 0.99, 0.7, per="span"
+    "place",
+    "position of the contact, from the low end of the range",
+    "q",
+    0.01,
+    0.99,
+    0.7,
+    per="span",
 )
 _STIFFNESS = Parameter(
-    "stiffness", "over the axis' own; negative: met on the way down", "", -30.0, 30.0, 0.5
+    "stiffness",
+    "relative to the axis' own stiffness; negative: met on the way down",
+    "",
+    -30.0,
+    30.0,
+    0.5,
 )
-_DAMPING = Parameter("damping_ratio", "ζ, of the contact", "", 0.0, 2.0, 0.1)
+_DAMPING = Parameter("damping_ratio", "ζ, damping ratio of the contact", "", 0.0, 2.0, 0.1)
 _DISSIPATIVE = frozenset({Trait.MEMORYLESS, Trait.DISSIPATIVE})
 
 _PLACES = (0.4, 0.6, 0.8, 0.92)  # of the way to the end where something is met

@@ -83,8 +83,8 @@ CREEP = Effect(
             equation="y = x + γ Σ Δx log₁₀(1 + (t − tᵢ)/t₀), over the moves Δx at tᵢ of the run",
             source="Jung and Gweon, Review of Scientific Instruments 71 (2000) 1896–1900",
             parameters=(
-                Parameter("rate", "γ, of a move, per decade of time", "", 0.0, 0.1, 0.015),
-                Parameter("onset", "t₀, when the logarithm sets in", "s", 1e-3, 10.0, 0.1),
+                Parameter("rate", "γ, share of a move per decade of time", "", 0.0, 0.1, 0.015),
+                Parameter("onset", "t₀, start of the logarithm", "s", 1e-3, 10.0, 0.1),
             ),
             acts=Drive(step=relaxations, states=_STATES),
             prepare=_terms,

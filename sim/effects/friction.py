@@ -207,8 +207,8 @@ def _viscous(name: str, meaning: str) -> Parameter:
     return Parameter(name, meaning, "N s/q", 0.0, inf, 0.0, spare="free_damping")
 
 
-_STATIC_RATIO = Parameter("static_ratio", "of static over dry friction", "", 1.0, 3.0, 1.0)
-_STRIBECK = Parameter("stribeck_speed", "where static friction fades", "q/s", 1e-6, 1.0, 1e-3)
+_STATIC_RATIO = Parameter("static_ratio", "ratio of static to dry friction", "", 1.0, 3.0, 1.0)
+_STRIBECK = Parameter("stribeck_speed", "speed where static friction fades", "q/s", 1e-6, 1.0, 1e-3)
 
 _LADDER = (0.3, 3.0, 20.0)  # presets
 _DEFLECTIONS = (0.3, 2.0)
@@ -264,14 +264,14 @@ FRICTION = Effect(
                 _dry("coulomb", "dry friction"),
                 Parameter(
                     "deflection",
-                    "Fc/σ₀, by which bristles yield",
+                    "Fc/σ₀, deflection of the bristles",
                     "q",
                     1e-8,
                     1e-2,
                     1e-5,
                     per="span",
                 ),
-                Parameter("bristle_damping", "damping ratio on the bristles", "", 0.0, 2.0, 0.5),
+                Parameter("bristle_damping", "damping ratio of the bristles", "", 0.0, 2.0, 0.5),
                 _STATIC_RATIO,
                 _STRIBECK,
                 _viscous("viscous", "viscous friction"),
@@ -287,9 +287,19 @@ FRICTION = Effect(
             source="Iwan, J. Applied Mechanics 33 (1966) 893–900",
             parameters=(
                 _dry("coulomb", "dry friction forward"),
-                Parameter("backward", "dry friction backward over forward", "", 0.3, 3.0, 1.0),
-                Parameter("deflection", "L, where all slip", "q", 1e-8, 1e-2, 3e-5, per="span"),
-                Parameter("shape", "s, 0: all slip at once", "", 0.0, 4.0, 1.0),
+                Parameter(
+                    "backward", "ratio of dry friction, backward to forward", "", 0.3, 3.0, 1.0
+                ),
+                Parameter(
+                    "deflection",
+                    "L, deflection where all springs slip",
+                    "q",
+                    1e-8,
+                    1e-2,
+                    3e-5,
+                    per="span",
+                ),
+                Parameter("shape", "s, 0: all springs slip together", "", 0.0, 4.0, 1.0),
                 _viscous("viscous", "viscous friction"),
             ),
             acts=Force(step=springs, states=SPRINGS),

@@ -155,8 +155,10 @@ def _wound(values: Values, facts: Facts) -> tuple[float, ...]:
     )
 
 
-WIDTH = Parameter("width", "of the loop from end to end", "q", 0.0, 0.5, 0.1, per="span")
-SHAPE = Parameter("shape", "1: all plays weigh the same; more: wide ones do", "", 0.5, 4.0, 1.0)
+WIDTH = Parameter("width", "width of the loop from end to end", "q", 0.0, 0.5, 0.1, per="span")
+SHAPE = Parameter(
+    "shape", "1: equal weights of all plays; more: larger weights of wide plays", "", 0.5, 4.0, 1.0
+)
 _TRAITS = frozenset({Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE})
 
 HYSTERESIS = Effect(
@@ -203,14 +205,22 @@ HYSTERESIS = Effect(
             source="Song and Der Kiureghian, Journal of Engineering Mechanics 132 (2006) 610–618",
             parameters=(
                 Parameter(
-                    "width", "W, of a loop that is long beside ℓ", "q", 0.0, 0.5, 0.1, per="span"
+                    "width",
+                    "W, width of a loop that is long compared with ℓ",
+                    "q",
+                    0.0,
+                    0.5,
+                    0.1,
+                    per="span",
                 ),
                 Parameter(
-                    "reach", "ℓ, over which the loop bends", "q", 0.03, 2.0, 0.25, per="span"
+                    "reach", "ℓ, length over which the loop bends", "q", 0.03, 2.0, 0.25, per="span"
                 ),
                 Parameter("sharpness", "n", "", 1.0, 6.0, 1.0),
                 Parameter("winding", "β; 1/2: straight after a reversal", "", 0.5, 1.5, 1.0),
-                Parameter("asymmetry", "δ, of the way up against the way down", "", -0.8, 0.8, 0.1),
+                Parameter(
+                    "asymmetry", "δ, asymmetry of the way up and the way down", "", -0.8, 0.8, 0.1
+                ),
             ),
             acts=Drive(step=bouc_wen, states=2),
             prepare=_wound,
@@ -223,7 +233,7 @@ HYSTERESIS = Effect(
             parameters=tuple(
                 Parameter(
                     f"weight_{i}",
-                    f"w{i}, of the play with threshold {((i - 0.5) / 10) ** 2 / 2:g}",
+                    f"w{i}, weight of the play with threshold {((i - 0.5) / 10) ** 2 / 2:g}",
                     "",
                     0.0,
                     2.0,

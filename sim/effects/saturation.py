@@ -148,7 +148,7 @@ SATURATION = Effect(
             source="Rapp, 2nd European Conference on Satellite Communications (1991) 179–184",
             parameters=(
                 *_MARGINS,
-                Parameter("softness", "1/n; 0 is the hard one", "", 0.0, 0.5, 0.08),
+                Parameter("softness", "1/n; 0: hard", "", 0.0, 0.5, 0.08),
             ),
             acts=Drive(step=soft),
             prepare=_ends,

@@ -153,7 +153,7 @@ SENSOR_LAG = Effect(
             parameters=(
                 _TIME_CONSTANT,
                 Parameter("damping_ratio", "ζ; 0.5 with r = 1: Butterworth", "", 0.05, 0.95, 0.5),
-                Parameter("ratio", "r, of both time constants", "", 0.05, 20.0, 1.0),
+                Parameter("ratio", "r, ratio of both time constants", "", 0.05, 20.0, 1.0),
             ),
             acts=Reading(step=third_order, states=4),
             inner_step_s=_between_samples,

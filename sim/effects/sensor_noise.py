@@ -31,7 +31,13 @@ SENSOR_NOISE = Effect(
             source="Fleming, Sensors and Actuators A 190 (2013) 106–126",
             parameters=(
                 Parameter(
-                    "rms", "σ, beside the declared noise", "q", 0.0, 1000.0, 3.0, per="noise"
+                    "rms",
+                    "σ, in addition to the declared noise",
+                    "q",
+                    0.0,
+                    1000.0,
+                    3.0,
+                    per="noise",
                 ),
             ),
             acts=Reading(step=noisy, random=True),

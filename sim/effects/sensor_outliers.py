@@ -57,8 +57,8 @@ def held(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compile
     return x
 
 
-_RATE = Parameter("rate", "how often it happens", "1/s", 0.0, 100.0, 1.0)
-_DURATION = Parameter("duration", "of a dropout; 0: one sample", "s", 0.0, 1.0, 0.0)
+_RATE = Parameter("rate", "rate of occurrence", "1/s", 0.0, 100.0, 1.0)
+_DURATION = Parameter("duration", "duration of a dropout; 0: one sample", "s", 0.0, 1.0, 0.0)
 _SOURCE = "Barnett and Lewis, Outliers in Statistical Data, 3rd ed. (1994), ch. 2"
 _TRAITS = frozenset({Trait.RANDOM, Trait.READING_ONLY})
 

@@ -67,7 +67,7 @@ def soft(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compile
     return x - mean if forward else x + mean
 
 
-RATE = Parameter("rate", "r, the greatest; current over capacitance", "u/s", 0.1, 1e6, 100.0,
+RATE = Parameter("rate", "r, maximum rate; current over capacitance", "u/s", 0.1, 1e6, 100.0,
                  per="input_span")  # fmt: skip
 _TRAITS = frozenset({Trait.TRANSIENT, Trait.MEMORYLESS})
 
@@ -111,7 +111,7 @@ SLEW_LIMIT = Effect(
             "5th ed. (2009), ch. 9.6: an emitter-coupled pair charges a capacitor",
             parameters=(
                 RATE,
-                Parameter("time_constant", "τ, of small changes", "s", 1e-9, 0.1, 3e-4),
+                Parameter("time_constant", "τ, for small changes", "s", 1e-9, 0.1, 3e-4),
             ),
             acts=Drive(step=soft, states=1, timed=True),
             inner_step_s=inner_step,

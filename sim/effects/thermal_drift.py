@@ -35,7 +35,7 @@ THERMAL_DRIFT = Effect(
             parameters=(
                 Parameter(
                     "amplitude",
-                    "A, where the drift ends",
+                    "A, final drift",
                     "q",
                     -0.1,
                     0.1,

@@ -556,36 +556,12 @@
         <translation>weiß</translation>
     </message>
     <message>
-        <source>0: rigid; 1: taken up from the start on</source>
-        <translation>0: starr; 1: von Anfang an aufgenommen</translation>
-    </message>
-    <message>
-        <source>1/n; 0 is the hard one</source>
-        <translation>1/n; 0 ist die harte</translation>
-    </message>
-    <message>
-        <source>1: all plays weigh the same; more: wide ones do</source>
-        <translation>1: alle Spiele gleich schwer; mehr: breite schwerer</translation>
-    </message>
-    <message>
         <source>A, mean</source>
         <translation>A, Mittel</translation>
     </message>
     <message>
-        <source>A, where the drift ends</source>
-        <translation>A, wo die Drift endet</translation>
-    </message>
-    <message>
-        <source>Fc/σ₀, by which bristles yield</source>
-        <translation>Fc/σ₀, um das Borsten nachgeben</translation>
-    </message>
-    <message>
         <source>L, rms per factor e of frequency</source>
         <translation>L, rms je Faktor e der Frequenz</translation>
-    </message>
-    <message>
-        <source>L, where all slip</source>
-        <translation>L, wo alle gleiten</translation>
     </message>
     <message>
         <source>P, four full steps</source>
@@ -604,18 +580,6 @@
         <translation>S₂, mit seinem Kosinus: ungleiche Verstärkungen, Phase nicht 90°</translation>
     </message>
     <message>
-        <source>W, of a loop that is long beside ℓ</source>
-        <translation>W, einer Schleife, die lang gegen ℓ ist</translation>
-    </message>
-    <message>
-        <source>a, of its deflection</source>
-        <translation>a, ihrer Auslenkung</translation>
-    </message>
-    <message>
-        <source>a₁, a bow</source>
-        <translation>a₁, ein Bogen</translation>
-    </message>
-    <message>
         <source>b at mid-range, as a share of the range</source>
         <translation>b in Bereichsmitte, als Anteil des Bereichs</translation>
     </message>
@@ -624,28 +588,8 @@
         <translation>b, Fehler in Bereichsmitte</translation>
     </message>
     <message>
-        <source>b, of its speed over ω</source>
-        <translation>b, ihrer Geschwindigkeit durch ω</translation>
-    </message>
-    <message>
-        <source>c, greatest of the odd part</source>
-        <translation>c, Größtwert des ungeraden Teils</translation>
-    </message>
-    <message>
-        <source>c₁, greatest as the run begins</source>
-        <translation>c₁, am größten zu Beginn</translation>
-    </message>
-    <message>
-        <source>c₂, of the second harmonic</source>
-        <translation>c₂, der zweiten Oberwelle</translation>
-    </message>
-    <message>
         <source>c₂, twice a period</source>
         <translation>c₂, zweimal je Periode</translation>
-    </message>
-    <message>
-        <source>damping ratio on the bristles</source>
-        <translation>Dämpfungsgrad der Borsten</translation>
     </message>
     <message>
         <source>dry friction</source>
@@ -656,16 +600,8 @@
         <translation>trockene Reibung rückwärts</translation>
     </message>
     <message>
-        <source>dry friction backward over forward</source>
-        <translation>trockene Reibung rückwärts zu vorwärts</translation>
-    </message>
-    <message>
         <source>dry friction forward</source>
         <translation>trockene Reibung vorwärts</translation>
-    </message>
-    <message>
-        <source>e, of the sensitivity</source>
-        <translation>e, der Empfindlichkeit</translation>
     </message>
     <message>
         <source>e, relative</source>
@@ -676,42 +612,6 @@
         <translation>Zunahme der Steigung von Ende zu Ende</translation>
     </message>
     <message>
-        <source>how far inside the high end of the input&apos;s range the output ends</source>
-        <translation>wie weit vor dem oberen Ende des Eingangsbereichs der Ausgang endet</translation>
-    </message>
-    <message>
-        <source>how far inside the low end of the input&apos;s range the output ends</source>
-        <translation>wie weit vor dem unteren Ende des Eingangsbereichs der Ausgang endet</translation>
-    </message>
-    <message>
-        <source>how often it happens</source>
-        <translation>wie oft es geschieht</translation>
-    </message>
-    <message>
-        <source>motion here over motion there</source>
-        <translation>Bewegung hier zu Bewegung dort</translation>
-    </message>
-    <message>
-        <source>n; whole on a machine, any number here so that a fit can move it</source>
-        <translation>n; an der Maschine ganz, hier beliebig, damit eine Anpassung es ändern kann</translation>
-    </message>
-    <message>
-        <source>of a dropout; 0: one sample</source>
-        <translation>eines Ausfalls; 0: eine Abtastung</translation>
-    </message>
-    <message>
-        <source>of static over dry friction</source>
-        <translation>von Haft- zu Gleitreibung</translation>
-    </message>
-    <message>
-        <source>of the lag behind the field</source>
-        <translation>des Nachlaufs hinter dem Feld</translation>
-    </message>
-    <message>
-        <source>of the loop from end to end</source>
-        <translation>der Schleife von Ende zu Ende</translation>
-    </message>
-    <message>
         <source>of the mode</source>
         <translation>der Eigenform</translation>
     </message>
@@ -720,72 +620,20 @@
         <translation>des Spiels</translation>
     </message>
     <message>
-        <source>of the stretch</source>
-        <translation>des Abschnitts</translation>
-    </message>
-    <message>
-        <source>of the stretch, from the low end of the range</source>
-        <translation>des Abschnitts, vom unteren Bereichsende</translation>
-    </message>
-    <message>
-        <source>over the axis&apos; own; negative: met on the way down</source>
-        <translation>zu der eigenen der Achse; negativ: auf dem Weg abwärts getroffen</translation>
-    </message>
-    <message>
-        <source>p, of the grating</source>
-        <translation>p, des Gitters</translation>
-    </message>
-    <message>
         <source>peak of c, as a share of the range</source>
         <translation>Größtwert von c, als Anteil des Bereichs</translation>
-    </message>
-    <message>
-        <source>r, of both time constants</source>
-        <translation>r, beider Zeitkonstanten</translation>
-    </message>
-    <message>
-        <source>r, of the motion seen through the link</source>
-        <translation>r, der durch die Kopplung gesehenen Bewegung</translation>
-    </message>
-    <message>
-        <source>r, of the static motion that goes this way</source>
-        <translation>r, der statischen Bewegung auf diesem Weg</translation>
     </message>
     <message>
         <source>r, rms after one second</source>
         <translation>r, rms nach einer Sekunde</translation>
     </message>
     <message>
-        <source>r, the greatest; current over capacitance</source>
-        <translation>r, die größte; Strom durch Kapazität</translation>
-    </message>
-    <message>
-        <source>r; more than 0: readings come later</source>
-        <translation>r; über 0: Messwerte kommen später</translation>
-    </message>
-    <message>
-        <source>s, 0: all slip at once</source>
-        <translation>s, 0: alle gleiten zugleich</translation>
-    </message>
-    <message>
         <source>s₁, counted from mid-range xₘ</source>
         <translation>s₁, gezählt von der Bereichsmitte xₘ</translation>
     </message>
     <message>
-        <source>s₁, zero as the run begins</source>
-        <translation>s₁, null zu Beginn</translation>
-    </message>
-    <message>
-        <source>s₂, of the second harmonic</source>
-        <translation>s₂, der zweiten Oberwelle</translation>
-    </message>
-    <message>
         <source>s₂, twice a period</source>
         <translation>s₂, zweimal je Periode</translation>
-    </message>
-    <message>
-        <source>t₀, when the logarithm sets in</source>
-        <translation>t₀, wann der Logarithmus einsetzt</translation>
     </message>
     <message>
         <source>t₁, from the start of the run</source>
@@ -804,22 +652,6 @@
         <translation>viskose Reibung vorwärts</translation>
     </message>
     <message>
-        <source>where it is met, from the low end of the range</source>
-        <translation>wo er getroffen wird, vom unteren Bereichsende</translation>
-    </message>
-    <message>
-        <source>where it is straight, from mid-range</source>
-        <translation>wo sie gerade ist, von der Bereichsmitte</translation>
-    </message>
-    <message>
-        <source>where static friction fades</source>
-        <translation>wo die Haftreibung abklingt</translation>
-    </message>
-    <message>
-        <source>z, where in a step the zero lies</source>
-        <translation>z, wo in einer Stufe die Null liegt</translation>
-    </message>
-    <message>
         <source>β; 1/2: straight after a reversal</source>
         <translation>β; 1/2: gerade nach einer Umkehr</translation>
     </message>
@@ -828,64 +660,16 @@
         <translation>β; negativ: auf dem Weg abwärts getroffen</translation>
     </message>
     <message>
-        <source>γ, of a move, per decade of time</source>
-        <translation>γ, einer Bewegung, je Dekade der Zeit</translation>
-    </message>
-    <message>
-        <source>δ, of the natural frequency</source>
-        <translation>δ, der Eigenfrequenz</translation>
-    </message>
-    <message>
-        <source>δ, of the way up against the way down</source>
-        <translation>δ, des Hinwegs gegen den Rückweg</translation>
-    </message>
-    <message>
-        <source>ε, of the damping ratio</source>
-        <translation>ε, des Dämpfungsgrads</translation>
-    </message>
-    <message>
         <source>ε, share of further force at L from q₀</source>
         <translation>ε, Anteil der weiteren Kraft bei L von q₀</translation>
-    </message>
-    <message>
-        <source>ζ, of the contact</source>
-        <translation>ζ, des Kontakts</translation>
     </message>
     <message>
         <source>κ, logarithm of the slopes&apos; ratio</source>
         <translation>κ, Logarithmus des Steigungsverhältnisses</translation>
     </message>
     <message>
-        <source>μ, of its mass over the axis&apos;</source>
-        <translation>μ, ihrer Masse zu der der Achse</translation>
-    </message>
-    <message>
-        <source>μ, the same of the fifth power</source>
-        <translation>μ, dasselbe der fünften Potenz</translation>
-    </message>
-    <message>
-        <source>σ, beside the declared noise</source>
-        <translation>σ, neben dem angegebenen Rauschen</translation>
-    </message>
-    <message>
-        <source>σ, of the grid, in steps</source>
-        <translation>σ, des Rasters, in Stufen</translation>
-    </message>
-    <message>
-        <source>τ, of small changes</source>
-        <translation>τ, kleiner Änderungen</translation>
-    </message>
-    <message>
         <source>τ; the bandwidth is 1/(2πτ)</source>
         <translation>τ; die Bandbreite ist 1/(2πτ)</translation>
-    </message>
-    <message>
-        <source>ℓ, over which the loop bends</source>
-        <translation>ℓ, über die sich die Schleife biegt</translation>
-    </message>
-    <message>
-        <source>{name}, of the play with threshold {threshold}</source>
-        <translation>{name}, des Spiels mit Schwelle {threshold}</translation>
     </message>
     <message>
         <source>Reset {name} to its preset</source>
@@ -1034,6 +818,222 @@
     <message>
         <source>Turn the effect on or off</source>
         <translation>Den Effekt ein- oder ausschalten</translation>
+    </message>
+    <message>
+        <source>0: rigid; 1: absorbed from the start</source>
+        <translation>0: starr; 1: von Anfang an aufgenommen</translation>
+    </message>
+    <message>
+        <source>1/n; 0: hard</source>
+        <translation>1/n; 0: hart</translation>
+    </message>
+    <message>
+        <source>1: equal weights of all plays; more: larger weights of wide plays</source>
+        <translation>1: alle Spiele gleich gewichtet; mehr: breite stärker</translation>
+    </message>
+    <message>
+        <source>A, final drift</source>
+        <translation>A, Endwert der Drift</translation>
+    </message>
+    <message>
+        <source>Fc/σ₀, deflection of the bristles</source>
+        <translation>Fc/σ₀, Auslenkung der Borsten</translation>
+    </message>
+    <message>
+        <source>L, deflection where all springs slip</source>
+        <translation>L, Auslenkung, bei der alle gleiten</translation>
+    </message>
+    <message>
+        <source>W, width of a loop that is long compared with ℓ</source>
+        <translation>W, Breite einer Schleife, die lang gegen ℓ ist</translation>
+    </message>
+    <message>
+        <source>a, share of the mode&apos;s deflection</source>
+        <translation>a, Anteil der Auslenkung der Eigenform</translation>
+    </message>
+    <message>
+        <source>a₁, curvature</source>
+        <translation>a₁, Bogen</translation>
+    </message>
+    <message>
+        <source>b, share of the mode&apos;s speed over ω</source>
+        <translation>b, Anteil der Geschwindigkeit der Eigenform durch ω</translation>
+    </message>
+    <message>
+        <source>c, maximum of the odd part</source>
+        <translation>c, Größtwert des ungeraden Teils</translation>
+    </message>
+    <message>
+        <source>c₁, maximum at the start of the run</source>
+        <translation>c₁, am größten zu Beginn</translation>
+    </message>
+    <message>
+        <source>c₂, second harmonic</source>
+        <translation>c₂, zweite Oberwelle</translation>
+    </message>
+    <message>
+        <source>damping ratio of the bristles</source>
+        <translation>Dämpfungsgrad der Borsten</translation>
+    </message>
+    <message>
+        <source>ratio of dry friction, backward to forward</source>
+        <translation>Verhältnis der trockenen Reibung, rückwärts zu vorwärts</translation>
+    </message>
+    <message>
+        <source>e, error of the sensitivity</source>
+        <translation>e, Fehler der Empfindlichkeit</translation>
+    </message>
+    <message>
+        <source>distance of the output&apos;s limit from the high end of the input range</source>
+        <translation>Abstand der Ausgangsgrenze vom oberen Ende des Eingangsbereichs</translation>
+    </message>
+    <message>
+        <source>distance of the output&apos;s limit from the low end of the input range</source>
+        <translation>Abstand der Ausgangsgrenze vom unteren Ende des Eingangsbereichs</translation>
+    </message>
+    <message>
+        <source>rate of occurrence</source>
+        <translation>Häufigkeit</translation>
+    </message>
+    <message>
+        <source>ratio of the motion here to the motion there</source>
+        <translation>Verhältnis der Bewegung hier zur Bewegung dort</translation>
+    </message>
+    <message>
+        <source>n; an integer on a machine, any number here so that a fit can vary it</source>
+        <translation>n; an der Maschine ganz, hier beliebig, damit eine Anpassung es ändern kann</translation>
+    </message>
+    <message>
+        <source>duration of a dropout; 0: one sample</source>
+        <translation>Dauer eines Ausfalls; 0: eine Abtastung</translation>
+    </message>
+    <message>
+        <source>ratio of static to dry friction</source>
+        <translation>Verhältnis von Haft- zu Gleitreibung</translation>
+    </message>
+    <message>
+        <source>limit of the lag behind the field</source>
+        <translation>Grenze des Nachlaufs hinter dem Feld</translation>
+    </message>
+    <message>
+        <source>width of the loop from end to end</source>
+        <translation>Breite der Schleife von Ende zu Ende</translation>
+    </message>
+    <message>
+        <source>end of the section</source>
+        <translation>Ende des Abschnitts</translation>
+    </message>
+    <message>
+        <source>start of the section, from the low end of the range</source>
+        <translation>Anfang des Abschnitts, vom unteren Bereichsende</translation>
+    </message>
+    <message>
+        <source>relative to the axis&apos; own stiffness; negative: met on the way down</source>
+        <translation>relativ zur Steifigkeit der Achse; negativ: auf dem Weg abwärts getroffen</translation>
+    </message>
+    <message>
+        <source>p, period of the grating</source>
+        <translation>p, Periode des Gitters</translation>
+    </message>
+    <message>
+        <source>r, ratio of both time constants</source>
+        <translation>r, Verhältnis der Zeitkonstanten</translation>
+    </message>
+    <message>
+        <source>r, share of the motion seen through the link</source>
+        <translation>r, Anteil der durch die Kopplung gesehenen Bewegung</translation>
+    </message>
+    <message>
+        <source>r, share of the static motion along this path</source>
+        <translation>r, Anteil der statischen Bewegung auf diesem Weg</translation>
+    </message>
+    <message>
+        <source>r, maximum rate; current over capacitance</source>
+        <translation>r, größte Rate; Strom durch Kapazität</translation>
+    </message>
+    <message>
+        <source>r; above 0: readings come later</source>
+        <translation>r; über 0: Messwerte kommen später</translation>
+    </message>
+    <message>
+        <source>s, 0: all springs slip together</source>
+        <translation>s, 0: alle gleiten zugleich</translation>
+    </message>
+    <message>
+        <source>s₁, zero at the start of the run</source>
+        <translation>s₁, null zu Beginn</translation>
+    </message>
+    <message>
+        <source>s₂, second harmonic</source>
+        <translation>s₂, zweite Oberwelle</translation>
+    </message>
+    <message>
+        <source>t₀, start of the logarithm</source>
+        <translation>t₀, Beginn des Logarithmus</translation>
+    </message>
+    <message>
+        <source>position of the contact, from the low end of the range</source>
+        <translation>Position des Kontakts, vom unteren Bereichsende</translation>
+    </message>
+    <message>
+        <source>position of the straight part, from mid-range</source>
+        <translation>Position des geraden Teils, von der Bereichsmitte</translation>
+    </message>
+    <message>
+        <source>speed where static friction fades</source>
+        <translation>Geschwindigkeit, bei der die Haftreibung abklingt</translation>
+    </message>
+    <message>
+        <source>z, position of zero within a step</source>
+        <translation>z, Lage der Null in einer Stufe</translation>
+    </message>
+    <message>
+        <source>γ, share of a move per decade of time</source>
+        <translation>γ, Anteil einer Bewegung je Dekade der Zeit</translation>
+    </message>
+    <message>
+        <source>δ, error of the natural frequency</source>
+        <translation>δ, Fehler der Eigenfrequenz</translation>
+    </message>
+    <message>
+        <source>δ, asymmetry of the way up and the way down</source>
+        <translation>δ, Asymmetrie von Hin- und Rückweg</translation>
+    </message>
+    <message>
+        <source>ε, error of the damping ratio</source>
+        <translation>ε, Fehler des Dämpfungsgrads</translation>
+    </message>
+    <message>
+        <source>ζ, damping ratio of the contact</source>
+        <translation>ζ, Dämpfungsgrad des Kontakts</translation>
+    </message>
+    <message>
+        <source>μ, ratio of its mass to the axis&apos; mass</source>
+        <translation>μ, Verhältnis ihrer Masse zu der der Achse</translation>
+    </message>
+    <message>
+        <source>μ, the same for the fifth power</source>
+        <translation>μ, dasselbe für die fünfte Potenz</translation>
+    </message>
+    <message>
+        <source>σ, in addition to the declared noise</source>
+        <translation>σ, zusätzlich zum angegebenen Rauschen</translation>
+    </message>
+    <message>
+        <source>σ, shift of the grid, in steps</source>
+        <translation>σ, Verschiebung des Rasters, in Stufen</translation>
+    </message>
+    <message>
+        <source>τ, for small changes</source>
+        <translation>τ, für kleine Änderungen</translation>
+    </message>
+    <message>
+        <source>ℓ, length over which the loop bends</source>
+        <translation>ℓ, Länge, über die sich die Schleife biegt</translation>
+    </message>
+    <message>
+        <source>{name}, weight of the play with threshold {threshold}</source>
+        <translation>{name}, Gewicht des Spiels mit Schwelle {threshold}</translation>
     </message>
 </context>
 <context>

@@ -4686,6 +4686,7 @@
     </message>
     <message>
         <source>{trouble}; nothing moves</source>
+        <extracomment>Why the latest run was ended from here; empty if it was not.</extracomment>
         <translation>{trouble}; nichts bewegt sich</translation>
     </message>
     <message>
@@ -4730,6 +4731,7 @@
     </message>
     <message>
         <source>robot {name} has no tip for a floor to limit</source>
+        <extracomment>To what ranges of axes were narrowed; replaced as a whole.</extracomment>
         <translation>Roboter {name} hat keine Spitze, für die ein Boden gelten könnte</translation>
     </message>
     <message>
@@ -4766,10 +4768,12 @@
     </message>
     <message>
         <source>{stop} is active; release it first</source>
+        <extracomment>Why no motion is accepted on any path; None while it is. Host time of the latest stop, whoever asked for it; None before the first.</extracomment>
         <translation>{stop} ist aktiv; erst freigeben</translation>
     </message>
     <message>
         <source>the input devices are released</source>
+        <extracomment>What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man of the pad would only keep it from acting. What is wrong with files of the user&apos;s, told at the start. Calibrations of sensors: those that are on correct readings from the start. The pad on the screen and its keys: a device like any other.</extracomment>
         <translation>die Eingabegeräte werden losgelassen</translation>
     </message>
     <message>
@@ -4878,6 +4882,7 @@
     </message>
     <message>
         <source>the model predicts an overshoot beyond the range of more than {margin} (1 % of the range): smooth or stretch the trajectory, or keep it away from the end of the range</source>
+        <extracomment>How far beyond its range, in shares of it, an axis may be predicted to swing.</extracomment>
         <translation>das Modell sagt ein Überschwingen um mehr als {margin} (1 % des Bereichs) über den Bereich hinaus voraus: die Trajektorie glätten, strecken oder vom Ende des Bereichs fernhalten</translation>
     </message>
     <message>
@@ -4950,6 +4955,7 @@
     </message>
     <message>
         <source>inverse of axis {axis}: the axis is at {at}, but the inverse covers {low} to {high}: move the axis there first</source>
+        <extracomment>In what each axis that has an inverse has gone beyond it; replaced as a whole.</extracomment>
         <translation>Inverse von Achse {axis}: die Achse ist bei {at}, die Inverse reicht von {low} bis {high}: die Achse erst dorthin fahren</translation>
     </message>
     <message>

@@ -404,6 +404,7 @@
     </message>
     <message>
         <source>{action}: the threshold of {percent:g} % of the deflection must be {least:g} to 100 % in either direction</source>
+        <extracomment>What the device is to do now; None: the profile has nothing for it.</extracomment>
         <translation>{action}: die Schwelle von {percent:g} % der Auslenkung muss {least:g} bis 100 % in eine der Richtungen betragen</translation>
     </message>
     <message>
@@ -714,6 +715,7 @@
     </message>
     <message>
         <source>no axis is chosen: choose the axes to measure</source>
+        <extracomment>What is in use. What was changed, and is not yet in use. Of the latest measurement: axes that stay as they were, and why.</extracomment>
         <translation>keine Achse gewählt: die zu messenden wählen</translation>
     </message>
     <message>

@@ -845,6 +845,7 @@
     </message>
     <message>
         <source>table: {n} points; must be 2 to {most}, one per line, from 0, 0 to 1, 1</source>
+        <extracomment>What a table begins with: slow first, fast in the middle.</extracomment>
         <translation>Tabelle: {n} Punkte; erlaubt 2 bis {most}, je eine Zeile, von 0, 0 bis 1, 1</translation>
     </message>
     <message>
@@ -1037,6 +1038,7 @@
     </message>
     <message>
         <source>a cell at {at} of {axis} must be within {least} to {most}; move the axis away from its end first</source>
+        <extracomment>Where a cell is put and how stiff it is beside the axis itself, unless told otherwise.</extracomment>
         <translation>eine Zelle bei {at} von {axis} muss in {least} bis {most} liegen; die Achse zuerst vom Ende wegfahren</translation>
     </message>
     <message>

@@ -1895,6 +1895,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>Program error: {error}. The log has details; please save a support bundle.</source>
+        <extracomment>What a panel may raise in slots and timers before it is left out.</extracomment>
         <translation>Programmfehler: {error}. Das Protokoll enthält Einzelheiten; bitte ein Support-Paket speichern.</translation>
     </message>
     <message>
