@@ -213,7 +213,7 @@ def _number(name: str, text: str, unit: str) -> float | None:
         raise ExcitationError(
             translate(
                 "identification",
-                '{name}: "{text}" is not a number in {unit}; enter a value such as 2.5 '
+                "{name}: {text} is not a number in {unit}; enter a value such as 2.5 "
                 "{unit}, or leave the field empty",
             ).format(name=translate("identification", name), text=repr(text[:40]), unit=unit)
         )

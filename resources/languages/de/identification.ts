@@ -577,10 +577,6 @@
         <translation>Trockenlauf: innerhalb aller Grenzen, auch der Spitze.</translation>
     </message>
     <message>
-        <source>{name}: &quot;{text}&quot; is not a number in {unit}; enter a value such as 2.5 {unit}, or leave the field empty</source>
-        <translation>{name}: „{text}“ ist keine Zahl in {unit}; einen Wert wie 2,5 {unit} eingeben oder das Feld leer lassen</translation>
-    </message>
-    <message>
         <source>Excite an axis, play a trajectory or open a record to identify the machine.</source>
         <translation>Eine Achse anregen, eine Trajektorie abspielen oder eine Aufzeichnung öffnen, um die Maschine zu identifizieren.</translation>
     </message>
@@ -743,6 +739,10 @@
     <message>
         <source>{axis}: input and output are both {tap}; choose two different signals</source>
         <translation>{axis}: Eingang und Ausgang sind beide {tap}; zwei verschiedene Signale wählen</translation>
+    </message>
+    <message>
+        <source>{name}: {text} is not a number in {unit}; enter a value such as 2.5 {unit}, or leave the field empty</source>
+        <translation>{name}: {text} ist keine Zahl in {unit}; einen Wert wie 2,5 {unit} eingeben oder das Feld leer lassen</translation>
     </message>
 </context>
 <context>

@@ -112,7 +112,7 @@ def test_a_floor_is_taught_after_a_question_that_names_both_heights(qtbot, windo
     press(tip.teach)
     assert tip.question.isVisibleTo(panel)
     assert shown in tip.question.text.text()
-    assert "none yet" in tip.question.text.text()
+    assert "there is none" in tip.question.text.text()
     qtbot.mouseClick(tip.question.no, Qt.MouseButton.LeftButton)
     assert tip.question.isHidden()
     assert not session.bounds.keep_out.bounded
@@ -261,7 +261,7 @@ def test_another_device_leads_back_to_no_place_of_the_first(qtbot, window, panel
     ("name", "text", "told"),
     [
         ("settle_s", "0,5", "decimal point"),
-        ("settle_s", "1_0", "no number"),
+        ("settle_s", "1_0", "not a number"),
         ("seed", "1.5", "no whole number"),
     ],
 )

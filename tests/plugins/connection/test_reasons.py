@@ -73,8 +73,10 @@ def test_homing(given, why):
 
 def test_only_a_doubtful_position_is_confirmed():
     assert reasons.against_confirming(DISTRUSTED) is None
-    assert "doubtful" in reasons.against_confirming(state())
-    assert "doubtful" in reasons.against_confirming(state(locked="differ", differences=("a",)))
+    assert "position is certain" in reasons.against_confirming(state())
+    assert "position is certain" in reasons.against_confirming(
+        state(locked="differ", differences=("a",))
+    )
     assert "home first" in reasons.against_confirming(state(position_known=False, locked="home"))
 
 

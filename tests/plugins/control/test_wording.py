@@ -114,7 +114,7 @@ def test_the_tip_is_told_over_its_floor():
     assert "500 µm/s at most" in bounds_text(session.bounds.keep_out)
     session.close()
     assert tip_text(SessionState(), session.bounds.keep_out) == "Tip: unknown."
-    assert "no chain" in tip_text(state, None)
+    assert "no kinematic chain" in tip_text(state, None)
 
 
 @pytest.fixture

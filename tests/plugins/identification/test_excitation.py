@@ -64,7 +64,7 @@ def test_what_exceeds_a_limit_is_reduced_and_said(robot):
     [
         (ExcitationRequest("zn", Wave.SINE, "5"), "has no unit"),
         (ExcitationRequest("zn", Wave.SINE, "5urad"), "not in m"),
-        (ExcitationRequest("zn", Wave.SINE, "", "fast"), 'frequency: "fast" is not a number in Hz'),
+        (ExcitationRequest("zn", Wave.SINE, "", "fast"), "frequency: 'fast' is not a number in Hz"),
         (ExcitationRequest("zn", Wave.SINE, "", "", "1e999"), "must be a finite number"),
         (ExcitationRequest("zn", Wave.SINE, "", "", "-1"), "must be a finite number above 0"),
         (ExcitationRequest("zn", Wave.SINE, "", "900 Hz", about=0.0), "zn"),

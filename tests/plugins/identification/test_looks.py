@@ -253,7 +253,7 @@ def test_arx_under_sensor_noise_is_doubted_and_output_error_is_right(ask, record
 def test_a_bad_fit_is_said_in_words(ask):
     rng = np.random.default_rng(2)
     findings = model_findings(ask(plain(rng.standard_normal(2000), rng.standard_normal(2000))))
-    assert any(text.startswith("Fit ") and "below 80 %" in text for text in findings.notices)
+    assert any(text.startswith("The fit ") and "below 80 %" in text for text in findings.notices)
 
 
 def test_a_lag_is_called_a_lag(ask):

@@ -80,7 +80,7 @@ def shown_live(hand, stick):
     stick.deflect("X", 0.5)
     stick.hold("2")
     hand.until(lambda: panel.live.rows["X"].numbers.text() == "+0.50   +46 %")
-    assert "Down: 2" in panel.live.lamps.accessibleDescription()
+    assert "Pressed: 2" in panel.live.lamps.accessibleDescription()
     stick.release_all()
     hand.until(lambda: panel.live.rows["X"].about.text() == "→ Stick X")
     assert "stick may control" in panel.headline.text()
@@ -134,7 +134,7 @@ def mapped(hand):
 def saved(hand):
     """What was changed is kept under a name."""
     profile = hand.panel.profile
-    hand.until(lambda: "not kept" in profile.state.text())
+    hand.until(lambda: "not saved" in profile.state.text())
     profile.name.setText("Mine")
     hand.press(profile.save)
     assert hand.window.workbench.settings.get(SETTING, "") == "Mine"
@@ -172,7 +172,7 @@ def test_a_stick_is_seen_and_mapped_by_moving_it(make_hand, stick):
     found(hand)
     hand.press(hand.panel.set_up)
     hand.until(lambda: hand.operation.intent.deflections == {"x": 0.0, "y": 0.0, "zn": 0.0})
-    hand.until(lambda: "not kept: set up, and save it" in hand.panel.profile.state.text())
+    hand.until(lambda: "not saved: set up, and save it" in hand.panel.profile.state.text())
 
 
 @pytest.mark.slow

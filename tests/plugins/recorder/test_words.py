@@ -23,7 +23,7 @@ def test_room_lasts_half_as_long_as_what_is_put_together_takes_twice():
 def test_scarce_room_is_said_in_time():
     assert scarce(None, 10**9) is None
     assert scarce(2 * 10**9, 10**9) is None
-    assert "make room" in scarce(10**9, 10**9)
+    assert "Free disk space" in scarce(10**9, 10**9)
 
 
 def test_what_was_left_is_named_and_what_others_record_is_said_so():
