@@ -82,7 +82,7 @@ def test_how_it_stands_is_one_word(state, stale, word, tone):
 
 
 def test_a_loop_that_does_not_answer_is_told_before_all_else():
-    assert "does not answer" in wording.reason_text(replace(STATE, driving=True), stale=True)
+    assert "do not respond" in wording.reason_text(replace(STATE, driving=True), stale=True)
     held = replace(STATE, reason="the machine is playing")
     assert wording.reason_text(held, stale=False) == "No motion: the machine is playing."
 
@@ -156,8 +156,8 @@ def test_the_factor_says_what_makes_it():
 
 def test_the_clutch_is_told_where_it_counts():
     assert "space" in wording.clutch_text(LawKind.POSITION, frozenset())
-    assert "rest" in wording.clutch_text(LawKind.RATE, frozenset())
-    assert "robot does not" in wording.clutch_text(LawKind.RATE, {Action.CLUTCH})
+    assert "stop the robot" in wording.clutch_text(LawKind.RATE, frozenset())
+    assert "without the robot" in wording.clutch_text(LawKind.RATE, {Action.CLUTCH})
 
 
 @pytest.mark.parametrize(
