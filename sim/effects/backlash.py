@@ -63,7 +63,7 @@ WIDTH = Parameter("width", "of the play", "q", 0.0, 0.2, 1e-4, per="span")
 BACKLASH = Effect(
     id="backlash",
     title="Backlash",
-    summary="A dead band at each reversal, as wide at any amplitude and speed.",
+    summary="A dead band at each reversal, equally wide at any amplitude and speed.",
     stage=Stage.MECHANICS,
     kinds=frozenset({"stepper", "force"}),
     identification=Identification(starts=sizes(width=(0.1, 0.5, 2.0))),

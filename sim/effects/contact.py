@@ -196,7 +196,7 @@ def _met_on_the_way(values: Values, facts: Facts, _bounds: Interval, extent: Ext
 CONTACT = Effect(
     id="contact",
     title="Contact",
-    summary="A stop or a membrane: acts beyond a position alone.",
+    summary="A stop or a membrane: acts only beyond a position.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
     identification=Identification(

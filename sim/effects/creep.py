@@ -72,7 +72,7 @@ def _terms(values: Values, _facts: Facts) -> tuple[float, ...]:
 CREEP = Effect(
     id="creep",
     title="Creep",
-    summary="Goes on after a move, in proportion to it and with its sign, by the log of time.",
+    summary="Motion continues after a move, proportional to it, with the logarithm of time.",
     stage=Stage.ACTUATOR,
     kinds=frozenset({"piezo"}),
     identification=Identification(starts=sizes(onset=(0.3, 3.0))),

@@ -164,7 +164,7 @@ _TRAITS = frozenset({Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE})
 HYSTERESIS = Effect(
     id="hysteresis",
     title="Hysteresis",
-    summary="Loops whose width grows faster than their amplitude, at any pace; odd distortion.",
+    summary="Loops whose width grows faster than their amplitude, at any speed; odd distortion.",
     stage=Stage.ACTUATOR,
     kinds=frozenset({"piezo"}),
     identification=Identification(starts=sizes(width=(0.3, 1.0))),

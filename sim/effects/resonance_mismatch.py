@@ -58,7 +58,7 @@ def _own(facts: Facts) -> Retuning | None:
 RESONANCE_MISMATCH = Effect(
     id="resonance_mismatch",
     title="Resonance mismatch",
-    summary="Frequency or damping off: seen near the resonance alone.",
+    summary="Wrong frequency or damping: visible only near the resonance.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
     identification=Identification(

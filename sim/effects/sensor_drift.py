@@ -74,7 +74,7 @@ _TRAITS = frozenset({Trait.RANDOM, Trait.READING_ONLY, Trait.LOCKED_TO_TIME})
 SENSOR_DRIFT = Effect(
     id="sensor_drift",
     title="Sensor drift",
-    summary="The reading wanders slowly, at rest too; the reference does not.",
+    summary="The reading drifts slowly, also at rest; the reference does not.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
     identification=Identification(shows_as=Sign.WANDER),

@@ -20,7 +20,7 @@ def noisy(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compil
 SENSOR_NOISE = Effect(
     id="sensor_noise",
     title="Sensor noise",
-    summary="White scatter of the reading beyond the declared, without memory.",
+    summary="White noise of the reading above the declared level, without memory.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
     identification=Identification(shows_as=Sign.NOISE),

@@ -65,7 +65,7 @@ _TRAITS = frozenset({Trait.RANDOM, Trait.READING_ONLY})
 SENSOR_OUTLIERS = Effect(
     id="sensor_outliers",
     title="Sensor outliers",
-    summary="Single samples far off: spikes, or readings that drop out.",
+    summary="Single wrong samples: spikes or dropouts of the reading.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
     identification=Identification(shows_as=Sign.SPIKES),

@@ -87,7 +87,7 @@ def _slower_than_asked(_values: Values, facts: Facts, bounds: Interval, extent: 
 SLEW_LIMIT = Effect(
     id="slew_limit",
     title="Slew limit",
-    summary="Only large and fast motion suffers; it becomes a triangle.",
+    summary="Limits only large, fast motion, which becomes a triangle.",
     stage=Stage.ELECTRONICS,
     kinds=frozenset({"piezo"}),
     identification=Identification(

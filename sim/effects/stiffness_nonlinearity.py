@@ -91,7 +91,7 @@ def _centres(view: View) -> Iterator[Values]:
 STIFFNESS_NONLINEARITY = Effect(
     id="stiffness_nonlinearity",
     title="Stiffness nonlinearity",
-    summary="A bowed static curve, and a resonance that moves with position.",
+    summary="A curved static characteristic, and a resonance that shifts with position.",
     stage=Stage.MECHANICS,
     kinds=frozenset({"piezo"}),
     identification=Identification(starts=_centres, from_other=dict),

@@ -67,7 +67,7 @@ def _seen_to_return(_values: Values, _facts: Facts, bounds: Interval, extent: Ex
 VIBRATION = Effect(
     id="vibration",
     title="Vibration",
-    summary="Periodic in time, whatever the position and the command.",
+    summary="Periodic in time, regardless of position and command.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
     identification=Identification(

@@ -49,7 +49,7 @@ def test_disconnecting_and_reconnecting_exclude_each_other():
         told = (reasons.against_disconnecting(given), reasons.against_reconnecting(given))
         assert told.count(None) == 1
     assert reasons.against_disconnecting(CONNECTING) is None
-    assert "connecting" in reasons.against_reconnecting(CONNECTING)
+    assert "being opened" in reasons.against_reconnecting(CONNECTING)
 
 
 @pytest.mark.parametrize(
@@ -82,7 +82,7 @@ def test_only_a_doubtful_position_is_confirmed():
 
 def test_going_back():
     assert reasons.against_going_back(state(), undoable=True) is None
-    assert "no move" in reasons.against_going_back(state(), undoable=False)
+    assert "no previous position" in reasons.against_going_back(state(), undoable=False)
     assert "still moving" in reasons.against_going_back(MOVING, undoable=True)
     assert reasons.against_going_back(DISTRUSTED, undoable=True) == DISTRUSTED.locked
 

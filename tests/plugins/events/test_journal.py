@@ -112,6 +112,6 @@ def test_penetration_and_recording_are_told(journal):
         "Recording a.arrows started"
     ]
     assert told(journal, AT_REST, penetration=held, model="other") == [
-        "Recording a.arrows ends",
+        "Recording a.arrows ended",
         "Model in use: other",
     ]

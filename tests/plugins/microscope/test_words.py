@@ -200,7 +200,10 @@ def test_what_is_typed_for_a_camera():
         (CameraTexts(exposure="fast"), "exposure: 'fast' is not a number; enter one in ms"),
         (CameraTexts(gain="nan"), "gain: 'nan' is not a number"),
         (CameraTexts(rate="1 000"), "rate: '1 000' is not a number"),
-        (CameraTexts(region="1 2 3"), "region: '1 2 3': write whole, or four whole numbers"),
+        (
+            CameraTexts(region="1 2 3"),
+            "region: '1 2 3' is not valid; enter whole, or four integers",
+        ),
         (CameraTexts(region="1 2 3 -4"), "first column, first row, width and height"),
     ],
 )
