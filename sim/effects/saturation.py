@@ -51,7 +51,7 @@ def _ends(values: Values, facts: Facts) -> tuple[float, ...]:
 
 
 def _margin(name: str, end: str) -> Parameter:
-    meaning = f"how far inside the {end} end of the input's range the output ends"
+    meaning = f"distance of the output's limit from the {end} end of the input range"
     return Parameter(name, meaning, "u", -0.5, 0.45, 0.05, per="input_span")
 
 
