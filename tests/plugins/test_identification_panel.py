@@ -317,7 +317,7 @@ def test_what_may_not_be_played_says_why(qtbot, exciting):
     assert not excite.frequency.isEnabled()
     workbench.emergency_stop()
     excite.refresh(workbench.session.snapshot())
-    assert "latched" in why_not(excite.play)
+    assert "release it first" in why_not(excite.play)
     assert why_not(excite.stop) == "the motion is not playing"
     assert excite.minimumSizeHint().width() <= EXCITE_WIDTH
     assert exciting.minimumSizeHint().width() <= 720  # beside the control panel

@@ -218,6 +218,6 @@ def test_while_a_stop_is_latched_none_is_put_on_or_taken_off(machine):
         lambda: machine.session.inverses.apply(NAMED),
         lambda: machine.session.inverses.remove("zn"),
     ):
-        with pytest.raises(RefusedError, match="latched"):
+        with pytest.raises(RefusedError, match="release it first"):
             request()
     assert set(machine.session.inverses.applied) == {"zn"}

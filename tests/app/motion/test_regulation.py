@@ -180,7 +180,7 @@ def test_while_a_stop_is_latched_none_is_closed_or_opened(machine):
     machine.step(0.05, 2)
     session.emergency_stop()
     for request in (lambda: session.loops.apply(LOOP), lambda: session.loops.remove("zn")):
-        with pytest.raises(RefusedError, match="latched"):
+        with pytest.raises(RefusedError, match="release it first"):
             request()
     machine.step(0.05, 2)
     assert set(session.loops.applied) == {"zn"}

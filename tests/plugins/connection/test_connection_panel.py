@@ -52,7 +52,7 @@ def test_a_homed_simulator_is_ready(qtbot, window, panel):
     assert panel.state.reason.text() == "Motion is possible."
     assert not panel.state.release.isEnabled()
     assert "nothing is locked" in panel.state.release.toolTip()
-    assert "no line" in panel.line.text.text()
+    assert "no open line" in panel.line.text.text()
 
 
 def test_an_unhomed_machine_is_homed_from_here(qtbot, make_robot_window, press):
@@ -84,11 +84,11 @@ def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
 def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
     phase_is(qtbot, panel, "ready")
     press(panel.state.emergency)
-    qtbot.waitUntil(lambda: "latched" in panel.state.reason.text(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "release it first" in panel.state.reason.text(), timeout=LONG_MS)
     assert panel.state.phase.property("tone") == "danger"
     assert not panel.state.emergency.isEnabled()
     assert not panel.position.home_all.isEnabled()
-    assert "latched" in panel.position.home_all.toolTip()
+    assert "release it first" in panel.position.home_all.toolTip()
     press(panel.state.release)
     qtbot.waitUntil(panel.state.emergency.isEnabled, timeout=LONG_MS)
 
@@ -124,7 +124,7 @@ def test_a_floor_is_taught_after_a_question_that_names_both_heights(qtbot, windo
     assert "floor" in notices(window)
     press(tip.remove)
     assert shown in tip.question.text.text()
-    assert "none" in tip.question.text.text()
+    assert "Without a floor" in tip.question.text.text()
     qtbot.mouseClick(tip.question.yes, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: tip.figures.values["Floor"].text() == "none", timeout=LONG_MS)
 
