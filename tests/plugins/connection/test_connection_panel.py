@@ -262,7 +262,7 @@ def test_another_device_leads_back_to_no_place_of_the_first(qtbot, window, panel
     [
         ("settle_s", "0,5", "decimal point"),
         ("settle_s", "1_0", "not a number"),
-        ("seed", "1.5", "no whole number"),
+        ("seed", "1.5", "not an integer"),
     ],
 )
 def test_a_setting_of_another_type_is_marked_and_not_used(qtbot, window, panel, name, text, told):
@@ -308,7 +308,7 @@ def test_broken_drivers_are_listed_with_the_reason(make_robot_window, monkeypatc
     assert device.broken.textFormat() is Qt.TextFormat.PlainText
     device.choice.setCurrentIndex(1)
     device._connect()
-    assert "cannot be made: TypeError: made for <another> age" in notices(window)
+    assert "cannot be created: TypeError: made for <another> age" in notices(window)
     assert window.workbench.session.driver.name == "simulator"
 
 
