@@ -85,7 +85,8 @@ LUPDATE := $(BIN)/pyside6-lupdate -silent -tr-function-alias QT_TRANSLATE_NOOP+=
 LRELEASE := $(BIN)/pyside6-lrelease -silent
 
 # What refuses and reports below the window; the diagnosis has a file of its own.
-ENGINE := app/motion app/microscope app/cameras app/calibration app/records $(wildcard app/*.py) drivers \
+ENGINE := app/motion app/microscope app/cameras app/calibration app/records app/scene app/plugin_kit \
+$(wildcard app/*.py) drivers \
 $(filter-out sim/gap sim/blind%,$(wildcard sim/*))
 languages: system $(VENV)/.run  ## find what is to be translated, make resources/languages/*.qm
 	@for folder in app/shell app/widgets app/cli plugins/*/; do \

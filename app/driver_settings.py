@@ -30,7 +30,7 @@ def typed(name: str, default: SettingValue, text: str) -> SettingValue:
         if word.lower() in _SWITCHES:
             return _SWITCHES[word.lower()]
         raise SettingError(
-            message("engine", "setting {name}: {text} is no switch; write true or false").fill(
+            message("engine", "setting {name}: {text} is not a switch; enter true or false").fill(
                 name=name, text=repr(text)
             )
         )
@@ -38,7 +38,7 @@ def typed(name: str, default: SettingValue, text: str) -> SettingValue:
         if _WHOLE.fullmatch(word):
             return int(word)
         raise SettingError(
-            message("engine", "setting {name}: {text} is no whole number").fill(
+            message("engine", "setting {name}: {text} is not an integer").fill(
                 name=name, text=repr(text)
             )
         )
@@ -46,7 +46,7 @@ def typed(name: str, default: SettingValue, text: str) -> SettingValue:
         return float(word)
     raise SettingError(
         message(
-            "engine", "setting {name}: {text} is no number; write one with a decimal point"
+            "engine", "setting {name}: {text} is not a number; enter one with a decimal point"
         ).fill(name=name, text=repr(text))
     )
 

@@ -25,6 +25,8 @@ from rotemina.app import system_check
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputSource
 from rotemina.drivers.inputs.hid.source import HidSource
+from rotemina.sim.messages import Message, joined, message
+from rotemina.sim.quantities import amount, fixed
 
 LEAST_FREE_BYTES = 200e6  # what a session may need at once: recorder, cached code
 AMPLE_FREE_BYTES = 5e9  # hours of recording at 1 kHz
@@ -92,7 +94,8 @@ def python() -> Finding:
     seen = f"{sys.version.split()[0]} ({sys.executable})"
     if sys.version_info < system_check.OLDEST_PYTHON:
         oldest = ".".join(map(str, system_check.OLDEST_PYTHON))
-        return Finding("Python", State.BROKEN, seen, f"Install Python >= {oldest}.")
+        advice = message("engine", "Install Python >= {version}.").fill(version=oldest)
+        return Finding("Python", State.BROKEN, seen, advice)
     return Finding("Python", State.GOOD, seen)
 
 
@@ -114,20 +117,29 @@ def dependencies(requirements: Sequence[str]) -> Finding:
         except metadata.PackageNotFoundError:
             found = "missing"
         if found == "missing" or not required.specifier.contains(found, prereleases=True):
-            wrong.append(f"{required.name} {found}, needed is {required.specifier or 'any'}")
+            said = message("engine", "{name} {found}, {needed} needed").fill(
+                name=required.name, found=found, needed=str(required.specifier) or "any"
+            )
+            wrong.append(said)
     if wrong:
-        advice = "Install again: pip install --upgrade rotemina (in its folder: pip install .)."
-        return Finding("dependencies", State.BROKEN, "; ".join(wrong), advice)
-    return Finding("dependencies", State.GOOD, f"{count} packages, versions as required")
+        advice = message(
+            "engine",
+            "Install again: pip install --upgrade rotemina (in its folder: pip install .).",
+        )
+        return Finding("dependencies", State.BROKEN, joined(wrong, "; "), advice)
+    seen = message("engine", "{count} packages, versions as required").fill(count=count)
+    return Finding("dependencies", State.GOOD, seen)
 
 
 def qt_libraries(platform: str) -> Finding:
     """Look for the system's libraries that Qt loads on a platform."""
     missing = system_check.missing_libraries(platform)
     if missing:
-        seen = "missing: " + ", ".join(package.provides for package in missing)
+        names = ", ".join(package.provides for package in missing)
+        seen = message("engine", "missing: {names}").fill(names=names)
         return Finding("Qt libraries", State.BROKEN, seen, system_check.complaint(missing))
-    return Finding("Qt libraries", State.GOOD, f"all for the platform {platform!r}")
+    seen = message("engine", "all for the platform {platform}").fill(platform=repr(platform))
+    return Finding("Qt libraries", State.GOOD, seen)
 
 
 def qt(platform: str, program: str = _TRY_QT) -> Iterator[Finding]:
@@ -141,19 +153,26 @@ def qt(platform: str, program: str = _TRY_QT) -> Iterator[Finding]:
         )  # fmt: skip
         said, fault = done.stdout.splitlines(), done.stderr.strip()
     except subprocess.TimeoutExpired:
-        said, fault = [], f"no answer within {_QT_STARTS_IN_S:.0f} s"
+        said = []
+        fault = message("engine", "no answer within {limit} s").fill(limit=_QT_STARTS_IN_S)
     if not said:
-        reason = fault.splitlines()[-1] if fault else "it ended without a word"
-        advice = (
-            "Without a display: QT_QPA_PLATFORM=offscreen. Else see the Qt libraries above; "
-            "QT_DEBUG_PLUGINS=1 makes Qt tell which plugin it misses."
+        reason = fault or message("engine", "it ended without a message")
+        if not isinstance(reason, Message):
+            reason = reason.splitlines()[-1]
+        advice = message(
+            "engine",
+            "Without a display: QT_QPA_PLATFORM=offscreen. Otherwise see the Qt libraries above; "
+            "with QT_DEBUG_PLUGINS=1 Qt names the missing plugin.",
         )
-        seen = f"Qt does not start on {platform!r}: {reason}"
+        seen = message("engine", "Qt does not start on {platform}: {reason}").fill(
+            platform=repr(platform), reason=reason
+        )
         yield Finding("Qt platform", State.BROKEN, seen, advice)
         return
     if windowless:
-        advice = "Commands work all the same. A window needs a desktop: start it from one."
-        yield Finding("Qt platform", State.LIMITED, f"{said[0]}: no display for a window", advice)
+        advice = message("engine", "Commands work anyway. Start the window from a desktop.")
+        seen = message("engine", "{platform}: no display for a window").fill(platform=said[0])
+        yield Finding("Qt platform", State.LIMITED, seen, advice)
     else:
         yield Finding("Qt platform", State.GOOD, said[0])
     yield _rendering(said[1] if len(said) > 1 else "")
@@ -162,8 +181,12 @@ def qt(platform: str, program: str = _TRY_QT) -> Iterator[Finding]:
 def _rendering(renderer: str) -> Finding:
     if renderer and not any(word in renderer.lower() for word in _SOFTWARE):
         return Finding("rendering", State.GOOD, renderer)
-    seen = f"by software ({renderer})" if renderer else "by software (no OpenGL)"
-    advice = "Plots do not need a GPU; the 3-D view is slower. A graphics driver speeds it up."
+    seen = message("engine", "by software ({renderer})").fill(
+        renderer=renderer or message("engine", "no OpenGL")
+    )
+    advice = message(
+        "engine", "Plots need no GPU; the 3-D view is slower. A graphics driver speeds it up."
+    )
     return Finding("rendering", State.LIMITED, seen, advice)
 
 
@@ -174,20 +197,24 @@ def web_engine() -> Finding:
     except ModuleNotFoundError:
         there = False
     if there:
-        return Finding("Qt WebEngine", State.GOOD, "installed")
-    advice = "pip install 'rotemina[view3d]', or open the 3-D view in the browser."
-    return Finding("Qt WebEngine", State.LIMITED, "not installed", advice)
+        return Finding("Qt WebEngine", State.GOOD, message("engine", "installed"))
+    advice = message(
+        "engine", "pip install 'rotemina[view3d]', or open the 3-D view in the browser."
+    )
+    return Finding("Qt WebEngine", State.LIMITED, message("engine", "not installed"), advice)
 
 
 def serial_ports(devices: Sequence[str], may: Callable[[str], bool] | None = None) -> Finding:
     """Ask whether serial ports may be opened, without doing so: that could reset a board."""
     if not devices:
-        return Finding("serial ports", State.GOOD, "none plugged in")
+        return Finding("serial ports", State.GOOD, message("engine", "none connected"))
     refused = [device for device in devices if not (may or _may_open)(device)]
     if refused:
         group = _group_of(refused[0])
-        advice = f"sudo usermod -aG {group} $USER, then log in again."
-        seen = f"no permission for {', '.join(refused)}"
+        advice = message("engine", "sudo usermod -aG {group} $USER, then log in again.").fill(
+            group=group
+        )
+        seen = message("engine", "no permission for {names}").fill(names=", ".join(refused))
         return Finding("serial ports", State.LIMITED, seen, advice)
     return Finding("serial ports", State.GOOD, ", ".join(devices))
 
@@ -215,10 +242,10 @@ def joysticks(source: InputSource) -> Finding:
     if source.problem:
         refused.append(source.problem)
     if refused:
-        advice = "See 'When a joystick is missing' in docs/inputs.md."
+        advice = message("engine", "See 'When a joystick is missing' in docs/inputs.md.")
         return Finding("joysticks", State.LIMITED, "; ".join(refused), advice)
     names = ", ".join(identity.name for identity in devices)
-    return Finding("joysticks", State.GOOD, names or "none plugged in")
+    return Finding("joysticks", State.GOOD, names or message("engine", "none connected"))
 
 
 def writable(folders: Mapping[str, Path]) -> Finding:
@@ -231,7 +258,10 @@ def writable(folders: Mapping[str, Path]) -> Finding:
         except OSError as error:
             refused.append(f"{folder} ({what}): {error.strerror}")
     if refused:
-        advice = "Give the user the right to write there, or set HOME or XDG_*_HOME elsewhere."
+        advice = message(
+            "engine",
+            "Give the user permission to write there, or set HOME or XDG_*_HOME elsewhere.",
+        )
         return Finding("folders", State.BROKEN, "; ".join(refused), advice)
     return Finding("folders", State.GOOD, ", ".join(map(str, folders.values())))
 
@@ -239,12 +269,16 @@ def writable(folders: Mapping[str, Path]) -> Finding:
 def free_disk(folder: Path) -> Finding:
     """Tell how much can be recorded where recordings go."""
     free = shutil.disk_usage(_present(folder)).free
-    seen = f"{free / 1e9:.1f} GB free for {folder}"
+    seen = message("engine", "{free} GB free for {folder}").fill(
+        free=fixed(free / 1e9, 1), folder=folder
+    )
     if free < LEAST_FREE_BYTES:
-        advice = f"Free at least {LEAST_FREE_BYTES / 1e6:.0f} MB."
+        advice = message("engine", "Free at least {least} MB.").fill(least=LEAST_FREE_BYTES / 1e6)
         return Finding("disk", State.BROKEN, seen, advice)
     if free < AMPLE_FREE_BYTES:
-        advice = f"An hour at 1 kHz takes 0.8 GB; {AMPLE_FREE_BYTES / 1e9:.0f} GB are ample."
+        advice = message("engine", "An hour at 1 kHz takes 0.8 GB; {ample} GB are ample.").fill(
+            ample=AMPLE_FREE_BYTES / 1e9
+        )
         return Finding("disk", State.LIMITED, seen, advice)
     return Finding("disk", State.GOOD, seen)
 
@@ -261,9 +295,13 @@ def clock(now: Callable[[], float], *, most: int = 1_000_000) -> Finding:
         if len(steps) == 100:
             break
     step = min(steps, default=float("inf"))
-    seen = f"steps of {step * 1e6:.3g} µs" if steps else "it stands still"
+    seen = message("engine", "the clock stands still")
+    if steps:
+        seen = message("engine", "steps of {step}").fill(step=amount(step, "s", digits=3))
     if step > COARSEST_CLOCK_S:
-        advice = f"Times are wrong by more than {COARSEST_CLOCK_S * 1e3:.0f} ms: Python >= 3.13."
+        advice = message(
+            "engine", "Times are wrong by more than {bound} ms: use Python >= 3.13."
+        ).fill(bound=COARSEST_CLOCK_S * 1e3)
         return Finding("clock", State.LIMITED, seen, advice)
     return Finding("clock", State.GOOD, seen)
 

@@ -116,7 +116,7 @@ class Gate:
             return
         if self._latched is not None:
             raise OvertakenError(
-                message("engine", "{stop} is latched; release it first").fill(stop=self._latched)
+                message("engine", "{stop} is active; release it first").fill(stop=self._latched)
             )
         if permit.epoch != self._epoch:
             raise OvertakenError(

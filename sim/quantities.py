@@ -20,6 +20,7 @@ POINT = "."
 _sign = POINT
 
 _LEAST_SHARE = 1e-4  # that is written in digits
+_LEAST_SHARED = 1e-2  # of a shared unit; a quantity below it gets a prefix of its own
 # Between these, a number without a prefix is written without an exponent.
 _LEAST, _MOST = 1e-6, 1e9
 # Least size (SI) that each unit is for, largest unit first.
@@ -139,6 +140,8 @@ class Scale(NamedTuple):
         Significant ones of each value, where ``decimals`` is None.
     padded : bool
         Whether those are kept where they are zero, so that a live value does not change its width.
+    quantity : str
+        The SI unit whose prefixes a much smaller quantity may take; none if empty.
     """
 
     symbol: str
@@ -146,6 +149,7 @@ class Scale(NamedTuple):
     decimals: int | None = None
     digits: int = 4
     padded: bool = False
+    quantity: str = ""
 
     def __call__(self, values: FloatArray) -> FloatArray:
         """Return values (SI) of any shape in this unit."""
@@ -163,7 +167,12 @@ class Scale(NamedTuple):
         return rounded(shown, self.digits, padded=self.padded)
 
     def text(self, value: float | None) -> Number:
-        """Return a value (SI) with its unit."""
+        """Return a value (SI) with its unit; one far too small for this unit takes another."""
+        if value and self.quantity and not self.padded and self.decimals is None:
+            small = abs(value) * self.per_si < _LEAST_SHARED
+            own = scale_of(self.quantity, value, self.digits) if small else self
+            if own.symbol != self.symbol:
+                return own.text(value)
         number = self.number(value)
         return number if number == NOTHING else Number(f"{number} {self.symbol}".rstrip())
 
@@ -186,7 +195,8 @@ def scale_of(unit: str, size: float, digits: int = 4) -> Scale:
         return Scale(unit, 1.0, None, digits)
     size = float(f"{abs(size):.{digits - 1}e}")  # 999.96 µm, in four digits, are 1 mm
     shown = next(name for name, least in steps if size >= least)
-    return Scale(f"{symbol_of(shown)}{slash}{rest}", PER_SI[head][shown], None, digits)
+    name = f"{symbol_of(shown)}{slash}{rest}"
+    return Scale(name, PER_SI[head][shown], None, digits, quantity=unit)
 
 
 def amount(value: float | None, unit: str, *, digits: int = 4, size: float | None = None) -> Number:
@@ -209,7 +219,7 @@ def amounts(interval: Iterable[float] | None, unit: str, *, digits: int = 4) -> 
     if not ends or not all(map(isfinite, ends)):
         return NOTHING
     scale = scale_of(unit, max(map(abs, ends)), digits)
-    return Number(" … ".join(scale.text(end) for end in ends))
+    return Number(" … ".join(f"{scale.number(end)} {scale.symbol}".rstrip() for end in ends))
 
 
 def percent(share: float | None, digits: int = 3) -> Number:

@@ -239,7 +239,7 @@ def make_diagnosis():
                 gap.Ranked("hysteresis", "prandtl_ishlinskii", None, 0.91, 1.2, (1.1, 1.3)),
                 gap.Ranked("cross_coupling", None, others[0], 0.09, 43.0, (38.0, 47.0)),
             ),
-            remarks=(message("gap", "What is left depends on time."),),
+            remarks=(message("gap", "The rest depends on time."),),
             fitted=(AxisEffect(axis="thx", id="hysteresis", parameters={"width": 1.2e-4}),),
         )
         healthy = {name: gap.AxisDiagnosis(name, gap.Verdict.NONE, places(name)) for name in others}

@@ -69,7 +69,7 @@ def card_of(record: Record, axis: str) -> tuple[Figure, ...]:
             reasons.append(str(error))
     if not found:
         raise IdentificationError(
-            message("engine", "health card: the record tells no figure of {axis}: {names}").fill(
+            message("engine", "health card: the record gives no figure of {axis}: {names}").fill(
                 axis=axis, names="; ".join(reasons)
             )
         )

@@ -7,8 +7,8 @@ import numpy as np
 
 from rotemina.sim.calibration.calibrating import Calibration, Figure
 from rotemina.sim.calibration.iso230 import Positioning
-from rotemina.sim.messages import marked
-from rotemina.sim.quantities import NOTHING, amount, exact, rounded
+from rotemina.sim.messages import Wording, marked, message
+from rotemina.sim.quantities import NOTHING, Number, amount, exact, rounded
 
 ISO = {
     "accuracy": marked("engine", "A, accuracy"),
@@ -21,7 +21,12 @@ ISO = {
     "mean_bidirectional": marked("engine", "M, mean bidirectional"),
 }
 _LEAST_SHARE = 1e-3  # in %; below, in ppm
-ISO_HEAD = ("ISO 230-2", "reading before", "after", "position reached")
+ISO_HEAD = (
+    "ISO 230-2",
+    marked("engine", "reading before"),
+    marked("engine", "after"),
+    marked("engine", "position reached"),
+)
 
 
 def figure_text(value: float, unit: str, *, size: float | None = None, digits: int = 4) -> str:
@@ -29,8 +34,8 @@ def figure_text(value: float, unit: str, *, size: float | None = None, digits: i
     if unit != "1":
         return amount(value, unit, size=size, digits=digits)
     if abs(size or value) < _LEAST_SHARE:
-        return f"{rounded(1e6 * value, digits)} ppm"
-    return f"{rounded(100.0 * value, digits)} %"
+        return Number(f"{rounded(1e6 * value, digits)} ppm")
+    return Number(f"{rounded(100.0 * value, digits)} %")
 
 
 def _like(value: float, figure: Figure, digits: int = 4) -> str:
@@ -45,7 +50,9 @@ def figure_rows(figures: Iterable[Figure]) -> tuple[tuple[str, str, str], ...]:
         (
             each.name,
             _like(each.value, each),
-            f"± {_like(each.half_width, each, 2)}" if np.isfinite(each.half_width) else NOTHING,
+            Number(f"± {_like(each.half_width, each, 2)}")
+            if np.isfinite(each.half_width)
+            else NOTHING,
         )
         for each in figures
     )
@@ -67,26 +74,48 @@ def iso_rows(
     )
 
 
-def summary(calibration: Calibration) -> str:
-    """Return all of a calibration as lines of text."""
+def summary(calibration: Calibration, wording: Wording | None = None) -> str:
+    """Return all of a calibration as lines of text, in English unless told otherwise."""
+    wording = wording or Wording()
     unit = calibration.unit
     low, high = (exact(each, unit, size=calibration.travel[1]) for each in calibration.travel)
-    lines = [f"axis {calibration.axis}: {calibration.runs} runs from {low} to {high}"]
-    lines += [
-        f"  {name:24}{value:>16} {half}" for name, value, half in figure_rows(calibration.figures)
-    ]
     before, after = (amount(rms, unit) for rms in (calibration.before_rms, calibration.after_rms))
-    lines.append(f"  error at held-out runs, rms: {before} before, {after} after")
-    rows = iso_rows(
-        calibration.reading_before, calibration.reading_after, calibration.reached, unit
+    title = message("engine", "axis {axis}: {runs} runs from {low} to {high}").fill(
+        axis=calibration.axis, runs=calibration.runs, low=low, high=high
     )
-    lines += [
-        f"  {a:26}{b:>16}{c:>16}{d:>16}" for a, b, c, d in ((ISO_HEAD, *rows) if rows else ())
-    ]
-    lines += [f"  note: {note}" for note in calibration.notes]
-    if calibration.refusal is not None:
-        lines.append(f"  refused: {calibration.refusal}")
-    return "\n".join(lines)
+    errors = message(
+        "engine", "error in the validation runs, rms: {before} before, {after} after"
+    ).fill(before=before, after=after)
+    iso = iso_rows(calibration.reading_before, calibration.reading_after, calibration.reached, unit)
+    return "\n".join(
+        [
+            wording.of(title),
+            *figure_lines(calibration.figures, wording),
+            f"  {wording.of(errors)}",
+            *iso_lines(iso, wording),
+            *remark_lines(calibration.notes, calibration.refusal, wording),
+        ]
+    )
+
+
+def figure_lines(figures: Iterable[Figure], wording: Wording) -> list[str]:
+    """Return a line for each figure."""
+    rows = [[wording.shown(cell) for cell in row] for row in figure_rows(figures)]
+    return [f"  {name:24}{value:>16} {half}" for name, value, half in rows]
+
+
+def iso_lines(rows: tuple[tuple[str, ...], ...], wording: Wording) -> list[str]:
+    """Return the lines of the ISO table with its head; none without rows."""
+    shown = [[wording.shown(cell) for cell in row] for row in ((ISO_HEAD, *rows) if rows else ())]
+    return [f"  {a:26}{b:>18}{c:>18}{d:>18}" for a, b, c, d in shown]
+
+
+def remark_lines(notes: Iterable[str], refusal: str | None, wording: Wording) -> list[str]:
+    """Return a line for each note, and one for the refusal."""
+    said = [message("engine", "note: {note}").fill(note=note) for note in notes]
+    if refusal is not None:
+        said.append(message("engine", "refused: {reason}").fill(reason=refusal))
+    return [f"  {wording.of(one)}" for one in said]
 
 
 def as_json(calibration: Calibration) -> dict[str, Any]:

@@ -35,44 +35,50 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     """Add the subcommand."""
     parser = commands.add_parser(
         "board",
-        help="serve virtual boards that behave as the real ones, with the robot's model behind",
+        help="serve virtual boards that behave like the real ones, with the robot's model "
+        "behind them",
         description="Serve the boards of a robot, with its model and effects behind them, on "
-        "pseudo-terminals or on sockets of this machine, byte by byte as fast as a real line. Two "
-        "ports are a line for each board; one port for more than three axes is a bus that both "
-        "share. Lines on standard input inject faults: drop N, double N, corrupt N, garbage N, "
-        "delay T ms (each towards 'board' or 'host'), silence T s, space T s, reset BOARD, "
-        "brown-out BOARD, freeze AXIS, thaw AXIS, lose AXIS N, joystick X Y Z BUTTONS.",
+        "pseudo-terminals or on sockets of this machine, byte by byte as fast as a "
+        "real line. Two ports are a line for each board; one port for more than three"
+        " axes is a bus that both share. Lines on standard input inject faults: drop "
+        "N, double N, corrupt N, garbage N, delay T ms (each towards 'board' or "
+        "'host'), silence T s, space T s, reset BOARD, brown-out BOARD, freeze AXIS, "
+        "thaw AXIS, lose AXIS N, joystick X Y Z BUTTONS.",
     )
     add_robot(parser)
     parser.add_argument(
         "--port", type=Path, action="append", default=[], metavar="PATH",
-        help="give a pseudo-terminal this name",
+        help="name of the pseudo-terminal",
     )  # fmt: skip
     parser.add_argument(
         "--tcp", action="append", default=[], metavar="HOST:PORT",
-        help="listen there instead; only on 127.0.0.1 or ::1, port 0 for any",
+        help="listen at this address instead; only 127.0.0.1 or ::1, port 0 for any free "
+        "port",
     )  # fmt: skip
-    parser.add_argument("--bus", action="store_true", help="one line for both boards")
+    parser.add_argument("--bus", action="store_true", help="serve both boards on one line")
     parser.add_argument(
         "--baud", type=int, default=BAUDS[0], metavar="N",
-        help=f"of the lines: {' or '.join(map(str, BAUDS))} (default: {BAUDS[0]})",
+        help="bit rate of the lines, 125000 or 9600 (default: %(default)s)",
     )  # fmt: skip
     parser.add_argument(
         "--clock", type=int, choices=(2, 4), default=4,
-        help="MHz, E of the boards' chips: half of it has half the rates (default: 4)",
+        help="clock E of the boards' chips in MHz; half the clock halves the rates "
+        "(default: 4)",
     )  # fmt: skip
-    parser.add_argument("--unpaced", action="store_true", help="let bytes take no time")
+    parser.add_argument("--unpaced", action="store_true", help="transmit bytes without delay")
     parser.add_argument(
-        "--seed", type=int, default=0, metavar="N", help="of noise and faults (default: 0)"
+        "--seed", type=int, default=0, metavar="N", help="seed of noise and faults (default: 0)"
     )
     parser.add_argument(
-        "--position-known", action="store_true", help="begin homed and without a fault"
+        "--position-known", action="store_true", help="start homed and without a fault"
     )
     parser.add_argument(
         "--mishaps", type=float, default=0.0, metavar="RATE",
-        help="disturb the lines so often a second, at random (default: 0)",
+        help="random disturbances of the lines per second (default: 0)",
     )  # fmt: skip
-    parser.add_argument("--until-stdin-closes", action="store_true", help="end with standard input")
+    parser.add_argument(
+        "--until-stdin-closes", action="store_true", help="end when standard input closes"
+    )
     parser.set_defaults(run=run)
 
 

@@ -9,8 +9,15 @@ from platformdirs import user_config_path
 
 from rotemina.app.calibration.files import FORMAT, CalibrationFile, Source, kept, source_of
 from rotemina.app.calibration.store import CalibrationStore
-from rotemina.app.calibration.words import ISO_HEAD, as_json, figure_rows, iso_rows, summary
-from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.calibration.words import (
+    as_json,
+    figure_lines,
+    iso_lines,
+    iso_rows,
+    remark_lines,
+    summary,
+)
+from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
 from rotemina.app.files import json_text
 from rotemina.app.motion.player import play_offline
 from rotemina.sim.calibration.calibrating import Calibration, Figure, calibrated
@@ -19,26 +26,28 @@ from rotemina.sim.calibration.joining import joined
 from rotemina.sim.calibration.parts import compared
 from rotemina.sim.calibration.plan import RATE_HZ, RUNS, TARGETS, calibration_motion
 from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
 
-_DESCRIPTION = """Calibrate an axis' own sensor against a laser: "plan" writes the motion, "fit"
-makes a calibration of records that hold the axis' meas and ref, "run" does both on the simulator,
-"show" tells what a calibration holds, "list" what is stored."""
-
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Add the subcommand and its own subcommands."""
     parser = commands.add_parser(
-        "calibrate", help="calibrate an axis' sensor against a laser", description=_DESCRIPTION
+        "calibrate",
+        help="calibrate the sensor of an axis against a laser",
+        description='Calibrate the sensor of an axis against a laser: "plan" writes the motion, '
+        '"fit" makes a calibration from records with meas and ref of the axis, "run" '
+        'does both on the simulator, "show" prints a calibration, "list" prints the '
+        "stored ones.",
     )
     own = parser.add_subparsers(title="subcommands", metavar="", required=True)
     _add_plan(own)
     _add_fit(own)
     _add_run(own)
-    show = own.add_parser("show", help="tell what a calibration holds")
+    show = own.add_parser("show", help="print what a calibration holds")
     show.add_argument("calibration", type=Path, metavar="FILE")
     _add_json(show)
     show.set_defaults(run=_show)
@@ -50,7 +59,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def _add_plan(own: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    plan = own.add_parser("plan", help="write the motion that shows a sensor's errors")
+    plan = own.add_parser("plan", help="write the motion that shows the errors of a sensor")
     _add_axis(plan)
     _add_motion(plan)
     plan.add_argument("-o", "--output", type=Path, required=True, metavar="FILE")
@@ -58,7 +67,7 @@ def _add_plan(own: "argparse._SubParsersAction[argparse.ArgumentParser]") -> Non
 
 
 def _add_fit(own: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    fit = own.add_parser("fit", help="make a calibration of records")
+    fit = own.add_parser("fit", help="make a calibration from records")
     fit.add_argument("records", type=Path, nargs="+", metavar="RECORD")
     _add_axis(fit)
     add_columns(fit)
@@ -68,18 +77,20 @@ def _add_fit(own: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None
         action="append",
         default=[],
         metavar="FILE",
-        help="a laser's own record, one for each RECORD; their clocks are matched by the motion",
+        help="record of the laser itself, one for each RECORD; the motion matches their clocks",
     )
     _add_result(fit)
     fit.set_defaults(run=_fit)
 
 
 def _add_run(own: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    run = own.add_parser("run", help="calibrate on the simulator, with the robot file's effects")
+    run = own.add_parser(
+        "run", help="calibrate on the simulator, with the effects of the robot file"
+    )
     _add_axis(run)
     _add_motion(run)
     run.add_argument("--noise", type=int, default=0, metavar="N", help="seed of the noise")
-    run.add_argument("--record", type=Path, metavar="FILE", help="keep the record, too")
+    run.add_argument("--record", type=Path, metavar="FILE", help="write the record as well")
     _add_result(run)
     run.set_defaults(run=_run)
 
@@ -90,24 +101,44 @@ def _add_axis(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_motion(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--runs", type=int, default=RUNS, metavar="N", help=f"default: {RUNS}")
     parser.add_argument(
-        "--targets", type=int, default=TARGETS, metavar="N", help=f"of a stepper ({TARGETS})"
+        "--runs",
+        type=int,
+        default=RUNS,
+        metavar="N",
+        help="runs of the motion (default: %(default)s)",
     )
     parser.add_argument(
-        "--rate", type=float, default=RATE_HZ, metavar="HZ", help=f"rows a second ({RATE_HZ:g})"
+        "--targets",
+        type=int,
+        default=TARGETS,
+        metavar="N",
+        help="target positions of a stepper axis (default: %(default)s)",
     )
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the targets' places")
+    parser.add_argument(
+        "--rate",
+        type=float,
+        default=RATE_HZ,
+        metavar="HZ",
+        help="rows per second (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--seed", type=int, default=0, metavar="N", help="seed of the target positions"
+    )
 
 
 def _add_result(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--keep-zero",
         action="store_true",
-        help="the laser's zero is arbitrary: leave the reading of mid-travel as it is",
+        help="the laser's zero is arbitrary: keep the reading at mid-travel",
     )
-    parser.add_argument("-o", "--out", type=Path, metavar="FILE", help="write the calibration")
-    parser.add_argument("--store", action="store_true", help="keep it in the user's folder")
+    parser.add_argument(
+        "-o", "--out", type=Path, metavar="FILE", help="write the calibration to this file"
+    )
+    parser.add_argument(
+        "--store", action="store_true", help="keep the calibration in the user's folder"
+    )
     _add_folder(parser)
     _add_json(parser)
 
@@ -115,12 +146,16 @@ def _add_result(parser: argparse.ArgumentParser) -> None:
 def _add_folder(parser: argparse.ArgumentParser) -> None:
     folder = user_config_path("rotemina", appauthor=False)
     parser.add_argument(
-        "--folder", type=Path, default=folder, metavar="DIR", help="the user's (default: its own)"
+        "--folder",
+        type=Path,
+        default=folder,
+        metavar="DIR",
+        help="folder of the calibrations (default: the user's own)",
     )
 
 
 def _add_json(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--json", action="store_true", help="print JSON, SI")
+    parser.add_argument("--json", action="store_true", help="print JSON in SI units")
 
 
 def _motion(robot: Robot, options: argparse.Namespace) -> Record:
@@ -137,7 +172,12 @@ def _motion(robot: Robot, options: argparse.Namespace) -> Record:
 def _plan(options: argparse.Namespace) -> int:
     motion = _motion(robot_of(options), options)
     write_record(motion, options.output)
-    print(f"{options.output}: {motion.metadata['calibration']}, {motion.duration_s:.1f} s")
+    said = message("cli", "{output}: {motion}, {duration}").fill(
+        output=options.output,
+        motion=motion.metadata["calibration"],
+        duration=exact(motion.duration_s, "s"),
+    )
+    tell(options, said)
     return 0
 
 
@@ -184,12 +224,13 @@ def _tell(
 ) -> int:
     """Print a calibration, and keep it where that was asked; a refused one replaces nothing."""
     answer = as_json(found)
-    lines = [summary(found)]
+    lines = [summary(found, options.wording)]
     if options.out is not None or options.store:
         calibration = kept(found, robot.name, sources, datetime.now().astimezone())
         written = _written(calibration, robot, options)
         answer["written"] = [str(path) for path in written]
-        lines += [f"{path}: written" for path in written]
+        said = message("cli", "{file}: written")
+        lines += [options.wording.of(said.fill(file=path)) for path in written]
     print(json_text(answer) if options.json else "\n".join(lines))
     return 0
 
@@ -211,7 +252,8 @@ def _show(options: argparse.Namespace) -> int:
     if options.json:
         print(json_text({"name": one.name, **tomllib.loads(FORMAT.text(one))}))
         return 0
-    print(f"{one.name}: axis {one.axis} of {one.robot}, {one.runs} runs")
+    said = message("cli", "{name}: axis {axis} of robot {robot}, {runs} runs")
+    tell(options, said.fill(name=one.name, axis=one.axis, robot=one.robot, runs=one.runs))
     figures = [
         Figure(
             each.name,
@@ -221,16 +263,19 @@ def _show(options: argparse.Namespace) -> int:
         )
         for each in one.figures
     ]
-    for name, value, half in figure_rows(figures):
-        print(f"  {name:24}{value:>16} {half}")
     iso = (one.iso_reading_before, one.iso_reading_after, one.iso_reached)
     rows = iso_rows(*(each.figures if each is not None else None for each in iso), one.unit)
-    for row in (ISO_HEAD, *rows) if rows else ():
-        print(f"  {row[0]:26}{row[1]:>16}{row[2]:>16}{row[3]:>16}")
-    for source in one.sources:
-        print(f"  from {source.name} ({source.digest})")
-    for note in one.notes:
-        print(f"  note: {note}")
+    source = message("cli", "from {name} ({digest})")
+    lines = [
+        *figure_lines(figures, options.wording),
+        *iso_lines(rows, options.wording),
+        *(
+            f"  {options.wording.of(source.fill(name=each.name, digest=each.digest))}"
+            for each in one.sources
+        ),
+        *remark_lines(one.notes, None, options.wording),
+    ]
+    print("\n".join(lines))
     return 0
 
 
@@ -249,10 +294,10 @@ def _list(options: argparse.Namespace) -> int:
         print(json_text({"calibrations": rows, "problems": list(problems)}))
         return 0
     for one in stored:
-        state = "on" if one.on else "off"
+        state = options.wording.of(message("cli", "on") if one.on else message("cli", "off"))
         print(f"{one.calibration.axis:8}{one.calibration.name}  {state:4}{one.path}")
     for problem in problems:
-        print(f"left out: {problem}")
+        tell(options, message("cli", "left out: {reason}").fill(reason=problem))
     if not stored:
-        print("no calibrations are stored")
+        tell(options, message("cli", "no calibrations are stored"))
     return 0

@@ -7,7 +7,7 @@ from typing import Any
 
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.app.files import json_text
-from rotemina.sim.comparison.comparison import FITTABLE, Comparison, compare
+from rotemina.sim.comparison.comparison import Comparison, compare
 from rotemina.sim.comparison.figure import draw_figure, format_of
 from rotemina.sim.comparison.runs import compare_runs
 from rotemina.sim.comparison.table import runs_table, table
@@ -24,9 +24,9 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser = commands.add_parser(
         "compare",
         help="compare the model with a record of the real machine",
-        description="Simulate the nominal model over a record's commands and say, for every "
-        "measured tap (u, ref, meas), how far the real machine is from it. With --with, say how "
-        "far two runs of the machine are apart.",
+        description="Simulate the nominal model with the commands of a record, and print how far "
+        "the real machine is from it in each measured signal (u, ref, meas). With "
+        "--with, print how far two runs of the machine are apart.",
     )
     parser.add_argument("record", type=Path, metavar="RECORD", help="a record file (.csv, .gz)")
     parser.add_argument(
@@ -43,7 +43,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         type=lambda text: tuple(name.strip() for name in text.split(",") if name.strip()),
         default=(),
         metavar="NAMES",
-        help=f"re-fit these by least squares first: {','.join(FITTABLE)}",
+        help="fit these by least squares first: gain, offset",
     )
     parser.add_argument("--json", metavar="OUT", help="write the figures as JSON ('-' prints them)")
     parser.add_argument("--plot", type=Path, metavar="OUT", help="draw a picture (.svg .png .pdf)")
@@ -72,11 +72,11 @@ def _compared(
     """Return the comparison, with the model or another run, as JSON and as text too."""
     if options.other is None:
         comparison = compare(robot, record, fit=options.fit)
-        return comparison, comparison.as_json(), table(comparison)
+        return comparison, comparison.as_json(), table(comparison, options.wording)
     if options.fit:
         raise InputError(
             message("cli", "--fit: it re-fits the model, which --with leaves out; use one of them")
         )
     other = read_record(options.other, columns=options.columns, robot=robot)
     runs = compare_runs(robot, record, other)
-    return runs.comparison, runs.as_json(), runs_table(runs)
+    return runs.comparison, runs.as_json(), runs_table(runs, options.wording)

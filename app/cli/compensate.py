@@ -9,12 +9,12 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     """Add the subcommand and its verbs."""
     parser = commands.add_parser(
         "compensate",
-        help="learn inverse models of hysteresis, check them, and apply them to trajectories",
-        description="Learn what a piezo must be told so that it comes where it shall: an ANFIS, "
-        "the modified and the classical Prandtl–Ishlinskii inverse and a straight line, judged "
-        "side by side.",
+        help="train inverse models of hysteresis, check them, and apply them to trajectories",
+        description="Learn which commands bring a piezo axis to the desired positions: an ANFIS, "
+        "the modified and the classical Prandtl–Ishlinskii inverse and a straight "
+        "line, compared with each other.",
     )
-    verbs = parser.add_subparsers(title="verbs", metavar="", required=True)
+    verbs = parser.add_subparsers(title="subcommands", metavar="", required=True)
     compensate_train.add_parser(verbs)
     compensate_check.add_parser(verbs)
     compensate_apply.add_parser(verbs)

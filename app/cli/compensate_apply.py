@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell, tell_written
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
@@ -20,10 +20,10 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     """Add the verb."""
     parser = verbs.add_parser(
         "apply",
-        help="write a trajectory with the commands that bring it about",
+        help="write a trajectory with the commands that compensate its hysteresis",
         description="Send a trajectory through the inverse that a file recommends, check the "
-        "result against the robot's limits, and write it: any player can play it. The axis must "
-        "begin at rest after a rise from the low end of its range.",
+        "result against the robot's limits, and write it: any player can play it. The"
+        " axis must start at rest after a rise from the low end of its range.",
     )
     parser.add_argument("inverse", type=Path, metavar="INVERSE", help="a file that train wrote")
     parser.add_argument("trajectory", type=Path, metavar="TRAJECTORY")
@@ -50,10 +50,9 @@ def run(options: argparse.Namespace) -> int:
     axis = inverse.model.axis
     sent = compensated_trajectory(robot, trajectory, {axis: inverse}, SETPOINT_PERIOD_S).commands
     write_record(sent, options.output)
-    print(
-        f"{options.output}: {len(sent.time_s)} rows, {sent.duration_s:.6g} s; {axis} through "
-        f"{inverse.name}, other axes as they were"
-    )
+    tell_written(options, options.output, len(sent.time_s), sent.duration_s)
+    said = message("cli", "axis {axis}: commands of {inverse}; other axes unchanged")
+    tell(options, said.fill(axis=axis, inverse=inverse.name))
     return 0
 
 

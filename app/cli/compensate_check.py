@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from rotemina.app.cli.compensate_table import document, table
-from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
@@ -18,10 +18,10 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     """Add the verb."""
     parser = verbs.add_parser(
         "check",
-        help="feed measured positions to inverses, and compare their commands with the recorded",
-        description="Feed the positions that records hold to each inverse of a file and print what "
-        "is left between its command and the recorded one. Rows of a record with unknown history "
-        "count from the first swing over its whole range on.",
+        help="compare the commands of inverses for measured positions with the recorded ones",
+        description="Feed the positions of records to each inverse of a file, and print the "
+        "difference between its command and the recorded one. Rows with unknown "
+        "history count from the first sweep over the whole range on.",
     )
     parser.add_argument("inverse", type=Path, metavar="INVERSE", help="a file that train wrote")
     parser.add_argument("records", type=Path, nargs="+", metavar="RECORD")
@@ -55,14 +55,14 @@ def run(options: argparse.Namespace) -> int:
     ]
     runs = [(each, each.first) for each in samples]
     residuals = {}
-    with ProgressLine(sys.stderr) as line:
+    with ProgressLine(sys.stderr, options.wording) as line:
         for number, (kind, one) in enumerate(trained.models.items(), start=1):
             residuals[kind] = residual(one, runs)
             line(Progress("check", model.axis, kind, number / len(trained.models)))
     figures = json_text(document(model, residuals, trained))
     if options.json not in (None, "-"):
         write_text(Path(options.json), figures)
-    print(figures if options.json == "-" else table(model, residuals))
+    print(figures if options.json == "-" else table(model, residuals, options.wording))
     if options.json != "-":
-        print(f"recommended when it was trained: {trained.why}")
+        tell(options, message("cli", "recommended after training: {why}").fill(why=trained.why))
     return 0

@@ -3,6 +3,10 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from rotemina.sim.messages import Wording, message
+from rotemina.sim.quantities import exact, percent, rounded
+from rotemina.sim.tables import aligned
+
 if TYPE_CHECKING:
     from rotemina.sim.compensate.judgement import Residual
     from rotemina.sim.compensate.model import InverseModel, Kind
@@ -11,37 +15,43 @@ if TYPE_CHECKING:
 _MICRO = 1e6
 
 
-def table(model: "InverseModel", residuals: Mapping["Kind", "Residual"]) -> str:
-    """Return a row for each kind: what is left of the command."""
+def table(model: "InverseModel", residuals: Mapping["Kind", "Residual"], wording: Wording) -> str:
+    """Return a row for each kind: the difference between its command and the recorded one."""
     from rotemina.sim.compensate.judgement import NAMES
 
     unit = f"µ{model.unit}"
-    head = ("inverse", f"rms {unit}", "but for offset", f"worst {unit}", "rms/range", "MSE")
+    head: tuple[str, ...] = (
+        message("cli", "inverse"),
+        message("cli", "rms [{unit}]").fill(unit=unit),
+        message("cli", "rms without offset [{unit}]").fill(unit=unit),
+        message("cli", "worst [{unit}]").fill(unit=unit),
+        message("cli", "rms / range"),
+    )
     rows = [
         (
-            NAMES[kind],
-            f"{one.rms * _MICRO:.4g}",
-            f"{one.aligned * _MICRO:.4g}",
-            f"{one.worst * _MICRO:.4g}",
-            f"{one.share:.3%}",
-            f"{one.mse:.2e}",
+            message("engine", NAMES[kind]),
+            rounded(one.rms * _MICRO),
+            rounded(one.aligned * _MICRO),
+            rounded(one.worst * _MICRO),
+            percent(one.share),
         )
         for kind, one in residuals.items()
     ]
-    widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
-    lines = [f"axis {model.axis}: left of the command, of positions fed to the inverse"]
-    for row in (head, *rows):
-        first, *others = (
-            text.ljust(widths[0]) if i == 0 else text.rjust(widths[i]) for i, text in enumerate(row)
-        )
-        lines.append("  ".join([first, *others]))
+    title = message("cli", "axis {axis}: command of the inverse minus recorded command")
+    lines = [
+        wording.of(title.fill(axis=model.axis)),
+        aligned([[wording.shown(cell) for cell in row] for row in (head, *rows)]),
+    ]
     beyond = max(one.beyond for one in residuals.values())
     if beyond > 0.0:
         low, high = model.desired_range
-        lines.append(
-            f"{beyond:.1%} of the rows lie beyond {low:.6g} to {high:.6g} {model.unit}, which the "
-            "inverses saw; they are not judged"
+        said = message(
+            "cli",
+            "{share} of the rows are not judged: they lie outside {low} to {high}, the range of "
+            "the training",
         )
+        low_text, high_text = (exact(end, model.unit, size=high) for end in (low, high))
+        lines.append(wording.of(said.fill(share=percent(beyond), low=low_text, high=high_text)))
     return "\n".join(lines)
 
 

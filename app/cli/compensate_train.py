@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rotemina.app.cli.compensate_table import document, table
-from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
@@ -30,31 +30,36 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     """Add the verb."""
     parser = verbs.add_parser(
         "train",
-        help="learn the inverses of an axis from records, or from the simulator",
-        description="Learn inverses of all kinds from records with cmd and meas (or ref), judge "
-        "them on rows that none was trained on, and say which is recommended and why.",
+        help="train the inverses of an axis with records, or with the simulator",
+        description="Train inverses of all kinds with records that have cmd and meas (or ref), "
+        "compare them on rows that none was trained with, and recommend one with the "
+        "reason.",
     )
     parser.add_argument("records", type=Path, nargs="*", metavar="RECORD")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE")
     add_robot(parser)
     add_columns(parser)
-    parser.add_argument("--axis", metavar="NAME", help="which (default: the only piezo recorded)")
+    parser.add_argument(
+        "--axis",
+        metavar="NAME",
+        help="axis to be compensated (default: the only piezo axis of the record)",
+    )
     parser.add_argument(
         "--held-out",
         type=Path,
         nargs="+",
         default=[],
         metavar="RECORD",
-        help="judge on these (default: on the last quarter of each record)",
+        help="compare on these records (default: the last quarter of each record)",
     )
     parser.add_argument(
-        "--simulate", action="store_true", help="no records: let the simulator move the axis"
+        "--simulate", action="store_true", help="use no records: move the axis on the simulator"
     )
     parser.add_argument(
         "--effects", metavar="FILE", help="simulate with the effects of this robot file instead"
     )
     parser.add_argument(
-        "--seed", type=int, metavar="N", help="of the simulated motion and noise (default: 0)"
+        "--seed", type=int, metavar="N", help="seed of the simulated motion and noise (default: 0)"
     )
     parser.add_argument("--json", metavar="OUT", help="write the figures as JSON ('-' prints them)")
     parser.set_defaults(run=run)
@@ -80,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
             for each, path in zip(samples, paths, strict=bool(paths))
         ]
 
-    with ProgressLine(sys.stderr) as line:
+    with ProgressLine(sys.stderr, options.wording) as line:
         trained = train(
             robot,
             runs,
@@ -101,10 +106,12 @@ def run(options: argparse.Namespace) -> int:
     if options.json == "-":
         print(json_text(figures))
         return 0
-    print(table(trained.models[trained.chosen], trained.residuals))
+    print(table(trained.models[trained.chosen], trained.residuals, options.wording))
     for remark in trained.remarks:
-        print(f"rotemina: {remark}", file=sys.stderr)
-    print(f"recommended: {trained.why}\n{options.output}: {len(trained.models)} inverses")
+        print(f"rotemina: {options.wording.shown(remark)}", file=sys.stderr)
+    tell(options, message("cli", "recommended: {why}").fill(why=trained.why))
+    said = message("cli", "{output}: {count} inverses")
+    tell(options, said.fill(output=options.output, count=len(trained.models)))
     return 0
 
 

@@ -3,10 +3,11 @@
 import argparse
 from pathlib import Path
 
-from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell, tell_written
 from rotemina.app.display import speed_changes
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
+from rotemina.sim.quantities import Number
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.resampling import resample
@@ -39,7 +40,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "--method",
         choices=("hold", "linear", "cubic"),
         default="hold",
-        help="how values between rows are found (default: hold, as a device does)",
+        help="interpolation between rows (default: hold, as a device does)",
     )
     parser.set_defaults(run=run)
 
@@ -55,8 +56,8 @@ def run(options: argparse.Namespace) -> int:
     record = read_record(options.source, columns=options.columns, robot=robot_of(options))
     if options.resample is not None:
         converted = resample(record, options.resample, options.method)
-        print("fastest command, before → after resampling:")
-        print(speed_changes(record, converted))
+        tell(options, message("cli", "fastest command, before → after resampling:"))
+        print(options.wording.shown(Number(speed_changes(record, converted))))
         record = converted
     write_record(
         record,
@@ -64,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
         units=_axis_units(record, options.units),
         header=not options.no_header,
     )
-    print(f"{options.output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
+    tell_written(options, options.output, len(record.time_s), record.duration_s)
     return 0
 
 

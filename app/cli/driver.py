@@ -3,7 +3,7 @@
 import argparse
 from collections.abc import Iterable
 
-from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.options import add_robot, robot_of, tell
 from rotemina.drivers import abilities
 from rotemina.drivers.conformance.bench import bench_of
 from rotemina.drivers.conformance.check import Result, Verdict
@@ -11,7 +11,7 @@ from rotemina.drivers.conformance.suite import checks_named, run_checks
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.registry import discover_drivers, driver_named
 from rotemina.drivers.settings import SettingError, SettingValue
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Message, message
 
 _FAILED = 1
 _SWITCH = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
@@ -22,18 +22,18 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser = commands.add_parser(
         "driver",
         help="list drivers, and check whether they keep the contract",
-        description="The drivers that are installed, ours and those of plugins.",
+        description="The installed drivers: built in, and of plugins.",
     )
     parser.set_defaults(run=_list)
     verbs = parser.add_subparsers(title="subcommands", metavar="")
-    listing = verbs.add_parser("list", help="one line for each driver (this without a subcommand)")
+    listing = verbs.add_parser("list", help="print one line for each driver (default)")
     listing.set_defaults(run=_list)
     checking = verbs.add_parser(
         "check",
-        help="put a driver to the checks of the contract",
-        description="Open a driver and measure whether it does what the contract demands. With a "
-        "real device only what moves nothing is checked, unless --move is given. Exit status: "
-        "0 all passed, 1 a check failed.",
+        help="check a driver against the contract",
+        description="Open a driver and measure whether it keeps the contract. On a real device, "
+        "only the checks without motion run unless --move is given. Exit status: 0 "
+        "all passed, 1 a check failed.",
     )
     checking.add_argument("name", metavar="NAME")
     add_robot(checking)
@@ -46,21 +46,29 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         help="a setting of the driver (may be repeated)",
     )
     checking.add_argument(
-        "--only", action="append", default=[], metavar="CHECK", help="this check (may be repeated)"
+        "--only",
+        action="append",
+        default=[],
+        metavar="CHECK",
+        help="only this check (may be repeated)",
     )
     checking.add_argument("--move", action="store_true", help="let the axes of a real device move")
-    checking.add_argument("--verbose", action="store_true", help="what each check demands as well")
+    checking.add_argument(
+        "--verbose", action="store_true", help="also print what each check demands"
+    )
     checking.set_defaults(run=_check)
 
 
-def _list(_options: argparse.Namespace) -> int:
+def _list(options: argparse.Namespace) -> int:
     """Print a line for each driver, what it can do, and what could not be loaded."""
     discovery = discover_drivers()
     for name, driver in discovery.found.items():
-        clock = "any clock" if driver.virtual_time else "real time"
-        print(f"{name:16}{clock:12}{', '.join(_abilities(driver)) or 'moves'}")
+        clock = message("cli", "any clock") if driver.virtual_time else message("cli", "real time")
+        can = ", ".join(_abilities(driver)) or message("cli", "moves")
+        print(f"{name:16}{options.wording.of(clock):16}{options.wording.shown(can)}")
     for name, reason in discovery.broken.items():
-        print(f"left out: {name}: {reason}")
+        said = message("cli", "left out: {name}: {reason}").fill(name=name, reason=reason)
+        tell(options, said)
     return 0
 
 
@@ -80,7 +88,7 @@ def _check(options: argparse.Namespace) -> int:
     checks = checks_named(options.only)
     may_move = driver.virtual_time or options.move
     if not driver.virtual_time:
-        print(_warning(options.name, may_move), flush=True)
+        tell(options, _warning(options.name, may_move))
     results = []
     for result in run_checks(bench_of(driver, robot, settings), checks, may_move=may_move):
         results.append(result)
@@ -90,13 +98,19 @@ def _check(options: argparse.Namespace) -> int:
     return _FAILED if any(one.verdict is Verdict.FAILED for one in results) else 0
 
 
-def _warning(name: str, may_move: bool) -> str:
+def _warning(name: str, may_move: bool) -> Message:
     if may_move:
-        return (
-            f"{name} runs in real time: ALL AXES ARE GOING TO MOVE, to ends of their ranges too. "
-            "Take the tool off; the machine's emergency switch must be in reach."
+        warning = message(
+            "cli",
+            "{name} runs in real time: ALL AXES WILL MOVE, also to the ends of their ranges. "
+            "Remove the tool, and keep the machine's emergency switch within reach.",
         )
-    return f"{name} runs in real time: only what moves no axis is checked; --move lets axes move"
+    else:
+        warning = message(
+            "cli",
+            "{name} runs in real time: only checks without motion run; --move lets the axes move",
+        )
+    return warning.fill(name=name)
 
 
 def _lines(result: Result, *, verbose: bool) -> Iterable[str]:

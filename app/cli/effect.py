@@ -4,12 +4,13 @@ import argparse
 import time
 from collections.abc import Iterable
 
-from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.options import add_robot, robot_of, tell
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import Effect, Formulation, Parameter
 from rotemina.sim.effects.registry import all_effects, effect_ids, effect_named
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Message, Wording, message
+from rotemina.sim.quantities import amount
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.simulation.check import Check, Report
 from rotemina.sim.simulation.effect_check import check_effect
@@ -22,41 +23,49 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser = commands.add_parser(
         "effect",
         help="list, show and check the effects that a simulated machine may have",
-        description="The effects that are installed, ours and those of plugins.",
+        description="The installed effects: built in, and of plugins.",
     )
     parser.set_defaults(run=_list)
     verbs = parser.add_subparsers(title="subcommands", metavar="")
-    listing = verbs.add_parser("list", help="one line for each effect (this without a subcommand)")
+    listing = verbs.add_parser("list", help="print one line for each effect (default)")
     listing.set_defaults(run=_list)
-    showing = verbs.add_parser("show", help="equations, sources, parameters on a robot's axes")
+    showing = verbs.add_parser(
+        "show", help="print equations, sources, and parameters on the axes of a robot"
+    )
     showing.add_argument("id", metavar="ID")
     add_robot(showing)
     showing.set_defaults(run=_show)
     checking = verbs.add_parser(
         "check",
-        help="measure whether effects are what they say",
-        description="Put every formulation on axes of the shipped robots, or of one robot, and "
-        "measure what it says of itself. Exit status: 0 all passed, 1 a check failed.",
+        help="measure whether effects match their descriptions",
+        description="Simulate each formulation on axes of the shipped robots, or of one robot, "
+        "and compare it with its description. Exit status: 0 all passed, 1 a check "
+        "failed.",
     )
-    checking.add_argument("ids", nargs="*", metavar="ID", help="which (default: all)")
+    checking.add_argument(
+        "ids", nargs="*", metavar="ID", help="effects to be checked (default: all)"
+    )
     checking.add_argument(
         "--robot",
         default=None,
         metavar="NAME_OR_FILE",
         help="a robot file, or a shipped robot, whose axes are used (default: all shipped ones)",
     )
-    checking.add_argument("--verbose", action="store_true", help="every check, not failed ones")
+    checking.add_argument(
+        "--verbose", action="store_true", help="print every check, not only the failed ones"
+    )
     checking.set_defaults(run=_check)
 
 
-def _list(_options: argparse.Namespace) -> int:
+def _list(options: argparse.Namespace) -> int:
     """Print a line for each effect in the order of the signal chain."""
     effects, broken = all_effects()
     for effect in effects.values():
         kinds = ", ".join(sorted(effect.kinds))
-        print(f"{effect.id:24}{effect.stage:13}{kinds:24}{effect.title}")
+        title = options.wording.text("effects", effect.title)
+        print(f"{effect.id:24}{effect.stage:13}{kinds:24}{title}")
     for reason in broken.values():
-        print(f"left out: {reason}")
+        tell(options, message("cli", "left out: {reason}").fill(reason=reason))
     return 0
 
 
@@ -64,38 +73,46 @@ def _show(options: argparse.Namespace) -> int:
     """Print everything that an effect says of itself."""
     effect = effect_named(options.id)
     robot = robot_of(options)
-    print(f"{effect.title} ({effect.id}), {effect.stage}")
-    print(effect.summary)
-    print(f"sits on axes of kind {', '.join(sorted(effect.kinds))}")
+    wording = options.wording
+    print(f"{wording.text('effects', effect.title)} ({effect.id}), {effect.stage}")
+    print(wording.text("effects", effect.summary))
+    kinds = ", ".join(sorted(effect.kinds))
+    tell(options, message("cli", "acts on axes of kind {kinds}").fill(kinds=kinds))
     if effect.coupled:
-        print("comes from another axis: name it by from_axis")
+        tell(options, message("cli", "originates in another axis, named by from_axis"))
     for formulation in effect.formulations:
         print()
-        print("\n".join(_formulation_lines(effect, formulation, robot)))
+        print("\n".join(_formulation_lines(effect, formulation, robot, wording)))
     return 0
 
 
-def _formulation_lines(effect: Effect, formulation: Formulation, robot: Robot) -> Iterable[str]:
-    yield f"formulation {formulation.name}"
+def _formulation_lines(
+    effect: Effect, formulation: Formulation, robot: Robot, wording: Wording
+) -> Iterable[str]:
+    said = message("cli", "formulation {name}").fill(name=formulation.name)
+    yield wording.of(said)
     yield f"  {formulation.equation}"
-    yield f"  source: {formulation.source}"
+    said = message("cli", "source: {source}").fill(source=formulation.source)
+    yield f"  {wording.of(said)}"
     if formulation.traits:
-        yield f"  traits: {', '.join(sorted(formulation.traits))}"
+        said = message("cli", "traits: {traits}").fill(traits=", ".join(sorted(formulation.traits)))
+        yield f"  {wording.of(said)}"
     for parameter in formulation.parameters:
-        yield f"  {parameter.name}: {parameter.meaning}"
-        texts: dict[str, list[str]] = {}
+        yield f"  {parameter.name}: {wording.text('effects', parameter.meaning)}"
+        texts: dict[Message, list[str]] = {}
         for name, axis in robot.axes.items():
             if axis.kind in effect.kinds:
                 texts.setdefault(_figures(parameter, Facts.of(axis)), []).append(name)
         for figures, names in texts.items():
-            yield f"    {', '.join(names):24} {figures}"
+            yield f"    {', '.join(names):24} {wording.of(figures)}"
 
 
-def _figures(parameter: Parameter, facts: Facts) -> str:
-    """Return preset and bounds on an axis, SI."""
-    low, high = parameter.bounds(facts)
-    preset = f"{parameter.preset(facts):.4g} {parameter.unit_on(facts)}".rstrip()
-    return f"{preset:22} ({low:.4g} to {high:.4g})"
+def _figures(parameter: Parameter, facts: Facts) -> Message:
+    """Return preset and bounds on an axis."""
+    unit = parameter.unit_on(facts)
+    values = (parameter.preset(facts), *parameter.bounds(facts))
+    preset, low, high = (amount(value, unit) for value in values)
+    return message("cli", "{preset} ({low} to {high})").fill(preset=preset, low=low, high=high)
 
 
 def _check(options: argparse.Namespace) -> int:

@@ -8,7 +8,8 @@ from pathlib import Path
 from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.sim.excitation.generator import KINDS, Excitation, Kind, excite
 from rotemina.sim.excitation.quantity import ExcitationError, amount_of
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Wording, message
+from rotemina.sim.quantities import exact
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
 
@@ -60,7 +61,7 @@ def _count(text: str) -> int:
         return int(text)
     except ValueError:
         raise ExcitationError(
-            message("cli", "{text} is no whole number").fill(text=repr(text[:40]))
+            message("cli", "{text} is not an integer").fill(text=repr(text[:40]))
         ) from None
 
 
@@ -95,33 +96,51 @@ class Parameter:
 
 
 PARAMETERS = (
-    Parameter("amplitude", ("amplitude",), _amounts(""), "5um", "to each side; % of the range"),
+    Parameter(
+        "amplitude", ("amplitude",), _amounts(""), "5um", "each way from the middle; % of the range"
+    ),
     Parameter("offset", ("offset",), _amounts(""), "50%", "middle of the motion; % of the range"),
-    Parameter("frequency", ("frequency_hz",), _numbers("Hz"), "HZ", "of the wave, or PRBS clock"),
-    Parameter("band", ("low_hz", "high_hz"), _numbers("Hz"), "LOW:HIGH", "of chirp, multisine; Hz"),
-    Parameter("duration", ("duration_s",), _numbers("s"), "S", "rounded to whole periods"),
-    Parameter("period", ("period_s",), _numbers("s"), "S", "of the multisine"),
+    Parameter(
+        "frequency",
+        ("frequency_hz",),
+        _numbers("Hz"),
+        "HZ",
+        "frequency of the wave, or clock of the PRBS",
+    ),
+    Parameter(
+        "band", ("low_hz", "high_hz"), _numbers("Hz"), "LOW:HIGH", "band of chirp or multisine, Hz"
+    ),
+    Parameter(
+        "duration", ("duration_s",), _numbers("s"), "S", "duration, rounded to whole periods"
+    ),
+    Parameter("period", ("period_s",), _numbers("s"), "S", "period of the multisine"),
     Parameter("detection", ("detection",), _counts, "N", "leave out one odd line in N; 0: none"),
-    Parameter("slope", ("slope",), _numbers(), "P", "multisine amplitudes go as f^P"),
-    Parameter("spacing", ("spacing",), _choice("log", "linear"), "log|linear", "of the chirp"),
+    Parameter("slope", ("slope",), _numbers(), "P", "multisine amplitudes proportional to f^P"),
+    Parameter(
+        "spacing",
+        ("spacing",),
+        _choice("log", "linear"),
+        "log|linear",
+        "frequency spacing of the chirp",
+    ),
     Parameter("order", ("order",), _counts, "N", "PRBS of 2^N - 1 chips"),
-    Parameter("levels", ("levels",), _counts, "N", "of the staircase"),
+    Parameter("levels", ("levels",), _counts, "N", "levels of the staircase"),
     Parameter("hold", ("hold_s",), _numbers("s"), "S", "rest between moves"),
-    Parameter("rise", ("rise_s",), _numbers("s"), "S", "of a step"),
-    Parameter("jerk", ("jerk",), _amounts("/s3"), "1m/s3", "limit of a step's jerk"),
+    Parameter("rise", ("rise_s",), _numbers("s"), "S", "rise time of a step"),
+    Parameter("jerk", ("jerk",), _amounts("/s3"), "1m/s3", "jerk limit of a step"),
     Parameter("cycles", ("cycles",), _counts, "N", "repetitions of the steps"),
     Parameter(
         "speeds",
         ("speeds",),
         _amounts("/s"),
         "1mm/s:20%",
-        "of sweeps, joined by ':'; %% of the speed limit",
+        "speeds of sweeps, joined by ':'; % of the speed limit",
         many=True,
     ),
 )
 SWITCHES = {
-    "periodic": "end a row before the first one comes again, and mark the file periodic",
-    "growing": "let the decaying triangle grow instead",
+    "periodic": "end one row before the first row repeats, and mark the file as periodic",
+    "growing": "let the triangle wave grow instead of decay",
 }
 
 
@@ -130,28 +149,32 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser = commands.add_parser(
         "excite",
         help="make a test motion that stays inside the robot's limits",
-        description="Write a trajectory that excites axes of a robot: "
-        f"{', '.join(KINDS)}. It never leaves range, voltage, speed and acceleration of an axis; "
-        "what was asked beyond is reduced, and said. A value may be given per axis: "
-        "--amplitude x=5um,thx=200urad",
+        description="Write a trajectory that excites axes of a robot. It never leaves the range, "
+        "voltage, speed and acceleration of an axis; a request beyond them is reduced"
+        " and reported. A value can be given per axis: --amplitude x=5um,thx=200urad",
     )
     parser.add_argument("kind", metavar="KIND", help=", ".join(KINDS))
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE")
     add_robot(parser)
-    parser.add_argument("--axes", metavar="x,thx", help="which axes move (default: all)")
+    parser.add_argument("--axes", metavar="x,thx", help="axes that move (default: all)")
     for each in PARAMETERS:
-        help_text = each.help if "%%" in each.help else each.help.replace("%", "%%")
+        help_text = each.help.replace("%", "%%")
         parser.add_argument(f"--{each.option}", metavar=each.metavar, help=help_text)
     for name, meaning in SWITCHES.items():
         parser.add_argument(
             f"--{name}", action=argparse.BooleanOptionalAction, default=None, help=meaning
         )
     parser.add_argument(
-        "--rate", type=float, metavar="HZ", help="rows a second (default: 4 a resonance)"
+        "--rate",
+        type=float,
+        metavar="HZ",
+        help="rows per second (default: 4 per period of the resonance)",
     )
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of phases and sequences")
     parser.add_argument(
-        "--strict", action="store_true", help="refuse what exceeds a limit, never reduce it"
+        "--seed", type=int, default=0, metavar="N", help="seed of phases and sequences"
+    )
+    parser.add_argument(
+        "--strict", action="store_true", help="refuse what exceeds a limit instead of reducing it"
     )
     parser.set_defaults(run=run)
 
@@ -167,7 +190,7 @@ def run(options: argparse.Namespace) -> int:
         strict=options.strict,
     )
     write_record(made.record, options.output)
-    print(f"{options.output}: {_summary(made)}")
+    print(f"{options.output}: {_summary(made, options.wording)}")
     return 0
 
 
@@ -250,14 +273,21 @@ def _split(text: str) -> list[str]:
     return [part.strip() for part in text.split(",") if part.strip()]
 
 
-def _summary(made: Excitation) -> str:
+def _summary(made: Excitation, wording: Wording) -> str:
     record = made.record
-    rate = float(record.metadata["rate_hz"])
-    lines = [f"{len(record.time_s)} rows, {record.duration_s:.6g} s at {rate:.6g} Hz"]
+    said = message("cli", "{rows} rows, {duration} at {rate}").fill(
+        rows=len(record.time_s),
+        duration=exact(record.duration_s, "s"),
+        rate=exact(float(record.metadata["rate_hz"]), "Hz"),
+    )
     if record.period_samples is not None:
-        lines[0] += f", periodic in {record.period_samples} rows"
+        said = message("cli", "{summary}, period {rows} rows").fill(
+            summary=said, rows=record.period_samples
+        )
+    lines = [wording.of(said)]
     for axis in record.axes:
         words = record.metadata[f"excitation {axis}"]
         lines.append(f"  {axis}: {words if len(words) <= _LONGEST else words[:_LONGEST] + ' …'}")
-    lines += [f"  changed: {each.message}" for each in made.adjustments]
+    changed = message("cli", "changed: {what}")
+    lines += [f"  {wording.of(changed.fill(what=each.message))}" for each in made.adjustments]
     return "\n".join(lines)

@@ -8,12 +8,12 @@ import argparse
 from pathlib import Path
 
 from rotemina.app.cli import gap_bench, gap_blind, gap_diagnose
-from rotemina.app.cli.options import add_columns
+from rotemina.app.cli.options import add_columns, tell, tell_written
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.prediction import predict
 from rotemina.sim.gap.reading import read_document
 from rotemina.sim.gap.twin import twin_text, write_twin
-from rotemina.sim.messages import message
+from rotemina.sim.messages import joined, message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
 
@@ -46,24 +46,27 @@ def _nothing(_options: argparse.Namespace) -> int:
 def _add_predict(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     parser = verbs.add_parser(
         "predict",
-        help="the corrected model's answer to new commands",
-        description="Drive the corrected model of a diagnosis by the commands of a trajectory or "
-        "record, and write the record that it expects: without noise, rounding and chance.",
+        help="write the corrected model's answer to new commands",
+        description="Drive the corrected model of a diagnosis with the commands of a trajectory "
+        "or record, and write the expected record, without noise, rounding and "
+        "chance.",
     )
-    parser.add_argument("document", type=Path, metavar="OUT.json", help="of 'gap diagnose --json'")
+    parser.add_argument(
+        "document", type=Path, metavar="OUT.json", help="file of 'gap diagnose --json'"
+    )
     parser.add_argument("commands", type=Path, metavar="COMMANDS", help="a trajectory or record")
     parser.add_argument(
         "-o",
         "--output",
         type=Path,
         metavar="RECORD",
-        help="where the record goes (default: COMMANDS-predicted.csv in this folder)",
+        help="file for the record (default: COMMANDS-predicted.csv in this folder)",
     )
     parser.add_argument(
         "--after",
         type=Path,
         metavar="RECORD",
-        help="the motion that went before: what the machine remembers of it is carried over",
+        help="the motion before this one; the model starts with its memory of it",
     )
     parser.add_argument(
         "--pause",
@@ -80,17 +83,19 @@ def _add_twin(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> N
     parser = verbs.add_parser(
         "twin",
         help="write a robot file with the fitted effects",
-        description="Write the robot that was diagnosed with the fitted effects behind those that "
-        "it had, as a robot file that --robot of every command takes.",
+        description="Write the diagnosed robot with the fitted effects after its own ones, as a "
+        "robot file for --robot of every command.",
     )
-    parser.add_argument("document", type=Path, metavar="OUT.json", help="of 'gap diagnose --json'")
+    parser.add_argument(
+        "document", type=Path, metavar="OUT.json", help="file of 'gap diagnose --json'"
+    )
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="ROBOT")
     parser.add_argument(
         "--robot",
         dest="base",
         metavar="NAME_OR_FILE",
-        help="keep the text of this robot file, comments too; it must be the robot that was "
-        "diagnosed (default: the shipped robot, if it is the same, else a new text)",
+        help="keep the text of this robot file with its comments; it must be the diagnosed"
+        " robot (default: the shipped robot if it is the same, else a new text)",
     )
     parser.set_defaults(run=run_twin)
 
@@ -115,7 +120,7 @@ def run_predict(options: argparse.Namespace) -> int:
         raise InputError(message("cli", "--pause: name the motion that went before by --after"))
     record = predict(robot, commands, document.offsets, after=after, pause_s=options.pause)
     write_record(record, output)
-    print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
+    tell_written(options, output, len(record.time_s), record.duration_s)
     return 0
 
 
@@ -123,8 +128,16 @@ def run_twin(options: argparse.Namespace) -> int:
     """Write the robot file."""
     document = read_document(options.document)
     write_twin(twin_text(document.robot, document.effects, options.base), options.output)
-    named = ", ".join(f"{effect.id} on {effect.axis}" for effect in document.effects)
-    print(f"{options.output}: {document.robot.name} with {named or 'no further effects'}")
+    added = [
+        message("cli", "{effect} on axis {axis}").fill(effect=effect.id, axis=effect.axis)
+        for effect in document.effects
+    ]
+    said = message("cli", "{output}: robot {robot} with {effects}").fill(
+        output=options.output,
+        robot=document.robot.name,
+        effects=joined(added, ", ") if added else message("cli", "no further effects"),
+    )
+    tell(options, said)
     return 0
 
 

@@ -8,28 +8,29 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     """Add the subcommand."""
     parser = verbs.add_parser(
         "bench",
-        help="diagnose machines whose causes are known, one line each",
-        description="Diagnose machines, each a folder with robot.toml, records train_*.csv that "
-        "are diagnosed and test_*.csv that no fit sees, and what is known of it in truth.toml "
-        "(optional). Print a line each: first cause, sets, how much of the gap closes on the test "
-        "records, what is left beside the figure to beat, time, verdict.",
+        help="diagnose machines with known causes, one line each",
+        description="Diagnose machines. Each is a folder with robot.toml, records train_*.csv for"
+        " the diagnosis, records test_*.csv that no fit uses, and its known causes in"
+        " truth.toml (optional). Print one line each: first cause, sets, how much of "
+        "the gap closes on the test records, the remainder beside the figure to beat,"
+        " time, verdict.",
     )
     parser.add_argument(
         "folders",
         type=Path,
         nargs="+",
         metavar="FOLDER",
-        help="of a machine, or of folders of machines",
+        help="folder of a machine, or of several machines",
     )
     parser.add_argument("--json", metavar="OUT", help="write the results as JSON ('-' prints them)")
     parser.add_argument("--report", type=Path, metavar="OUT.md", help="write a page")
-    parser.add_argument("--jobs", type=int, metavar="N", help="how many processes a diagnosis uses")
+    parser.add_argument("--jobs", type=int, metavar="N", help="processes of a diagnosis")
     parser.add_argument(
         "--longest",
         type=_seconds,
         default=1800.0,
         metavar="S",
-        help="time after which a machine is given up, s (default: 1800)",
+        help="time limit of a machine, s (default: 1800)",
     )
     parser.set_defaults(run=run)
 

@@ -11,18 +11,20 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     """Add the subcommand."""
     parser = verbs.add_parser(
         "blind",
-        help="the sealed self-test of the diagnosis, scored",
-        description="Make cases by equations that the diagnosis does not know, seal their labels, "
-        "diagnose each in a process of its own that sees records alone, then open the labels and "
-        "score the answers. What is done is not done again: start it once more to go on.",
+        help="run the sealed self-test of the diagnosis and score it",
+        description="Make cases by equations that the diagnosis does not know, seal their labels,"
+        " and diagnose each in a process that sees only records; then open the labels"
+        " and score the answers. A second start continues where the first one ended.",
     )
-    parser.add_argument("--cases", type=int, metavar="N", help="how many (default: 300)")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the cases (default 0)")
+    parser.add_argument("--cases", type=int, metavar="N", help="number of cases (default: 300)")
+    parser.add_argument(
+        "--seed", type=int, default=0, metavar="N", help="seed of the cases (default: 0)"
+    )
     parser.add_argument(
         "--generator",
         choices=("first", "second"),
         default="first",
-        help="whose equations make the cases (default: first); figures are of one alone",
+        help="equations that make the cases (default: first); each gives its own figures",
     )
     parser.add_argument(
         "--shard",
@@ -37,24 +39,25 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--folder",
         type=Path,
         metavar="DIR",
-        help="where results go, one file a case (default: rotemina-blind-SEED in this folder)",
+        help="folder for the results, one file per case (default: rotemina-blind-SEED in "
+        "this folder)",
     )
     parser.add_argument("--json", metavar="OUT", help="write the figures as JSON ('-' prints them)")
     parser.add_argument(
         "--report",
         type=Path,
         metavar="OUT.md",
-        help="write a page, and its picture beside it (seeds from 1000 on)",
+        help="write a page, with its picture beside it (seeds from 1000 on)",
     )
     parser.add_argument(
         "--calibrate",
         type=Path,
         metavar="FILE",
-        help="write how often a cause of each probability is there, as JSON (seeds below 1000)",
+        help="write how often a cause of each probability is present, as JSON (seeds below 1000)",
     )
-    parser.add_argument("--jobs", type=int, metavar="N", help="how many processes a diagnosis uses")
+    parser.add_argument("--jobs", type=int, metavar="N", help="processes of a diagnosis")
     parser.add_argument(
-        "--score", action="store_true", help="score what is done, and do no more cases"
+        "--score", action="store_true", help="score finished cases, and diagnose no more"
     )
     parser.add_argument(
         "--naive",

@@ -30,10 +30,12 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     """Add the subcommand."""
     parser = verbs.add_parser(
         "diagnose",
-        help="say where model and machine part, which effects cause it, how far it shrinks",
+        help="find where model and machine differ, which effects cause it, and how far the"
+        " gap shrinks",
         description="Compare the model with records of the real machine, name the effects that "
-        "the model lacks, and prove it on data that the fit never saw. Several records of one "
-        "robot are diagnosed together; they may differ in rate, length, axes and taps.",
+        "the model lacks, and prove it with data that the fit never used. Several "
+        "records of one robot are diagnosed together; they may differ in rate, "
+        "length, axes and signals.",
     )
     parser.add_argument("records", type=Path, nargs="+", metavar="RECORD")
     add_robot(parser)
@@ -44,9 +46,14 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         help="write the diagnosis as JSON, with suggested experiments beside it ('-' prints it)",
     )
     parser.add_argument(
-        "--report", type=Path, metavar="OUT.html", help="write a report, one page that needs no net"
+        "--report",
+        type=Path,
+        metavar="OUT.html",
+        help="write a report, one page that works offline",
     )
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of chance (default: 0)")
+    parser.add_argument(
+        "--seed", type=int, default=0, metavar="N", help="seed of random numbers (default: 0)"
+    )
     add_workers(parser)
     parser.set_defaults(run=run)
 
@@ -61,7 +68,10 @@ def run(options: argparse.Namespace) -> int:
     records = [read_record(path, columns=options.columns, robot=robot) for path in options.records]
     cautions = check(robot, records, list(map(str, options.records)))
     _tell(cautions, options.records, options.wording)
-    with workers(options.jobs, options.cluster) as jobs, ProgressLine(sys.stderr) as listener:
+    with (
+        workers(options.jobs, options.cluster) as jobs,
+        ProgressLine(sys.stderr, options.wording) as listener,
+    ):
         diagnosis = diagnose(
             robot, records, seed=options.seed, jobs=jobs, listener=listener, cautions=cautions
         )

@@ -1,6 +1,6 @@
 """The language that the command line answers in: the window's, where nothing else is asked for.
 
-Files, logs, JSON and the help of the options are English; names of axes are those of the files.
+Files, logs and JSON are English; names of axes are those of the files.
 """
 
 import os
@@ -49,7 +49,12 @@ class CatalogueWording(Wording):
 def wording(asked: str | None = None) -> Wording:
     """Return how messages read in the language asked for, else in the window's."""
     language = asked or chosen()
-    return CatalogueWording(language) if language in LANGUAGES else Wording()
+    if language not in LANGUAGES:
+        return Wording()
+    try:
+        return CatalogueWording(language)
+    except ImportError:  # `rotemina doctor` reports what Qt lacks
+        return Wording()
 
 
 def chosen() -> str:

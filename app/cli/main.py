@@ -8,6 +8,7 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from functools import partial
 from importlib.metadata import version
 
 from rotemina.app.cli import (
@@ -31,17 +32,26 @@ from rotemina.app.cli import (
     window,
 )
 from rotemina.app.cli.language import wording
+from rotemina.app.cli.translated_help import (
+    CONTEXT,
+    language_asked,
+    translate_argparse,
+    translate_parser,
+)
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import Wording, message
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
+    spoken = wording(language_asked(arguments))
+    text = partial(spoken.text, CONTEXT)
+    translate_argparse(text)
     parser = build_parser()
+    translate_parser(parser, text)
     options = parser.parse_args(arguments)
-    options.wording = Wording()  # the window speaks for itself
-    if options.run is not window.run:
-        options.wording = wording(options.language)
+    # The window translates its messages itself.
+    options.wording = Wording() if options.run is window.run else spoken
     try:
         status = int(options.run(options))
         sys.stdout.flush()
@@ -70,8 +80,8 @@ def build_parser() -> argparse.ArgumentParser:
     """Return the parser of the whole command line; without a subcommand the window opens."""
     parser = argparse.ArgumentParser(
         prog="rotemina",
-        description="Control, simulation and sim-to-real diagnosis of the RoTeMiNa robot. "
-        "Without a subcommand the operator's window opens.",
+        description="Control, simulation and sim-to-real diagnosis of the RoTeMiNa robot. Without"
+        " a subcommand the operator's window opens.",
     )
     parser.add_argument("--version", action="version", version=f"rotemina {version('rotemina')}")
     window.add_options(parser)

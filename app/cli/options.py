@@ -1,12 +1,14 @@
-"""Options that several subcommands share."""
+"""What several subcommands share: options, and what they print."""
 
 import argparse
 from dataclasses import replace
+from pathlib import Path
 
 from rotemina.sim.effects.attachment import attached_effects
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Message, message
+from rotemina.sim.quantities import scale_in
 from rotemina.sim.robot.file import load_robot, shipped_robots
 from rotemina.sim.robot.model import Robot
 
@@ -54,3 +56,15 @@ def robot_with_effects(options: argparse.Namespace) -> Robot:
             )
         ) from error
     return robot
+
+
+def tell(options: argparse.Namespace, said: Message) -> None:
+    """Print a message in the language of the command line."""
+    print(options.wording.of(said), flush=True)
+
+
+def tell_written(options: argparse.Namespace, output: Path, rows: int, duration_s: float) -> None:
+    """Print which file was written, and how long it is."""
+    said = message("cli", "{output}: {rows} rows, {duration}")
+    duration = scale_in("s", digits=6).text(duration_s)
+    tell(options, said.fill(output=output, rows=rows, duration=duration))

@@ -38,7 +38,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     """Add the subcommand with its own subcommands."""
     parser = commands.add_parser(
         "plate",
-        help="the plate that holds the pin by finite elements: stress, stiffness, modes",
+        help="compute the plate that holds the pin by finite elements: stress, stiffness, modes",
         description="Compute the thin plate that holds the pin, as [plate] of the robot file "
         "describes it (without that, the shipped plate).",
     )
@@ -50,21 +50,38 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 def _add_solve(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     solving = verbs.add_parser(
         "solve",
-        help="stress, reactions, stiffness, friction in the seat, modes, safety against yield",
-        description="Move the pin's bottom slowly to a place (without one: to the end of the "
-        "range of every axis), and report.",
+        help="compute stress, reactions, stiffness, friction in the seat, modes, safety "
+        "against yield",
+        description="Move the pin's bottom slowly to a place (by default to the end of the range "
+        "of every axis), and report.",
     )
     _add_common(solving)
-    solving.add_argument("--zn", type=float, metavar="UM", help="along the pin, µm")
-    solving.add_argument("--thx", type=float, metavar="URAD", help="sideways over its length, µrad")
-    solving.add_argument("--thy", type=float, metavar="URAD", help="sideways over its length, µrad")
+    solving.add_argument("--zn", type=float, metavar="UM", help="displacement along the pin, µm")
     solving.add_argument(
-        "--seconds", type=float, default=DURATION_S, metavar="S", help="default: 30"
+        "--thx",
+        type=float,
+        metavar="URAD",
+        help="sideways displacement divided by the pin's length, µrad",
     )
-    solving.add_argument("--back", action="store_true", help="and back to where it began")
-    solving.add_argument("--modes", type=int, default=10, metavar="N", help="default: 10")
+    solving.add_argument(
+        "--thy",
+        type=float,
+        metavar="URAD",
+        help="sideways displacement divided by the pin's length, µrad",
+    )
+    solving.add_argument(
+        "--seconds",
+        type=float,
+        default=DURATION_S,
+        metavar="S",
+        help="duration of the motion, s (default: 30)",
+    )
+    solving.add_argument("--back", action="store_true", help="move back to the start as well")
+    solving.add_argument(
+        "--modes", type=int, default=10, metavar="N", help="number of modes (default: 10)"
+    )
     solving.add_argument("--vtu", type=Path, metavar="FILE", help="write mesh and fields")
-    solving.add_argument("--ramp", type=Path, metavar="FILE", help="write the ramp as CSV (SI)")
+    solving.add_argument("--ramp", type=Path, metavar="FILE", help="write the motion as CSV (SI)")
     solving.set_defaults(run=_solve)
 
 
@@ -72,8 +89,8 @@ def _add_apply(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     applying = verbs.add_parser(
         "apply",
         help="write a robot file with the plate's stiffness, mass and couplings",
-        description="Turn the plate into entries of a robot file, and say how far they are from "
-        "those it has. Damping stays.",
+        description="Turn the plate into entries of a robot file, and print how far they are from"
+        " its present ones. Damping stays.",
     )
     _add_common(applying)
     applying.add_argument("-o", "--output", type=Path, required=True, metavar="ROBOT_FILE")
@@ -87,7 +104,7 @@ def _add_common(parser: argparse.ArgumentParser) -> None:
         type=int,
         default=DIVISIONS,
         metavar="N",
-        help=f"elements around the turn (default: {DIVISIONS})",
+        help="elements around the circumference (default: %(default)s)",
     )
 
 

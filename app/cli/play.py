@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rotemina.app.cli.compensate_apply import named_inverse
-from rotemina.app.cli.options import add_columns, add_robot, robot_of
+from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell, tell_written
 from rotemina.app.motion.player import play_offline
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Wording, message
+from rotemina.sim.quantities import exact
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
@@ -25,8 +26,8 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser = commands.add_parser(
         "play",
         help="play a trajectory on the simulator and write the record",
-        description="Check a trajectory against the robot's limits, play it on the simulator as "
-        "fast as the machine can, and write the record.",
+        description="Check a trajectory against the robot's limits, play it on the simulator "
+        "as fast as possible, and write the record.",
     )
     parser.add_argument("trajectory", type=Path, metavar="TRAJECTORY")
     parser.add_argument(
@@ -34,7 +35,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "--output",
         type=Path,
         metavar="RECORD",
-        help="where the record goes (default: TRAJECTORY-record.csv in this folder)",
+        help="file for the record (default: TRAJECTORY-record.csv in this folder)",
     )
     add_robot(parser)
     add_columns(parser)
@@ -48,11 +49,15 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "--tuning",
         type=Path,
         metavar="FILE",
-        help="close the loop that this file of rotemina tune has chosen, fed forward through "
-        "--compensate if that is given",
+        help="close the loop that this file of rotemina tune has chosen, with --compensate"
+        " as feedforward if given",
     )
-    parser.add_argument("--seed", type=int, default=0, help="of the sensors' noise (default: 0)")
-    parser.add_argument("--dry-run", action="store_true", help="only check it against the limits")
+    parser.add_argument(
+        "--seed", type=int, default=0, help="seed of the sensors' noise (default: 0)"
+    )
+    parser.add_argument(
+        "--dry-run", action="store_true", help="only check the trajectory against the limits"
+    )
     parser.set_defaults(run=run)
 
 
@@ -68,7 +73,12 @@ def run(options: argparse.Namespace) -> int:
             )
         )
     if options.dry_run:
-        print(f"{options.trajectory}: {checked.duration_s:.6g} s, {checked.rows} rows, in limits")
+        said = message("cli", "{trajectory}: {duration}, {rows} rows, within the limits").fill(
+            trajectory=options.trajectory,
+            duration=exact(checked.duration_s, "s"),
+            rows=checked.rows,
+        )
+        tell(options, said)
         return 0
     inverse = None if options.compensate is None else named_inverse(options.compensate, robot)
     loop = None if options.tuning is None else _loop(options.tuning, robot)
@@ -77,12 +87,12 @@ def run(options: argparse.Namespace) -> int:
         robot,
         checked.require(),
         seed=options.seed,
-        progress=_progress(),
+        progress=_progress(options.wording),
         inverse=inverse,
         loop=loop,
     )
     write_record(record, output)
-    print(f"{output}: {len(record.time_s)} rows, {record.duration_s:.6g} s")
+    tell_written(options, output, len(record.time_s), record.duration_s)
     return 0
 
 
@@ -110,12 +120,13 @@ def _free_name(trajectory: Path) -> Path:
     return output
 
 
-def _progress() -> Callable[[float], None] | None:
+def _progress(wording: Wording) -> Callable[[float], None] | None:
     if not sys.stderr.isatty():
         return None
 
     def show(share: float) -> None:
         end = "\n" if share >= 1.0 else ""
-        print(f"\rplaying {100 * share:3.0f} %", end=end, file=sys.stderr, flush=True)
+        said = message("cli", "playing {share} %").fill(share=f"{100 * share:3.0f}")
+        print(f"\r{wording.of(said)}", end=end, file=sys.stderr, flush=True)
 
     return show

@@ -3,11 +3,12 @@
 import argparse
 from pathlib import Path
 
-from rotemina.app.cli.options import add_robot, robot_of
+from rotemina.app.cli.options import add_robot, robot_of, tell
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 
 _FAILED = 1
+_ROW = "{:8}{:24}{:28}{:10}{:15}{}"
 _KINDS = ("driver", "panel", "effect", "camera", "input")
 
 
@@ -23,30 +24,32 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     one = verbs.add_parser(
         "new",
         help="write a package with a working, tested plugin",
-        description="Write a package rotemina-NAME into a folder of its own. Nothing that is "
-        "there is overwritten.",
+        description="Write a package rotemina-NAME into a folder of its own. Existing files are "
+        "not overwritten.",
     )
     one.add_argument("kind", metavar="KIND", choices=_KINDS, help=", ".join(_KINDS))
     one.add_argument("name", metavar="NAME", help="small letters, digits, single underscores")
     one.add_argument(
-        "--folder", type=Path, default=Path(), metavar="DIR", help="where to (default: here)"
+        "--folder", type=Path, default=Path(), metavar="DIR", help="parent folder (default: here)"
     )
     one.set_defaults(run=new)
 
-    one = verbs.add_parser("list", help="one line for each plugin, and why any was left out")
+    one = verbs.add_parser("list", help="print one line for each plugin, and why any was left out")
     one.add_argument("kind", nargs="?", metavar="KIND", choices=_KINDS, help="only this kind")
     one.set_defaults(run=list_plugins)
 
     one = verbs.add_parser(
         "check",
-        help="put a plugin to the checks of its kind",
-        description="Import a plugin anew and put it to the checks of its kind. Of a driver of a "
-        "real device nothing is checked that moves an axis (see `rotemina driver check`). Exit "
+        help="run the checks for the plugin's kind",
+        description="Import a plugin anew and run the checks of its kind. For the driver of a "
+        "real device, no check moves an axis (see `rotemina driver check`). Exit "
         "status: 0 all passed, 1 a check failed.",
     )
     one.add_argument("name", metavar="NAME")
-    one.add_argument("--kind", metavar="KIND", choices=_KINDS, help="where kinds share a name")
-    one.add_argument("--verbose", action="store_true", help="what each check demands as well")
+    one.add_argument(
+        "--kind", metavar="KIND", choices=_KINDS, help="kind, where several kinds share the name"
+    )
+    one.add_argument("--verbose", action="store_true", help="also print what each check demands")
     add_robot(one)
     one.set_defaults(run=check)
 
@@ -57,9 +60,13 @@ def new(options: argparse.Namespace) -> int:
     from rotemina.app.plugin_kit.writing import new_plugin
 
     place = new_plugin(Kind(options.kind), options.name, options.folder)
-    print(f"{place}: {options.kind} {options.name}; install it with")
-    print(f"  pip install --editable '{place}[test]'")
-    print(f"and see to it with `rotemina plugin check {options.name}` and `pytest {place}`.")
+    said = message(
+        "cli",
+        "{place}: {kind} {name}; install it with\n"
+        "  pip install --editable '{place}[test]'\n"
+        "and check it with `rotemina plugin check {name}` and `pytest {place}`.",
+    )
+    tell(options, said.fill(place=place, kind=options.kind, name=options.name))
     return 0
 
 
@@ -67,14 +74,29 @@ def list_plugins(options: argparse.Namespace) -> int:
     """Print a line for each plugin: kind, name, package, version, interface, state."""
     from rotemina.app.plugin_kit.kinds import Kind, installed_plugins
 
-    print(f"{'kind':8}{'name':24}{'package':28}{'version':10}{'interface':11}state")
+    wording = options.wording
+    head = [
+        wording.of(one)
+        for one in (
+            message("cli", "kind"),
+            message("cli", "name"),
+            message("cli", "package"),
+            message("cli", "version"),
+            message("cli", "interface"),
+            message("cli", "state"),
+        )
+    ]
+    print(_ROW.format(*head))
     for kind in Kind if options.kind is None else (Kind(options.kind),):
         for one in installed_plugins(kind):
             written_for = "?" if one.api_version is None else str(one.api_version)
-            interface = f"{written_for} of {kind.api_version}"
-            state = f"left out: {one.refused}" if one.refused else "loaded"
-            package = one.package or "?"
-            print(f"{kind:8}{one.name:24}{package:28}{one.version or '?':10}{interface:11}{state}")
+            said = message("cli", "{version} of {current}")
+            interface = wording.of(said.fill(version=written_for, current=kind.api_version))
+            state = message("cli", "loaded")
+            if one.refused:
+                state = message("cli", "left out: {reason}").fill(reason=one.refused)
+            row = (kind, one.name, one.package or "?", one.version or "?", interface)
+            print(_ROW.format(*row, wording.of(state)))
     return 0
 
 

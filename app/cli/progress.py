@@ -7,6 +7,8 @@ from types import TracebackType
 from typing import Self, TextIO
 
 from rotemina.sim.gap.progress import Progress
+from rotemina.sim.messages import Wording, message
+from rotemina.sim.quantities import Number, fixed
 
 _BETWEEN_REWRITES_S = 0.1
 _BETWEEN_LINES_S = 5.0
@@ -22,8 +24,14 @@ class ProgressLine:
     line every few seconds, so that a log stays short.
     """
 
-    def __init__(self, stream: TextIO, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self,
+        stream: TextIO,
+        wording: Wording | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._stream = stream
+        self._wording = wording or Wording()
         self._clock = clock
         self._terminal = stream.isatty()
         self._begin_s = clock()
@@ -62,21 +70,31 @@ class ProgressLine:
             print(text, file=self._stream, flush=True)
 
     def _text(self, progress: Progress, elapsed_s: float) -> str:
-        what = " ".join(part for part in (progress.axis, progress.candidate) if part)
-        text = f"{progress.stage} {what}".rstrip() + f", {100.0 * self._share:.0f} %"
+        stage = self._wording.text("gap", progress.stage)
+        what = (stage, progress.axis, self._wording.shown(progress.candidate or ""))
+        parts: list[str] = [
+            " ".join(part for part in what if part),
+            Number(f"{fixed(100.0 * self._share, 0)} %"),
+        ]
         if progress.ranking is not None and progress.ranking.standings:
             first = progress.ranking.standings[0]
-            name = " + ".join(effect for effect, _ in first.causes) or "re-tuned model"
-            text += (
-                f", {name} first of {progress.ranking.tried}: {100.0 * first.closed:.0f} % closed"
+            parts.append(
+                message("cli", "{causes} first of {tried}: {closed} closed").fill(
+                    causes=" + ".join(effect for effect, _ in first.causes)
+                    or message("cli", "re-tuned model"),
+                    tried=progress.ranking.tried,
+                    closed=Number(f"{fixed(100.0 * first.closed, 0)} %"),
+                )
             )
         if elapsed_s >= _FIRST_GUESS_S and self._share >= _FIRST_GUESS_SHARE:
             left_s = elapsed_s * (1.0 / self._share - 1.0)
-            text += f", about {_duration(left_s)} left"
-        return text
+            parts.append(message("cli", "about {duration} left").fill(duration=_duration(left_s)))
+        return ", ".join(self._wording.shown(part) for part in parts)
 
 
-def _duration(seconds: float) -> str:
+def _duration(seconds: float) -> Number:
     if seconds < 90.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
+        return Number(f"{fixed(seconds, 0)} s")
+    if seconds < 5400.0:
+        return Number(f"{fixed(seconds / 60.0, 0)} min")
+    return Number(f"{fixed(seconds / 3600.0, 1)} h")

@@ -3,8 +3,10 @@
 import argparse
 from pathlib import Path
 
+from rotemina.app.cli.options import tell
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
+from rotemina.sim.quantities import scale_in
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 
@@ -16,47 +18,47 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     """Add the subcommand and what it does."""
     parser = commands.add_parser(
         "recording",
-        help="look at recordings of sessions, recover and export them",
-        description="Look at recordings of sessions, recover what a crash has left, and export "
-        "stretches of them as records or as trajectories to be played again.",
+        help="inspect recordings of sessions, recover and export them",
+        description="Inspect recordings of sessions, recover them after a crash, and export parts"
+        " of them as records or as trajectories that can be played.",
     )
     does = parser.add_subparsers(metavar="", required=True)
 
-    one = does.add_parser("info", help="what a recording holds")
+    one = does.add_parser("info", help="print what a recording holds")
     one.add_argument("recording", type=Path, metavar="FILE")
-    one.add_argument("--events", action="store_true", help="list what happened, too")
+    one.add_argument("--events", action="store_true", help="list the events as well")
     one.add_argument(
-        "--robot-file", action="store_true", help="print the robot file that is in it, only"
+        "--robot-file", action="store_true", help="print only the robot file of the recording"
     )
     one.set_defaults(run=info)
 
-    one = does.add_parser("recover", help="finish recordings that a crash has left")
+    one = does.add_parser("recover", help="complete recordings after a crash")
     one.add_argument("source", type=Path, metavar="FILE_OR_FOLDER")
     one.set_defaults(run=recover)
 
-    one = does.add_parser("export", help="write a stretch as a record, or as a trajectory")
+    one = does.add_parser("export", help="write a part as a record, or as a trajectory")
     one.add_argument("recording", type=Path, metavar="FILE")
     one.add_argument("-o", "--output", type=Path, required=True, metavar="OUT")
     one.add_argument(
         "--from", type=float, default=0.0, dest="begin", metavar="S",
-        help="where it begins, in seconds from the begin of the recording",
+        help="start of the part, in seconds from the start of the recording",
     )  # fmt: skip
     one.add_argument(
         "--to", type=float, default=float("inf"), dest="end", metavar="S",
-        help="where it ends, likewise",
+        help="end of the part, in seconds from the start of the recording",
     )  # fmt: skip
     one.add_argument(
         "--trajectory", action="store_true",
-        help="write the commands of the axes that moved, checked, to be played again",
+        help="write the commands of the axes that moved as a checked trajectory",
     )  # fmt: skip
     one.add_argument(
         "--period", type=float, default=SETPOINT_PERIOD_S, metavar="S",
-        help="of the rows of a trajectory (default: %(default)g s)",
+        help="period of the trajectory's rows (default: %(default)g s)",
     )  # fmt: skip
     one.add_argument(
         "--reference", metavar="AXIS",
-        help="write a record with where the microscope saw this axis (x, y, thx, thy) as its "
-        "reference, for 'rotemina gap diagnose'",
+        help="write a record in which the position of this axis (x, y, thx, thy) in the "
+"microscope's picture is the reference, for 'rotemina gap diagnose'",
     )  # fmt: skip
     one.set_defaults(run=export)
 
@@ -70,17 +72,22 @@ def info(options: argparse.Namespace) -> int:
     if options.robot_file:
         print(about.get("robot_file", ""), end="")
         return 0
-    print(f"{options.recording}: {recording.ended_s - recording.began_s:.3f} s")
+    duration = scale_in("s", decimals=3).text(recording.ended_s - recording.began_s)
+    print(f"{options.recording}: {options.wording.shown(duration)}")
     for key in _TOLD:
         print(f"  {key:16s}{about.get(key, '')}")
     for key in _TOLD_IF_GIVEN:
         if about.get(key):
             print(f"  {key:16s}{about[key]}")
-    print(f"  {'samples':16s}{recording.count} of {', '.join(recording.axes)}")
+    said = message("cli", "{count} of {names}")
+    samples = said.fill(count=recording.count, names=", ".join(recording.axes))
+    print(f"  {'samples':16s}{options.wording.of(samples)}")
     for name in recording.channels:
         columns = recording.channel(name)
         rows = len(columns.pop("host_time_s"))
-        print(f"  {'channel':16s}{name}: {rows} rows of {', '.join(columns)}")
+        said = message("cli", "{name}: {rows} rows of {columns}")
+        channel = said.fill(name=name, rows=rows, columns=", ".join(columns))
+        print(f"  {'channel':16s}{options.wording.of(channel)}")
     events = recording.events()
     print(f"  {'events':16s}{len(events)}")
     for event in events if options.events else ():
@@ -95,7 +102,7 @@ def recover(options: argparse.Namespace) -> int:
     source = options.source
     found = merging.unfinished(source) if source.is_dir() else (source,)
     if not found:
-        print(f"{source}: nothing to recover")
+        tell(options, message("cli", "{source}: nothing to recover").fill(source=source))
     refused = []
     for path in found:
         try:
@@ -144,5 +151,6 @@ def export(options: argparse.Namespace) -> int:
         rows = len(referenced.time_s)
     else:
         rows = exporting.export(recording, options.output, begin_s, end_s)
-    print(f"{options.output}: {rows} rows")
+    said = message("cli", "{output}: {rows} rows")
+    tell(options, said.fill(output=options.output, rows=rows))
     return 0

@@ -10,11 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.app.cli.options import add_columns, add_robot, robot_with_effects
+from rotemina.app.cli.options import add_columns, add_robot, robot_with_effects, tell_written
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Field, Message, message
 from rotemina.sim.plant.assembly import assemble
 from rotemina.sim.plant.loads import RunningLoads
+from rotemina.sim.quantities import Number, rounded, scale_in
 from rotemina.sim.records.pieces import read_pieces
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
@@ -31,10 +32,10 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     """Add the subcommand."""
     parser = commands.add_parser(
         "simulate",
-        help="simulate the robot with its effects over the commands of a file",
-        description="Drive the model, with the effects and the noise of its robot file, by the "
-        "commands of a trajectory or record, and write what the machine would have recorded: "
-        "cmd, u, ref and meas. Long files go through in bounded memory.",
+        help="simulate the robot with its effects for the commands of a file",
+        description="Drive the model, with the effects and the noise of its robot file, with the "
+        "commands of a trajectory or record, and write what the machine would record:"
+        " cmd, u, ref and meas. Long files need no more memory than short ones.",
     )
     parser.add_argument("commands", type=Path, metavar="COMMANDS", help="a trajectory or record")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="RECORD")
@@ -45,7 +46,11 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     )
     chance = parser.add_mutually_exclusive_group()
     chance.add_argument(
-        "--seed", type=int, default=0, metavar="N", help="of noise and random effects (default: 0)"
+        "--seed",
+        type=int,
+        default=0,
+        metavar="N",
+        help="seed of noise and random effects (default: 0)",
     )
     chance.add_argument(
         "--no-noise", action="store_true", help="no noise, no rounding, no random effects"
@@ -75,19 +80,20 @@ def run(options: argparse.Namespace) -> int:
             run_.write_loads(files.enter_context(table))
         write_pieces(run_.records(chain([first], commands)), options.output)
     for warning in chain(_idle(robot, simulation), run_.outside.warnings()):
-        print(f"rotemina: {options.commands}: {warning}", file=sys.stderr)
-    print(f"{options.output}: {run_.rows} rows, {run_.duration_s:.6g} s")
+        print(f"rotemina: {options.commands}: {options.wording.of(warning)}", file=sys.stderr)
+    tell_written(options, options.output, run_.rows, run_.duration_s)
     return 0
 
 
-def _idle(robot: Robot, simulation: Simulation) -> Iterator[str]:
+def _idle(robot: Robot, simulation: Simulation) -> Iterator[Message]:
     """Say which effects have no part, because their axis has none."""
     for asked in robot.effects:
         if asked.enabled and asked.axis not in simulation.axes:
-            yield (
-                f"effect {asked.id} on {asked.axis} has no part: the commands neither name that "
-                "axis nor one that is joined to it"
-            )
+            yield message(
+                "cli",
+                "effect {effect} on axis {axis} does not act: the commands name neither this axis "
+                "nor one coupled to it",
+            ).fill(effect=asked.id, axis=asked.axis)
 
 
 def _check_files(options: argparse.Namespace) -> None:
@@ -187,7 +193,7 @@ class _Outside:
 
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
-        self._first: dict[str, str] = {}
+        self._first: dict[str, dict[str, Field]] = {}
         self._rows: dict[str, int] = {}
 
     def look_at(self, piece: Record, before: int) -> None:
@@ -200,16 +206,27 @@ class _Outside:
                 continue
             row = int(np.argmax(beyond))
             low, high = axis.range
+            unit = self._robot.unit(name) or ""
             self._first.setdefault(
                 name,
-                f"{name}.cmd = {command[row]:.9g} at row {before + row + 1} "
-                f"(t = {piece.time_s[row]:.9g} s) is outside {low:g} … {high:g}",
+                {
+                    "value": rounded(command[row], 9),
+                    "row": before + row + 1,
+                    "time": scale_in("s", digits=9).text(piece.time_s[row]),
+                    "low": rounded(low, 6),
+                    "high": Number(f"{rounded(high, 6)} {unit}".rstrip()),
+                },
             )
             self._rows[name] = self._rows.get(name, 0) + int(beyond.sum())
 
-    def warnings(self) -> list[str]:
+    def warnings(self) -> list[Message]:
         """Return a line for each axis that was commanded outside."""
+        warning = message(
+            "cli",
+            "{axis}.cmd = {value} at row {row} (t = {time}) is outside {low} … {high}; {rows} such "
+            "rows",
+        )
         return [
-            f"{text} {self._robot.unit(name) or ''}".rstrip() + f"; {self._rows[name]} such rows"
-            for name, text in self._first.items()
+            warning.fill(axis=name, **first, rows=self._rows[name])
+            for name, first in self._first.items()
         ]

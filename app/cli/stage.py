@@ -21,16 +21,14 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     """Add the subcommand."""
     parser = commands.add_parser(
         "stage",
-        help="serve an emulated G-code stage, to try the driver gcode on",
-        description="Serve a GRBL controller with the axes of a robot behind it, byte by byte, on "
-        "a pseudo-terminal. Its settings are those of the robot file, which may have stepper axes "
-        "only. Lines on standard input: limit (a limit switch closes), power (its supply fails "
-        "and comes back).",
+        help="serve an emulated G-code stage, to try the driver gcode",
+        description="Serve a GRBL controller with the axes of a robot behind it, byte by byte, on"
+        " a pseudo-terminal. The robot file gives its settings, and may have stepper "
+        "axes only. Lines on standard input: limit (a limit switch closes), power "
+        "(its supply fails and returns).",
     )
     add_robot(parser)
-    parser.add_argument(
-        "--port", type=Path, metavar="PATH", help="give the pseudo-terminal this name"
-    )
+    parser.add_argument("--port", type=Path, metavar="PATH", help="name of the pseudo-terminal")
     parser.add_argument(
         "--all-at-once", action="store_true", help="home all axes together, as plain GRBL does"
     )

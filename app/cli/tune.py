@@ -7,7 +7,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.cli.options import add_robot, robot_with_effects
+from rotemina.app.cli.options import add_robot, robot_with_effects, tell
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.cli.workers import workers
 from rotemina.app.files import json_text, write_text
@@ -16,9 +16,23 @@ from rotemina.sim.feedback.axis_loop import AxisLoop
 from rotemina.sim.feedback.stability import check_stability
 from rotemina.sim.gap.progress import Progress
 from rotemina.sim.messages import message
+from rotemina.sim.quantities import exact, fixed, rounded
+from rotemina.sim.tables import aligned
 from rotemina.sim.tuning.objectives import SecondObjective
 
 _RATE_HZ = 5000.0
+
+_HEAD = (
+    message("cli", "point"),
+    message("cli", "tracking [%]"),
+    message("cli", "settling [ms]"),
+    message("cli", "overshoot [%]"),
+    "Ms",
+    message("cli", "effort [1/s]"),
+    message("cli", "integral [1/s]"),
+    "",
+    "",
+)
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -26,16 +40,21 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser = commands.add_parser(
         "tune",
         help="find the gains of a position loop on the simulated axis",
-        description="Search gains of a PI or PID loop with notch and low-pass for one axis, by "
-        "NSGA-II on the simulated loop with the effects and the noise of its robot file: least "
-        "tracking error against least effort or settling time, with a bound of the peak "
-        "sensitivity on axes whose gain and resonance are off by 5 %. Ctrl-C ends the search and "
-        "keeps what was found.",
+        description="Search the gains of a PI or PID loop with notch and low-pass for one axis, "
+        "by NSGA-II on the simulated loop with the effects and the noise of its robot"
+        " file: least tracking error against least effort or settling time, with a "
+        "bound on the peak sensitivity of axes whose gain and resonance are off by 5 "
+        "%. Ctrl-C ends the search and keeps the points found so far.",
     )
     parser.add_argument(
-        "-o", "--output", type=Path, required=True, metavar="TUNING", help="the result, TOML"
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        metavar="TUNING",
+        help="file of the result, TOML",
     )
-    parser.add_argument("--axis", metavar="NAME", help="the axis to be tuned")
+    parser.add_argument("--axis", metavar="NAME", help="axis to be tuned")
     add_robot(parser)
     parser.add_argument(
         "--effects", metavar="FILE", help="take the effects of this robot file instead"
@@ -47,30 +66,34 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         help="feed forward through the inverse that this file recommends",
     )
     parser.add_argument(
-        "--rate", type=float, default=_RATE_HZ, metavar="HZ", help="of the loop (default: 5000)"
+        "--rate",
+        type=float,
+        default=_RATE_HZ,
+        metavar="HZ",
+        help="rate of the loop (default: 5000)",
     )
     parser.add_argument(
-        "--delay", type=int, default=0, metavar="N", help="intervals by which outputs are late"
+        "--delay", type=int, default=0, metavar="N", help="delay of the outputs in intervals"
     )
     parser.add_argument(
         "--against",
         choices=[str(one) for one in SecondObjective],
         default=str(SecondObjective.EFFORT),
-        help="the second objective beside the tracking error (default: effort)",
+        help="second objective beside the tracking error (default: effort)",
     )
     for name, preset in (("generations", 50), ("population", 60), ("seed", 1)):
         parser.add_argument(
-            f"--{name}", type=int, default=preset, metavar="N", help=f"(default: {preset})"
+            f"--{name}", type=int, default=preset, metavar="N", help="default: %(default)s"
         )
+    parser.add_argument("--jobs", type=int, metavar="N", help="number of cores (default: all)")
     parser.add_argument(
-        "--jobs", type=int, metavar="N", help="how many cores are used (default: all)"
+        "--json", metavar="OUT", help="write the result as JSON too ('-' prints it)"
     )
-    parser.add_argument("--json", metavar="OUT", help="write it as JSON too ('-' prints it)")
     parser.add_argument(
         "--choose",
         type=int,
         metavar="N",
-        help="search nothing: choose point N of the result that is there",
+        help="do not search: choose point N of the existing result",
     )
     parser.set_defaults(run=run)
 
@@ -106,12 +129,14 @@ def _search(options: argparse.Namespace) -> int:
     with (
         workers(options.jobs, None) as jobs,
         ThreadPoolExecutor(jobs) as pool,
-        ProgressLine(sys.stderr) as tell,
+        ProgressLine(sys.stderr, options.wording) as listener,
     ):
         try:
             for last in generations(problem, settings, pool.map):
-                found = f"{last.done} of {last.total} generations, {len(last.front)} points"
-                tell(Progress("tuning", options.axis, found, last.share))
+                found = message("cli", "{done} of {total} generations, {points} points").fill(
+                    done=last.done, total=last.total, points=len(last.front)
+                )
+                listener(Progress("tuning", options.axis, found, last.share))
         except KeyboardInterrupt:
             pool.shutdown(cancel_futures=True)
             if last is None or not last.front:
@@ -124,11 +149,12 @@ def _search(options: argparse.Namespace) -> int:
     _tell(tuning, options)
     if tuning.provenance.whole:
         return 0
-    print(
-        f"rotemina: stopped after {last.done} of {last.total} generations; {options.output} has "
-        "what was found until then, and says so",
-        file=sys.stderr,
-    )
+    said = message(
+        "cli",
+        "stopped after {done} of {total} generations; {output} holds the points found so far, "
+        "and is marked as incomplete",
+    ).fill(done=last.done, total=last.total, output=options.output)
+    print(f"rotemina: {options.wording.of(said)}", file=sys.stderr)
     return 130
 
 
@@ -204,20 +230,27 @@ def _tell(tuning: Any, options: argparse.Namespace) -> None:
         return
     if options.json is not None:
         write_text(Path(options.json), text + "\n")
-    print(f"{options.output}: axis {tuning.axis}, loop at {tuning.rate_hz:g} Hz")
-    print("point  tracking %  settling ms  overshoot %     Ms  effort 1/s  integral 1/s")
+    said = message("cli", "{output}: axis {axis}, loop at {rate}").fill(
+        output=options.output, axis=tuning.axis, rate=exact(tuning.rate_hz, "Hz")
+    )
+    tell(options, said)
+    rows: list[tuple[str, ...]] = [_HEAD]
     for number, point in enumerate(tuning.points):
         own = point.figures
-        marks = [
-            word
-            for word, which in (("chosen", tuning.chosen), ("recommended", tuning.recommended))
-            if number == which
-        ]
-        print(
-            f"{number:5d}  {100.0 * own.tracking_rms:10.4f}  {1e3 * own.settling_s:11.2f}  "
-            f"{100.0 * own.overshoot:11.3f}  {own.peak_sensitivity:5.3f}  {own.effort:10.3f}  "
-            f"{point.gains.integral:12.5g}  {', '.join(marks)}".rstrip()
+        rows.append(
+            (
+                str(number),
+                fixed(100.0 * own.tracking_rms, 4),
+                fixed(1e3 * own.settling_s, 2),
+                fixed(100.0 * own.overshoot, 3),
+                fixed(own.peak_sensitivity, 3),
+                fixed(own.effort, 3),
+                rounded(point.gains.integral, 5),
+                message("cli", "chosen") if number == tuning.chosen else "",
+                message("cli", "recommended") if number == tuning.recommended else "",
+            )
         )
+    print(aligned([[options.wording.shown(cell) for cell in row] for row in rows]))
 
 
 def _finite(value: Any) -> Any:

@@ -11,7 +11,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the window to the top level."""
     add_robot(parser, default="rotemina")
     parser.add_argument(
-        "--driver", default="simulator", metavar="NAME", help="what to drive (default: simulator)"
+        "--driver",
+        default="simulator",
+        metavar="NAME",
+        help="driver of the machine (default: simulator)",
     )
     parser.add_argument(
         "--set",
@@ -19,27 +22,28 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         default=[],
         dest="assignments",
         metavar="NAME=VALUE",
-        help="a setting of the driver, such as port=/dev/ttyUSB0; may be given several times "
-        "(default: what the window used last)",
+        help="a setting of the driver, such as port=/dev/ttyUSB0 (may be repeated; "
+        "default: last used in the window)",
     )
     parser.add_argument(
         "--offscreen",
         action="store_true",
-        help="do the window's main job without a display: play the example trajectory on the "
-        "simulator, compare model and real, and leave picture and report in a folder",
+        help="run without a display: play the example trajectory on the simulator, compare"
+        " model and machine, and write picture and report into a folder",
     )
     parser.add_argument(
         "--output",
         type=Path,
         default=Path("rotemina-run"),
         metavar="DIR",
-        help="where the picture and the report of a run without a display go "
-        "(default: rotemina-run)",
+        help="folder for the picture and the report of a run without a display (default: "
+        "rotemina-run)",
     )
     parser.add_argument(
         "--language",
         choices=(ENGLISH, *LANGUAGES),
-        help="what window and messages speak (default: the window's last, else the system's)",
+        help="language of window, help and messages (default: last used in the window, "
+        "else the system's)",
     )
     parser.set_defaults(run=run)
 

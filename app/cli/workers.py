@@ -20,12 +20,12 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
         "--jobs",
         type=int,
         metavar="N",
-        help="how many processes work at once (default: one for each usable core)",
+        help="processes that work at once (default: one per usable core)",
     )
     parser.add_argument(
         "--cluster",
         metavar="ADDRESS",
-        help="let a Dask cluster work, such as tcp://host:8786 (needs the extra 'dask')",
+        help="use a Dask cluster, such as tcp://host:8786 (needs the extra 'dask')",
     )
 
 

@@ -182,9 +182,9 @@ def load(folder: Path, camera: str, objective: str) -> MicroscopeCalibration | N
         raise MicroscopeError(
             message(
                 "engine",
-                "{path}: it is of camera {camera} with objective {objective}, not of "
-                "{other_camera} "
-                "with {other_objective}; move it away and calibrate anew",
+                "{path}: this calibration is for camera {camera} with objective "
+                "{objective}, not for {other_camera} with {other_objective}; move the file "
+                "away and calibrate again",
             ).fill(
                 path=path,
                 camera=repr(found.camera),

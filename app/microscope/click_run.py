@@ -135,9 +135,9 @@ class ClickRun:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the tip is {distance} px from where it should be, must be at most "
-                    "{most} px after a move; the calibration does not hold: calibrate "
-                    "anew",
+                    "the tip is {distance} px from its target, but at most {most} px are "
+                    "permitted after a move; the calibration is no longer valid: calibrate "
+                    "again",
                 ).fill(distance=fixed(distance, 0), most=fixed(_MOST_CORRECTION_PX, 0))
             )
         if self.status.corrections >= self._corrections:

@@ -216,9 +216,9 @@ def _check_click(pixel: FloatArray, view: View, frame: Frame | None) -> None:
         raise MicroscopeError(
             message(
                 "engine",
-                "the camera shows {width} × {height} px from {left}, {top}, calibrated is "
-                "{view_width} × {view_height} px from {view_left}, {view_top}; set the camera "
-                "back, or calibrate anew",
+                "the camera shows {width} × {height} px from {left}, {top}, but the "
+                "calibration is for {view_width} × {view_height} px from {view_left}, "
+                "{view_top}; restore the region of the camera, or calibrate again",
             ).fill(
                 width=shown.width,
                 height=shown.height,

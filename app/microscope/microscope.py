@@ -262,7 +262,7 @@ class Microscope:
 
     def stop(self, *, by: str = PROGRAM) -> None:
         """Halt the machine, and end what is under way; ``by`` as of :meth:`MotionSession.stop`."""
-        self.runs.stop(message("engine", "it was stopped"), by=by)
+        self.runs.stop(message("engine", "stopped"), by=by)
         self.session.stop(by=by)
 
     # --- targets ----------------------------------------------------------------------------------

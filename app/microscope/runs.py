@@ -82,7 +82,7 @@ class Runs:
         view = self._feed()
         if view.state in _BROKEN or view.frame is None:
             raise MicroscopeError(
-                message("engine", "{trouble}; nothing is moved").fill(trouble=_trouble(view))
+                message("engine", "{trouble}; nothing moves").fill(trouble=_trouble(view))
             )
         with self._lock:
             if self._run is not None:

@@ -125,5 +125,5 @@ class TargetSequence:
     def _refuse_under_way(self) -> None:
         if not self.ended:
             raise MicroscopeError(
-                message("engine", "the tip is on its way to a target; wait, or stop it first")
+                message("engine", "the tip is moving to a target; wait, or stop it first")
             )

@@ -66,7 +66,7 @@ class Admission:
             )
 
     def refuse_unless_at_rest(self, before: str) -> None:
-        """Refuse what needs a machine that may move and stands still.
+        """Refuse a request that needs a machine at rest and free to move.
 
         Raises
         ------
@@ -82,9 +82,9 @@ class Admission:
             )
 
     def envelope(self, driven: Container[str] = ()) -> PositionEnvelope:
-        """Return where the axes may be by what they have been told and said last.
+        """Return the possible positions of the axes, by their latest commands and readings.
 
-        The axes ``driven`` are told a speed anew: their lease from before does not count.
+        The axes ``driven`` get a new speed: their earlier lease does not count.
         """
         worker, mailbox = self._link.worker, self._link.mailbox
         command = worker.state.command

@@ -57,7 +57,7 @@ class Backlash:
         if not isinstance(described, StepperAxis):
             raise OutOfLimitsError(
                 message(
-                    "engine", "axis {axis} is no stepper axis; only these have backlash to take up"
+                    "engine", "axis {axis} is not a stepper axis; only these have backlash"
                 ).fill(axis=AxisName(axis))
             )
         most = MOST_SHARE * described.span
@@ -87,7 +87,7 @@ class Backlash:
         self.applied = MappingProxyType({})
 
     def taken_up(self, axis: str) -> bool:
-        """Whether an axis stands where it came to from its side."""
+        """Tell whether an axis is where its one-sided approach ended."""
         at = self._admission.approached.get(axis)
         command = self._link.worker.state.command.get(axis)
         if at is None or command is None:

@@ -1,4 +1,4 @@
-"""A model whose memory is carried on: of a past that is unknown, the two ends of what it may be."""
+"""A model with continued memory; an unknown past is bracketed by its two extremes."""
 
 from collections.abc import Mapping
 from types import MappingProxyType

@@ -46,9 +46,9 @@ class Captures:
         self._link.ask(begin)
 
     def collected(self) -> tuple[Captured, ...]:
-        """Return what has come of the latest capture since the last call, and ask for more.
+        """Return the new data of the latest capture, and request more.
 
-        It never waits: what the device has by now is among the answer to the next call.
+        Never waits: data that the device has by now arrive with the next call.
         """
         found = []
         while self._captured:

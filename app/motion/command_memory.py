@@ -1,4 +1,4 @@
-"""What a machine was commanded since it was connected: what a model's memory is made from."""
+"""The commands of a machine since its connection, from which the memory of a model is made."""
 
 import threading
 from collections import deque
@@ -30,7 +30,7 @@ class CommandMemory:
         self.number = 0
 
     def clear(self) -> None:
-        """Forget everything: a new connection has a time of its own."""
+        """Forget everything: a new connection has its own device time."""
         with self._lock:
             self.number += 1
             self._parts.clear()

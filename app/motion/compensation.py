@@ -1,9 +1,9 @@
-"""Compensation in a session: inverses between what is wanted of piezo axes and what they are told.
+"""Compensation in a session: inverses between desired positions of piezo axes and their commands.
 
 A device that is a :class:`~rotemina.drivers.model_abilities.Compensator` sends every set-point
-through the inverse at its own ticks: moves, speeds, profiles and trajectories alike. Any other is
-told what the inverse makes of them: a trajectory's rows here, and the ends of moves, speeds and
-profiles by :class:`~rotemina.app.motion.held_inverses.HeldInverses`.
+through the inverse at its own ticks: moves, speeds, profiles and trajectories alike. Other devices
+get converted commands: rows of a trajectory from here, ends of moves, speeds and profiles from
+:class:`~rotemina.app.motion.held_inverses.HeldInverses`.
 """
 
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ from rotemina.sim.trajectory.limits import OutOfLimitsError
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NamedInverse:
-    """An inverse with the robot that it was trained on, and what a record is to call it."""
+    """An inverse with the robot of its training, and its name in records."""
 
     model: InverseModel
     robot: str
@@ -54,18 +54,18 @@ class Inverses:
 
     @property
     def live(self) -> bool:
-        """Whether the device asks the inverse at each of its ticks, not at ends and rows alone."""
+        """Whether the device applies the inverse at each tick, not only at ends and rows."""
         return isinstance(self._link.driver, Compensator)
 
     def exceedance(self, axis: str) -> Exceedance:
-        """Return in what an axis has gone beyond its inverse since that was put on."""
+        """Return how an axis has exceeded its inverse since that was applied."""
         return self._in_use.get(axis, Exceedance(0))
 
     def apply(self, inverse: NamedInverse, *, permit: Permit | None = None) -> None:
-        """Put an inverse on its axis, which stays where it is; no way leads back from there.
+        """Apply an inverse to its axis, which stays in place; undo cannot cross this point.
 
-        Its command becomes the position that the inverse takes it to be at; what it went through
-        before is not known, so that a constant error may stay until it has been through its range.
+        The command becomes the position that the inverse assumes. The history of the axis is
+        unknown, so a constant error may remain until the axis has swept its range.
 
         Raises
         ------
@@ -83,7 +83,7 @@ class Inverses:
             self._known = MappingProxyType({**self._known, axis: inverse})
 
     def remove(self, axis: str, *, permit: Permit | None = None) -> None:
-        """Take the inverse off an axis; it stays where it is, and no way leads back from there.
+        """Remove the inverse of an axis, which stays in place; undo cannot cross this point.
 
         Raises
         ------
@@ -93,9 +93,7 @@ class Inverses:
         permit = self._admission.drawn(permit)
         if axis not in self.applied:
             raise RefusedError(
-                message("engine", "axis {axis} has no inverse that could be taken off").fill(
-                    axis=AxisName(axis)
-                )
+                message("engine", "axis {axis} has no inverse to remove").fill(axis=AxisName(axis))
             )
         with self._admission.lock:
             self._admission.refuse_unless_at_rest("taking an inverse off")
@@ -107,13 +105,13 @@ class Inverses:
 
     @property
     def ends(self) -> Mapping[str, tuple[float, float]]:
-        """Between which positions axes must stay that the device does not keep there by itself."""
+        """Positions that limit axes whose device does not enforce the range of the inverse."""
         if self.live:
             return {}
         return {axis: one.model.desired_range for axis, one in self.applied.items()}
 
     def check(self, targets: Mapping[str, float]) -> None:
-        """Refuse targets, m or rad, beyond what the inverse of their axis saw.
+        """Refuse targets, m or rad, outside the training range of the inverse of their axis.
 
         Raises
         ------
@@ -141,9 +139,9 @@ class Inverses:
     def sent(
         self, trajectory: CheckedTrajectory
     ) -> tuple[CheckedTrajectory | None, dict[str, str]]:
-        """Return what is sent in place of a trajectory, if anything, and what inverses are called.
+        """Return the commands sent in place of a trajectory, if any, and the names of the inverses.
 
-        What goes through the inverses is held against every limit too, before anything moves.
+        Converted commands are also checked against every limit, before anything moves.
 
         Raises
         ------
@@ -198,14 +196,14 @@ def compensated_trajectory(
         raise OutOfLimitsError(
             message(
                 "engine",
-                "compensated trajectory: {error}; what brings the wanted path about "
-                "is beyond a limit: make it slower, smoother, or smaller",
+                "compensated trajectory: {error}; the commands for the desired path exceed "
+                "a limit: make it slower, smoother, or smaller",
             ).fill(error=str(error))
         ) from error
 
 
 def check_belongs(robot: Robot, inverse: NamedInverse) -> None:
-    """Refuse an inverse that is of another robot, or of no piezo axis of this one.
+    """Refuse an inverse of another robot, or of an axis that is not a piezo of this one.
 
     Raises
     ------
@@ -223,13 +221,13 @@ def check_belongs(robot: Robot, inverse: NamedInverse) -> None:
     described = robot.axes.get(axis)
     if not isinstance(described, PiezoAxis) or described.controller is not None:
         raise CompensationError(
-            message("engine", "{name}: axis {axis} is no piezo in open loop of robot {this}").fill(
-                name=inverse.name, axis=AxisName(axis), this=repr(robot.name)
-            )
+            message(
+                "engine", "{name}: axis {axis} of robot {this} is not a piezo in open loop"
+            ).fill(name=inverse.name, axis=AxisName(axis), this=repr(robot.name))
         )
     if not described.range[0] <= inverse.model.command_range[0] < described.range[1]:
         raise CompensationError(
-            message("engine", "{name}: axis {axis} had another range; train it anew").fill(
-                name=inverse.name, axis=AxisName(axis)
-            )
+            message(
+                "engine", "{name}: axis {axis} had another range; train the inverse again"
+            ).fill(name=inverse.name, axis=AxisName(axis))
         )

@@ -93,10 +93,10 @@ class DeviationWatch:
     def add(
         self, samples: Samples, model: FloatArray, nominal: FloatArray | None = None
     ) -> Excess | None:
-        """Take samples and the models' answers (n, axes); return what is beyond its bound.
+        """Add samples and the models' answers (n, axes); return the axis that exceeds its bound.
 
-        The gap is that of the model in use. The bound holds against the nominal model too: another
-        model never makes it wider.
+        The gap is that of the model in use. The bound also holds against the nominal model, so
+        another model never widens it.
         """
         if not len(samples):
             return None

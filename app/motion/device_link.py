@@ -110,7 +110,7 @@ class DeviceLink:
         self.mailbox.post(Ask(action), permit)
 
     def refuse_unconnected(self) -> None:
-        """Refuse what needs a connection where there is none.
+        """Refuse a request that needs a connection if there is none.
 
         Raises
         ------
@@ -122,7 +122,7 @@ class DeviceLink:
             raise RefusedError(state.locked or NOT_CONNECTED)
 
     def halt(self, request: StopRequest, latch: str | None = None) -> None:
-        """Shut the gate on what was asked before, then tell every driver that may be open.
+        """Close the gate for earlier requests, then stop every driver that may be open.
 
         Never waits and never raises. With ``latch`` nothing moves until the gate is released.
         """
@@ -145,7 +145,7 @@ class DeviceLink:
         latched = self.gate.latched
         locked = self._locked(state)
         if latched is not None:
-            locked = message("engine", "{stop} is latched; release it first").fill(stop=latched)
+            locked = message("engine", "{stop} is active; release it first").fill(stop=latched)
         return replace(
             state,
             age_s=self._age_s(state),
@@ -166,7 +166,7 @@ class DeviceLink:
         return self.barred
 
     def _locks(self, permit: Permit) -> str | None:
-        """Return what locks a permit's purpose beside a stop; under the gate's lock."""
+        """Return the locks on a permit's purpose besides a stop; under the gate's lock."""
         state = self.worker.state
         if permit.purpose is Purpose.MOTION:
             locked = self._locked(state)

@@ -1,4 +1,4 @@
-"""How commands become calls of the driver, on the thread that alone talks to it."""
+"""Execution of commands as calls of the driver, on the only thread that talks to it."""
 
 from collections import deque
 from collections.abc import Callable, Mapping
@@ -78,7 +78,7 @@ class Executor:
         return bool(self._route) and self._permit is not None and self._permit.valid
 
     def do(self, command: Command, permit: Permit) -> None:
-        """Carry out a command; what has been overtaken is dropped.
+        """Execute a command; drop it if a stop has overtaken it.
 
         Raises
         ------
@@ -122,11 +122,11 @@ class Executor:
         self._halt_if_overtaken(permit)
 
     def rested(self) -> None:
-        """Note that the machine is at rest: nothing goes on at a speed."""
+        """Note that the machine is at rest: no axis moves at a speed any longer."""
         self.drives = _NO_DRIVES
 
     def forget(self) -> None:
-        """Forget all motion that was asked for."""
+        """Forget all requested motion."""
         self._route.clear()
         self.targets = self.ends = _NOWHERE
         self.drives = _NO_DRIVES
@@ -171,7 +171,7 @@ class Executor:
             command.action(driver, permit)
 
     def _change(self, command: SetEffects | Compensate | Regulate, permit: Permit) -> None:
-        """Change what stands between commands and motion."""
+        """Change the stages between commands and motion."""
         driver = self._driver
         if isinstance(command, SetEffects):
             assert isinstance(driver, EffectCarrier), "the session refuses on any other"
@@ -194,7 +194,7 @@ class Executor:
         self.forget()  # its command is another now
 
     def _shortly(self, command: LoadProfile | RunProfile | SetVoltage, permit: Permit) -> None:
-        """Carry out what an axis does by itself, beside moves."""
+        """Execute commands other than moves that an axis performs on its own."""
         driver = self._driver
         if isinstance(command, SetVoltage):
             assert isinstance(driver, VoltageOutput), "the session refuses on any other"

@@ -1,4 +1,4 @@
-"""What the display of two rows at the machine shows: mode, position, and what is wrong."""
+"""Text of the two-row display at the machine: mode, position and faults."""
 
 from collections.abc import Callable
 from textwrap import wrap
@@ -37,7 +37,7 @@ class FrontDisplay:
         self._shown: list[str] = []
 
     def step(self, now_s: float) -> None:
-        """Show how the machine stands now."""
+        """Show the present state of the machine."""
         state = self._session.snapshot()
         if state.connection is not Connection.CONNECTED:
             self._shown = []  # another device may be connected next
@@ -58,8 +58,8 @@ class FrontDisplay:
 def rows_of(state: SessionState, mode: str, robot: Robot, now_s: float) -> tuple[str, str]:
     """Return both rows.
 
-    Above are mode, units and state; below is what is wrong, a part of it after the other, or else
-    where the axes of the mode, or the tip, were sent.
+    The upper row shows mode, units and state; the lower one shows faults, in parts, or else the
+    targets of the axes of the mode, or of the tip.
     """
     word = _plain(str(state.phase))
     unit, numbers = _position(state, mode, robot)

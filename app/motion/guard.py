@@ -1,4 +1,4 @@
-"""What stands between every request and the machine: ranges, speeds, and the tip's keep-out."""
+"""Limits between every request and the machine: ranges, speeds, and the tip's keep-out."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -83,7 +83,7 @@ class Guard:
         return self._zone
 
     def teach_floor(self, floor: float | None) -> None:
-        """Put the tip's floor at a height, m, or take it away.
+        """Set the tip's floor at a height, m, or remove it.
 
         Raises
         ------
@@ -92,7 +92,7 @@ class Guard:
         """
         if self._zone is None:
             raise OutOfLimitsError(
-                message("engine", "robot {name} has no tip that a floor could hold").fill(
+                message("engine", "robot {name} has no tip for a floor to limit").fill(
                     name=repr(self._robot.name)
                 )
             )
@@ -101,10 +101,10 @@ class Guard:
     def envelope(
         self, deviation: FloatArray | None, *commands: Mapping[str, float]
     ) -> PositionEnvelope:
-        """Return bounds about all commands that may act; all axes are in them.
+        """Return bounds of all commands that may act, for all axes.
 
-        An axis of which nothing is known might be anywhere in its range. ``deviation`` (axes,) is
-        that of the readings, as :attr:`PositionEnvelope.deviation`; None: they say nothing else.
+        An axis without information may be anywhere in its range. ``deviation`` (axes,) is that of
+        the readings, as :attr:`PositionEnvelope.deviation`; None: readings agree with commands.
         """
         low, high = np.array([axis.range for axis in self._robot.axes.values()]).T
         for column, axis in enumerate(self._axes):
@@ -178,9 +178,9 @@ class Guard:
         for column, at in end.items():
             if not nearer(zone, envelope, column, at, out):
                 raise OutOfLimitsError(
-                    message("engine", "{out}; axis {axes} brings it no nearer that way").fill(
-                        out=out_text(out), axes=self._axes[column]
-                    )
+                    message(
+                        "engine", "{out}; axis {axes} does not bring it nearer in this direction"
+                    ).fill(out=out_text(out), axes=self._axes[column])
                 )
         for bounds, present in zip(envelope.widened(end).seen(), envelope.seen(), strict=True):
             zone.beyond(zone.swept(*present)).check_sweep(*bounds)
@@ -214,10 +214,10 @@ class Guard:
         *,
         thrust: bool,
     ) -> None:
-        """Refuse a profile of one axis, between ``ends``, m or rad, that the tip must not make.
+        """Refuse a profile of one axis, between ``ends``, m or rad, that the tip must not execute.
 
-        A ``thrust`` may be faster than the slow zone allows, but is :data:`MOST_THRUST` long at
-        most; nothing lets the tip out of its bounds.
+        A ``thrust`` may be faster than the slow zone permits, but at most :data:`MOST_THRUST` long;
+        no profile may take the tip out of its bounds.
 
         Raises
         ------
@@ -266,10 +266,10 @@ class Guard:
         lease_s: float,
         ranges: Ranges = WHOLE,
     ) -> dict[str, float]:
-        """Return the velocities, all slower by one factor where the tip's bounds are near.
+        """Return the velocities, all reduced by one factor near the tip's bounds.
 
-        At narrowed ends, and at those of ``ranges``, m or rad, no device halts by itself: the
-        closer an axis is to one, the slower it goes there.
+        No device stops on its own at narrowed ends, or at those of ``ranges``, m or rad: an axis
+        slows down as it approaches one.
 
         Raises
         ------
@@ -302,14 +302,14 @@ class Guard:
                 return slower
         if refusal is None:
             raise OutOfLimitsError(
-                message("engine", "tip: too fast so close above its floor; go slower")
+                message("engine", "tip: too fast this close to its floor; move more slowly")
             )
         raise refusal
 
     def ways(self, velocities: Mapping[str, float], lease_s: float) -> dict[str, float]:
-        """Return how far each axis still goes, m or rad, if nobody renews the lease.
+        """Return how far each axis still moves, m or rad, if nobody renews the lease.
 
-        Its braking counts, and what goes by before it is told to brake; a lease of 0 leaves those.
+        This includes braking and the delay before it; a lease of 0 leaves only those.
         """
         return {axis: self._way(axis, speed, lease_s) for axis, speed in velocities.items()}
 
@@ -342,7 +342,7 @@ class Guard:
         return float(np.copysign(abs(speed) * (lease_s + _REACTION_S) + braking, speed))
 
     def play(self, envelope: PositionEnvelope, trajectory: CheckedTrajectory) -> None:
-        """Refuse a trajectory on which, or on the way to which, the tip leaves its bounds.
+        """Refuse a trajectory if it, or the move to its start, takes the tip out of its bounds.
 
         Raises
         ------
@@ -371,7 +371,7 @@ class Guard:
         return TipPath(tips[0], tips[1:], self._zone)
 
     def _positions(self, envelope: PositionEnvelope, commands: Record) -> FloatArray:
-        """Return the axes (n, axes) at each row; those that the commands leave alone stay."""
+        """Return the axes (n, axes) at each row; axes without commands stay."""
         positions = np.tile(0.5 * (envelope.low + envelope.high), (len(commands.time_s), 1))
         for axis, signal in commands_of(self._robot, commands).items():
             positions[:, self._axes.index(axis)] = signal

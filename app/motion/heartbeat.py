@@ -7,9 +7,9 @@ SILENT_S = 1.0  # without a beat, and nobody counts as alive any more
 
 
 class Heartbeat:
-    """When a thread last said that it is alive; every method may be called from any thread.
+    """The time of a thread's latest sign of life; every method may be called from any thread.
 
-    Before the first beat, and after :meth:`end`, nobody is expected to beat.
+    Before the first beat, and after :meth:`end`, no beat is expected.
     """
 
     def __init__(self, clock: Clock) -> None:
@@ -26,7 +26,7 @@ class Heartbeat:
 
     @property
     def age_s(self) -> float | None:
-        """How long ago the latest beat was; None while nobody is expected to beat."""
+        """Age of the latest beat; None while no beat is expected."""
         last_s = self._last_s
         return None if last_s is None else self._clock() - last_s
 

@@ -1,8 +1,8 @@
-"""Inverses for a device that has none of its own: between the session and its driver.
+"""Inverses for a device without its own: between the session and its driver.
 
-The session's commands are what is wanted. The driver is told what brings that about: targets,
+The session's commands are desired positions. The driver gets the commands that cause them: targets,
 speeds and profiles here, trajectories by :mod:`rotemina.app.motion.compensation`. The commands of
-its samples become what is wanted again; what was sent stands in their ``inputs``.
+its samples are converted back to desired positions; the commands sent are in their ``inputs``.
 """
 
 from collections.abc import Callable, Mapping
@@ -46,7 +46,7 @@ class HeldInverses:
         self._played: _Played | None = None
 
     def change(self, axis: str, model: InverseModel | None) -> None:
-        """Put an inverse on an axis at rest, which stays where it is, or take it off.
+        """Apply an inverse to an axis at rest, which stays in place, or remove it.
 
         Raises
         ------
@@ -66,7 +66,7 @@ class HeldInverses:
         self._note()
 
     def forget(self) -> tuple[str, ...]:
-        """Take all of them off; return of which axes."""
+        """Remove all inverses; return their axes."""
         off = tuple(self._held)
         self._held.clear()
         self._played = None
@@ -81,7 +81,7 @@ class HeldInverses:
     def told(
         self, targets: Mapping[str, float], speeds: Mapping[str, float]
     ) -> tuple[Mapping[str, float], Mapping[str, float]]:
-        """Return what a device is told so that axes come to targets, no faster than wanted."""
+        """Return the commands that bring axes to targets, no faster than requested."""
         if not self._held.keys() & targets.keys():
             return targets, speeds
         targets, speeds = dict(targets), dict(speeds)
@@ -99,7 +99,7 @@ class HeldInverses:
     def velocities(
         self, velocities: Mapping[str, float], ways: Mapping[str, float]
     ) -> Mapping[str, float]:
-        """Return the speeds that a device is told; ``ways`` is how far each may take its axis."""
+        """Return the speeds for the device; ``ways`` is how far each may move its axis."""
         told = dict(velocities)
         for axis in self._held.keys() & velocities.keys():
             held, most = self._held[axis], self._robot.axes[axis].max_speed
@@ -108,9 +108,9 @@ class HeldInverses:
         return told
 
     def profile(self, profile: Profile) -> Profile:
-        """Return the profile that a device is told: each stretch in one direction is scaled.
+        """Return the profile for the device: each section in one direction is scaled.
 
-        Its ends are those that are wanted; between them the loop's bow is left.
+        Its ends are the desired ones; in between, the curvature of the loop remains.
         """
         held = self._held.get(profile.axis)
         if held is None:
@@ -151,9 +151,9 @@ class HeldInverses:
         self._played = _Played(paths)
 
     def wanted(self, samples: Samples, status: Callable[[], DeviceStatus]) -> Samples:
-        """Return samples with commands as they are wanted, in the order in which they came.
+        """Return samples with commands as desired positions, in the order of arrival.
 
-        ``status`` tells whether the device still plays.
+        ``status`` tells whether the device is still playing.
         """
         if self._played is not None and status().state is not DeviceState.PLAYING:
             self._end_playback()
@@ -192,7 +192,7 @@ class HeldInverses:
 
 
 class _Played:
-    """A trajectory under way: what is wanted of its axes at each row, and how far it has come."""
+    """A running trajectory: desired positions of its axes at each row, and its progress."""
 
     def __init__(self, paths: Mapping[str, FloatArray]) -> None:
         self.paths = paths
@@ -202,7 +202,7 @@ class _Played:
     def wanted(
         self, axis: str, held: HeldInverse, sent: FloatArray, samples: Samples
     ) -> FloatArray:
-        """Return what is wanted (n,): each row until the next; before the first, what is sent."""
+        """Return desired positions (n,), rows held; before the first, the command sent."""
         rows = np.maximum.accumulate(np.maximum(samples.playback_row, self.row))
         first = int(np.searchsorted(rows, 0))
         return np.concatenate([held.follow(sent[:first]), self.paths[axis][rows[first:]]])

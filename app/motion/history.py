@@ -15,7 +15,7 @@ def _nothing() -> FloatArray:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LiveWindow:
-    """A stretch of the history, oldest first; contiguous, read-only copies.
+    """A section of the history, oldest first; contiguous, read-only copies.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class LiveHistory:
         self._lock = threading.Lock()
 
     def clear(self) -> None:
-        """Forget everything: a new connection has a time of its own."""
+        """Forget everything: a new connection has its own device time."""
         with self._lock:
             self._written = 0
             self._connection += 1
@@ -108,9 +108,9 @@ class LiveHistory:
             self._written += count
 
     def tail(self, seconds: float | None = None, *, since_s: float | None = None) -> LiveWindow:
-        """Return the latest ``seconds``, or what is later than ``since_s``, or everything held.
+        """Return the latest ``seconds``, or samples later than ``since_s``, or all.
 
-        ``since_s`` is a device time; with both, the shorter stretch counts.
+        ``since_s`` is a device time; with both, the shorter section counts.
         """
         with self._lock:
             count = min(self._written, self.capacity)

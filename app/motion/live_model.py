@@ -22,7 +22,7 @@ _LONG_AGO_S = 1000.0
 
 
 class LiveModel:
-    """What a model would measure, sample by sample, from rest at the first command.
+    """The predicted readings of a model, sample by sample, from rest at the first command.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class LiveModel:
 
     @property
     def remembers(self) -> bool:
-        """Whether an effect of it has a memory of its own."""
+        """Whether any of its effects has a memory."""
         return self._plant.assembly.memory > 0
 
     @property
@@ -60,7 +60,7 @@ class LiveModel:
         return self._time_s if self._state is not None else float("-inf")
 
     def prepare(self) -> None:
-        """Compute once, which loads what is compiled: no device is to wait for that."""
+        """Compute once to load compiled code, so that no device has to wait for it."""
         middle = np.array([[sum(axis.range) / 2 for axis in self._plant.robot.axes.values()]])
         still = np.repeat(middle, 2, axis=0)
         times, rows = np.array([0.0, 1e-3]), np.full(2, -1)
@@ -74,7 +74,7 @@ class LiveModel:
     def follow(self, samples: Samples) -> FloatArray:
         """Return the model's readings (n, axes) for the next samples, m or rad, not rounded.
 
-        Where the model leaves what a number can hold they are NaN, and it starts anew.
+        They are NaN where the model diverges; it then starts again.
         """
         return self.answer(samples.device_time_s, samples.command)
 

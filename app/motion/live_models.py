@@ -1,4 +1,4 @@
-"""The models that run beside a device: the nominal one, always, and the one in use."""
+"""The models that run along with a device: the nominal one, always, and the one in use."""
 
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ from rotemina.sim.arrays import FloatArray
 
 
 class ModelOutputs(NamedTuple):
-    """What models say of samples, each (n, axes), m or rad; NaN where one has no finite answer.
+    """Answers of the models to samples, each (n, axes), m or rad; NaN where not finite.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class ModelOutputs(NamedTuple):
 
 
 class PreparedModel(NamedTuple):
-    """A model with its runs, which have followed what the machine was commanded before."""
+    """A model with its runs, which have followed the earlier commands of the machine."""
 
     model: ModelInUse
     runs: tuple[BracketedModel, ...]  # the model's own, and the cautious one where it is another
@@ -64,7 +64,7 @@ class PreparedModel(NamedTuple):
         return made
 
     def catch_up(self, memory: CommandMemory) -> None:
-        """Follow what was commanded since."""
+        """Follow the commands since then."""
         time_s, command = memory.history()
         for run in self.runs:
             later = time_s > run.time_s
@@ -87,11 +87,11 @@ class LiveModels:
         return self._runs[0].unsettled if self._runs else ()
 
     def prepare(self) -> None:
-        """Compute once, which loads what is compiled: no device is to wait for that."""
+        """Compute once to load compiled code, so that no device has to wait for it."""
         self._nominal.prepare()
 
     def begin_anew(self) -> None:
-        """Forget the past: a new connection has a time of its own."""
+        """Forget the past: a new connection has its own device time."""
         self.memory.clear()
         self.restart()
 
@@ -107,7 +107,7 @@ class LiveModels:
         self.model, self._runs = prepared.model, prepared.runs
 
     def follow(self, samples: Samples) -> ModelOutputs:
-        """Return what the models say of the next samples."""
+        """Return the answers of the models to the next samples."""
         self.memory.add(samples)
         nominal = self._nominal.follow(samples)
         if not self._runs:

@@ -10,7 +10,7 @@ def lock_reason(state: SessionState, doubt: str | None) -> str | None:
     """Return why no motion is possible by a state, and by a doubt about the position; else None."""
     if state.connection is Connection.FAILED:
         return message(
-            "engine", "the device failed ({fault}); reconnect, then check where it stands"
+            "engine", "the device failed ({fault}); reconnect, then check its position"
         ).fill(fault=state.fault or "")
     if state.connection is not Connection.CONNECTED:
         return NOT_CONNECTED

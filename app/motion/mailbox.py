@@ -44,11 +44,11 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """Let axes go at speeds, m/s or rad/s, until the lease runs out.
+    """Move axes at speeds, m/s or rad/s, until the lease runs out.
 
-    ``asked_s`` is the host's time of the request: a lease does not begin anew in a queue.
-    ``ways`` is how far each axis goes at most when nobody renews it, ``braking`` how far when it is
-    told to halt at once; m or rad, with their sign.
+    ``asked_s`` is the host's time of the request: a lease does not restart in a queue. ``ways`` is
+    how far each axis moves at most without renewal, ``braking`` how far after an immediate stop; m
+    or rad, with sign.
     """
 
     velocities: dict[str, float]
@@ -74,7 +74,7 @@ class Ask:
 
 @dataclass(frozen=True, slots=True)
 class Play:
-    """Play a trajectory; ``sent`` is what the device is given in its place, where that differs."""
+    """Play a trajectory; ``sent`` is the version for the device, if that differs."""
 
     trajectory: CheckedTrajectory
     sent: CheckedTrajectory | None = None
@@ -257,6 +257,6 @@ class Mailbox:
         self.wake_event.set()
 
     def take_connection_request(self) -> ConnectionRequest | None:
-        """Return what is to become of the connection now, if anything."""
+        """Return the pending change of the connection, if any."""
         request, self._connection_request = self._connection_request, None
         return request

@@ -81,7 +81,7 @@ class Machine:
 
 @dataclass(frozen=True, eq=False)
 class ModelInUse:
-    """A model of one machine; it never changes.
+    """An immutable model of one machine.
 
     Attributes
     ----------
@@ -122,7 +122,7 @@ class ModelInUse:
         noted: Sequence[str] = (),
         beyond: Self | None = None,
     ) -> Self:
-        """Return the model of the connected machine with what a diagnosis found.
+        """Return the model of the connected machine with the effects of a diagnosis.
 
         Parameters
         ----------
@@ -164,7 +164,7 @@ class ModelInUse:
 
     @classmethod
     def found_by(cls, diagnosis: "Diagnosis", machine: Machine | None = None) -> Self:
-        """Return the model that a diagnosis leads to, whatever machine it is of.
+        """Return the model that a diagnosis leads to, for any machine.
 
         Raises
         ------
@@ -217,7 +217,7 @@ class ModelInUse:
 
 
 def foreseen(robot: Robot, effect: AxisEffect) -> bool:
-    """Whether commands foretell what an effect does."""
+    """Tell whether commands predict an effect."""
     traits = Attached.of(robot, effect).formulation.traits
     by_chance = Trait.RANDOM in traits or Trait.LOCKED_TO_TIME in traits
     return effect.id not in _UNFORESEEN and not by_chance

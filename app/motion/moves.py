@@ -55,12 +55,12 @@ class Moves:
         confirmed: bool = False,
         permit: Permit | None = None,
     ) -> None:
-        """Send axes to positions, m or rad; also in mid-move.
+        """Send axes to positions, m or rad; also during a move.
 
-        Each goes as fast as it may, or as ``speeds`` (m/s or rad/s) says, where that is slower.
-        Close above the tip's floor the move slows down by itself. A ``permit`` is that of the plan
-        that this is a part of: a stop since then ends it. A tip that is out of its bounds moves
-        only if somebody has ``confirmed`` that, slowly, by axes that each bring it back.
+        Each axis moves at its maximum speed, or at ``speeds`` (m/s or rad/s) if lower. Close to the
+        tip's floor the move slows down. A ``permit`` belongs to the plan that includes this move: a
+        stop since then ends it. A tip outside its bounds moves only if ``confirmed``, slowly, by
+        axes that each bring it back.
 
         Raises
         ------
@@ -127,7 +127,7 @@ class Moves:
         driver = self._link.driver
         if not isinstance(driver, Homer):
             raise RefusedError(
-                message("engine", "driver {name} has no switches to be found").fill(
+                message("engine", "driver {name} has no limit switches").fill(
                     name=repr(driver.name)
                 )
             )
@@ -215,11 +215,12 @@ class Moves:
             self._send({axis: target}, owner, speeds, permit, confirmed=confirmed)
 
     def play(self, trajectory: Record | CheckedTrajectory, *, permit: Permit | None = None) -> None:
-        """Play a trajectory; events tell how it ends, with the record.
+        """Play a trajectory; events report its end, with the record.
 
         A bare record is checked on the caller's thread, which takes half a second for a million
-        rows; what a dry run allowed (``dry_run(…).require()``) is not checked again. The tip's path
-        is checked on that thread too, seconds long where it is bounded: a window asks from another.
+        rows; a trajectory from a dry run (``dry_run(…).require()``) is not checked again. The tip's
+        path is also checked on that thread, which takes seconds if the tip has bounds: call it from
+        a thread of its own in a window.
 
         Raises
         ------
@@ -241,7 +242,7 @@ class Moves:
             if self._standing() != checked_for:
                 raise RefusedError(
                     message(
-                        "engine", "the machine or the tip's bounds have changed; play once more"
+                        "engine", "the machine or the bounds of the tip have changed; play again"
                     )
                 )
             loops = {axis: one.name for axis, one in self._loops.applied.items()}
@@ -267,9 +268,9 @@ class Moves:
             self._check_path(envelope, checked, sent)
 
     def tip_path(self, commands: Record) -> TipPath | None:
-        """Return where the tip would go by a trajectory's commands from where the axes are.
+        """Return the path of the tip for a trajectory's commands from the present position.
 
-        None where there is no tip, or no position is known.
+        None without a tip, or if no position is known.
 
         Raises
         ------
@@ -309,9 +310,9 @@ class Moves:
         model = self._link.robot.axes.get(axis)
         if not isinstance(model, PiezoAxis) or model.controller is not None:
             raise OutOfLimitsError(
-                message(
-                    "engine", "axis {axis} has no amplifier that could be given a voltage"
-                ).fill(axis=repr(axis))
+                message("engine", "axis {axis} has no amplifier for a voltage").fill(
+                    axis=repr(axis)
+                )
             )
         bounds = model.voltage_range
         if bounds is not None and not bounds[0] <= voltage <= bounds[1]:
@@ -372,12 +373,12 @@ class Moves:
         self._routing.queue(segments, permit, owner, speeds=speeds)
 
     def _standing(self) -> tuple[object, ...]:
-        """Return what a check of a path rests on, while the machine rests."""
+        """Return the state on which the check of a path relies, while the machine rests."""
         guard, state = self._guard, self._link.worker.state
         return dict(state.command), guard.zone, guard.narrowed, dict(self._inverses.applied)
 
     def _target_of(self, axis: str) -> float:
-        """Return where an axis was last sent by a command that nobody refused, or stands."""
+        """Return the latest accepted target of an axis, or its present position."""
         target = self._link.mailbox.target_of(axis)
         if target is None:
             target = self._link.worker.ends.get(axis)

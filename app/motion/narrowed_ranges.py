@@ -32,7 +32,7 @@ class NarrowedRanges:
         return self.narrowed.get(axis, self._link.robot.axes[axis].range)
 
     def narrow(self, axis: str, low: float, high: float) -> None:
-        """Let an axis be sent to no position outside of these, m or rad.
+        """Limit the targets of an axis to these positions, m or rad.
 
         Raises
         ------
@@ -50,8 +50,7 @@ class NarrowedRanges:
                 raise OutOfLimitsError(
                     message(
                         "engine",
-                        "axis {axis} stands at {at}, outside of {low} to {high}; move it there "
-                        "first",
+                        "axis {axis} is at {at}, outside {low} to {high}; move it inside first",
                     ).fill(
                         axis=AxisName(axis),
                         at=exact(at, unit),
@@ -75,7 +74,7 @@ class NarrowedRanges:
             self._guard.narrowed = MappingProxyType(left)
 
     def begin_with(self, ranges: Ranges) -> None:
-        """Take ranges that were kept, before the session is started.
+        """Use stored ranges, before the session is started.
 
         Raises
         ------

@@ -1,7 +1,7 @@
-"""Everything that an operator's hand does with a session, on one steady loop.
+"""All actions of an operator in a session, in one periodic loop.
 
-Devices are read, what they ask for is steered, a penetration is stepped, and all of it is recorded
-while a recording runs. Free of Qt: the window's panels show it, and ask for the rest.
+The loop reads the devices, steers the machine accordingly, steps a penetration, and records all of
+it during a recording. It is independent of Qt: panels of the window show it and request the rest.
 """
 
 import threading
@@ -127,11 +127,11 @@ class Operation:
             ticker.start()
 
     def close(self) -> None:
-        """Stop what the sticks and the penetration do, end a recording, let go of the devices."""
+        """Stop sticks and penetration, end a recording, release the devices."""
         for ticker in self._tickers:
             ticker.close()
         if self.teleoperator.state.driving:
-            self.session.stop(message("engine", "the input devices are let go of"))
+            self.session.stop(message("engine", "the input devices are released"))
         self.penetration.close()
         self.devices.close()
         if self._planning is not None:
@@ -145,7 +145,7 @@ class Operation:
                 self._told(str(error))
 
     def step(self, now_s: float) -> None:
-        """Read the devices and do what they ask for; for a loop of its own, or for a test."""
+        """Read the devices and execute their requests; for a separate loop, or for a test."""
         snapshot = self.devices.step(now_s)
         self.intent = snapshot.intent
         self._act(snapshot.intent, now_s)
@@ -198,7 +198,7 @@ class Operation:
         self.session.tool.switch(not self.session.tool.on)
 
     def recentre(self, joints: tuple[str, ...] = ("zn",)) -> None:
-        """Bring nano joints to mid-range while the tip stays; planned on a thread of its own.
+        """Move nano joints to mid-range while the tip stays; planned on a separate thread.
 
         Raises
         ------
@@ -216,7 +216,7 @@ class Operation:
     def prepare_penetration(self, parameters: PenetrationParameters) -> None:
         """Move the nano stage back as far as a penetration needs, while the tip stays.
 
-        Planned on a thread of its own. Nothing is armed by that.
+        Planned on a separate thread. The penetration is not armed.
 
         Raises
         ------
@@ -235,7 +235,7 @@ class Operation:
     def _play_planned(
         self, what: str, planned: Callable[[Mapping[str, float], float], Recentring]
     ) -> None:
-        """Plan on a thread of its own from where the machine rests, and play that."""
+        """Plan on a separate thread from the position of rest, and play the result."""
         if self._planning is not None and self._planning.is_alive():
             raise RefusedError(
                 message("engine", "a motion of the nano stage is being planned; wait")
@@ -258,7 +258,7 @@ class Operation:
                 now = {**state.command, **self.session.snapshot().command}
                 if any(now[axis] != state.command[axis] for axis in JOINTS):
                     raise RefusedError(
-                        message("engine", "the machine has moved meanwhile; ask once more")
+                        message("engine", "the machine has moved in the meantime; try again")
                     )
                 self.session.play(way.trajectory, permit=permit)
             except InputError as error:
@@ -331,7 +331,7 @@ class Operation:
             return path
 
     def stop_recording(self) -> Path:
-        """End the recording, and return the finished file; takes as long as copying it does.
+        """End the recording, and return the finished file; takes as long as copying it.
 
         Raises
         ------

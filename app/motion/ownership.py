@@ -60,7 +60,7 @@ class Ownership:
                 raise
 
     def check(self, axes: Iterable[str], owner: str) -> None:
-        """Refuse axes of which one is another's; nobody's change.
+        """Refuse axes if any has another owner; change nothing.
 
         Raises
         ------
@@ -74,7 +74,7 @@ class Ownership:
                     raise RefusedError(
                         message(
                             "engine",
-                            "axis {axis} is driven by {other}; stop it, or take over first",
+                            "{other} controls axis {axis}; stop it, or take over first",
                         ).fill(axis=AxisName(axis), other=other)
                     )
 

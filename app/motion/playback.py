@@ -65,9 +65,9 @@ class Playback:
     """Plays one trajectory at a time through a session; every method from any thread.
 
     A pause brings the axes to rest at once, each within its own acceleration, and so off the path
-    by no more than their braking; going on leads them back to the last row that began. Each
-    stretch that is played makes a record of its own, told by the session's ``PlaybackFinished``.
-    Whatever else stops the machine (stop, fault, lost link) ends the playback.
+    by at most their braking distance; resuming returns them to the last row that began. Each played
+    section makes a record of its own, reported by the session's ``PlaybackFinished``. Any other
+    stop of the machine (stop, fault, lost link) ends the playback.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class Playback:
         self._ends = (session.subscribe(self._on_event), session.tap(self._on_samples))
 
     def close(self) -> None:
-        """Have nothing more to do with the session; what plays goes on."""
+        """Detach from the session; a running playback continues."""
         for end in self._ends:
             end()
 
@@ -153,7 +153,7 @@ class Playback:
         """
         with self._lock:
             if self._state.phase is not PlaybackPhase.PLAYING:
-                raise RefusedError(message("engine", "nothing plays that could be paused"))
+                raise RefusedError(message("engine", "nothing is playing"))
             self._pausing = True
         self._session.stop(message("engine", "the playback is paused"), by=by)
 
@@ -198,7 +198,7 @@ class Playback:
             self._state = replace(state, row=row, path_s=path_s)
 
     def load_paused(self, trajectory: CheckedTrajectory) -> None:
-        """Take a trajectory in hand before its first row, to step through it.
+        """Load a trajectory before its first row, to step through it.
 
         Raises
         ------
@@ -217,7 +217,7 @@ class Playback:
             )
 
     def end(self, *, by: str = PROGRAM) -> None:
-        """Stop, and forget what was paused; ``by`` as of :meth:`MotionSession.stop`."""
+        """Stop, and forget a paused trajectory; ``by`` as of :meth:`MotionSession.stop`."""
         self._session.stop(message("engine", "the playback is ended"), by=by)
         with self._lock:
             self._state = replace(self._state, phase=PlaybackPhase.IDLE)
@@ -225,9 +225,7 @@ class Playback:
     def _paused(self, what: str) -> tuple[CheckedTrajectory, DeviationWatch, PlaybackState]:
         with self._lock:
             if self._state.phase is not PlaybackPhase.PAUSED or not (self._whole and self._watch):
-                raise RefusedError(
-                    message("engine", "nothing is paused that one could {what}").fill(what=what)
-                )
+                raise RefusedError(message("engine", "nothing is paused to {what}").fill(what=what))
             return self._whole, self._watch, self._state
 
     def _begin(
@@ -260,7 +258,7 @@ class Playback:
             raise
 
     def _on_samples(self, samples: Samples, answers: ModelOutputs) -> None:
-        """Watch the gap of what belongs to the playback; on the session's thread."""
+        """Watch the gap during the playback; on the session's thread."""
         began = np.flatnonzero(samples.playback_row >= 0)
         with self._lock:
             playing = self._state.phase is PlaybackPhase.PLAYING

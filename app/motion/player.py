@@ -35,11 +35,11 @@ def play_offline(
 ) -> Record:
     """Play a trajectory and return its record, without waiting for real time.
 
-    ``progress`` is called with 0 to 1 as the playback goes on. With ``laser`` the record has
-    ``ref`` too, where the device has a reference. With ``inverse`` every set-point of its axis goes
-    through it, those of the way to the first row too; with ``loop`` its axis is under that. With
-    the same seed the record is that of a live playback, up to what is left of the vibration of the
-    way to the first row.
+    ``progress`` is called with 0 to 1 during the playback. With ``laser`` the record also has
+    ``ref``, if the device has a reference. With ``inverse`` every set-point of its axis passes
+    through it, also on the move to the first row; with ``loop`` its axis is under feedback. With
+    the same seed the record equals that of a live playback, except for the residual vibration of
+    the move to the first row.
 
     Raises
     ------

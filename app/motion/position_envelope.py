@@ -7,7 +7,7 @@ from rotemina.sim.arrays import FloatArray
 
 
 class PositionEnvelope(NamedTuple):
-    """Where the axes may be just now: bounds (axes,) about all commands that may act.
+    """Possible present positions of the axes: bounds (axes,) of all commands that may act.
 
     ``deviation`` (axes,) is by how much readings differ from commands, less what is noise: the tip
     is judged where it is told to be, and that much beside it, where it is read to be.

@@ -28,16 +28,16 @@ class PositionTrust:
         self.reason: str | None = None
 
     def restart(self) -> None:
-        """Forget what was read, as after a gap; a doubt stays."""
+        """Forget past readings, as after a gap; a doubt stays."""
         self._watch.restart()
 
     def doubt(self, reason: str, axes: Iterable[str]) -> None:
-        """Believe axes no more; the first reason is the one that is told."""
+        """Distrust the positions of axes; the first reason is the reported one."""
         self._doubtful |= frozenset(axes)
         self.reason = self.reason or reason
 
     def judge(self, samples: Samples) -> tuple[str | None, tuple[str, ...]]:
-        """Return why the machine must stop now, if it must, and what is only to be told."""
+        """Return why the machine must stop now, if it must, and reasons only to report."""
         judged = self._watch.judge(samples)
         if judged.lock is None:
             return None, judged.alarms

@@ -1,8 +1,8 @@
-"""Supervision of readings: an axis that is not where it was sent, or reads where it cannot be.
+"""Supervision of readings: an axis away from its target, or with an impossible reading.
 
-One reading proves nothing: a limit counts only where every sample has been beyond it for
-:data:`LASTING_S`, so that a single outlier neither locks nor alarms. Command and reading alone are
-compared, never a model: what a model explains does not make a machine safe.
+One reading proves nothing: a limit counts only if every sample has exceeded it for
+:data:`LASTING_S`, so a single outlier neither locks nor alarms. Only command and reading are
+compared, never a model: an explanation by a model does not make a machine safe.
 """
 
 from typing import NamedTuple
@@ -23,9 +23,9 @@ _APART = message("engine", "axis {axis} reads {much} from where it was sent, {mo
 
 
 class Judgement(NamedTuple):
-    """What a portion of samples has shown: why motion must lock, and what is only told.
+    """The result for a portion of samples: why motion must lock, and reasons only to report.
 
-    ``axis`` is the one because of which motion must lock; empty where it need not.
+    ``axis`` is the axis that requires the lock; empty without one.
     """
 
     lock: str | None
@@ -57,7 +57,7 @@ class PositionWatch:
         self.restart()
 
     def restart(self) -> None:
-        """Forget what was seen: the next sample is the first."""
+        """Forget past samples: the next sample is the first."""
         self._since = np.full(
             (3, len(self._low)), np.nan
         )  # following, beyond the range, far beyond

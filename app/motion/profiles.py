@@ -1,4 +1,4 @@
-"""Profiles that a device runs by itself: handed over, triggered, aborted."""
+"""Profiles that a device executes: upload, trigger and abort."""
 
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.compensation import Inverses
@@ -15,7 +15,7 @@ from rotemina.sim.messages import AxisName, message
 
 
 class Profiles:
-    """One profile at a time, of one axis, which is checked and owned as a move is."""
+    """One profile at a time, of one axis, checked and owned like a move."""
 
     def __init__(
         self,
@@ -35,11 +35,11 @@ class Profiles:
     def upload(
         self, profile: Profile, owner: str = OPERATOR, *, permit: Permit | None = None
     ) -> None:
-        """Hand a profile to the device, from where its axis is commanded now; nothing moves yet.
+        """Upload a profile to the device, from the present command of its axis; nothing moves yet.
 
-        Its extremes are held against range and keep-out. Within the slow zone it is refused where
-        it is faster than that allows, except for an owner who has reserved every axis: a
-        deliberate thrust. The floor itself holds for everybody.
+        Its extremes are checked against range and keep-out. In the slow zone a faster profile is
+        refused, except for an owner who has reserved every axis: a deliberate thrust. The floor
+        holds for everybody.
 
         Raises
         ------
@@ -91,9 +91,9 @@ class Profiles:
             self._loaded = None
 
     def check_thrust(self, axis: str, ends: tuple[float, float], speed: float) -> None:
-        """Refuse a way of one axis, at this speed at most, that no profile may make.
+        """Refuse a distance of one axis, at this speed at most, that no profile may travel.
 
-        That is, none of an owner who has reserved every axis.
+        This includes profiles of an owner who has reserved every axis.
 
         Raises
         ------
@@ -117,7 +117,7 @@ class Profiles:
     def _profile_runner(self) -> None:
         if not isinstance(self._link.driver, ProfileRunner):
             raise RefusedError(
-                message("engine", "driver {name} cannot run profiles by itself").fill(
+                message("engine", "driver {name} cannot execute profiles").fill(
                     name=repr(self._link.driver.name)
                 )
             )

@@ -27,7 +27,7 @@ class ReadingDeviation:
         self.restart()
 
     def restart(self) -> None:
-        """Forget what was read."""
+        """Forget past readings."""
         self._recent = np.zeros((0, len(self._noise)))
         self.now: FloatArray = np.zeros(len(self._noise))
 

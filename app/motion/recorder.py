@@ -48,20 +48,19 @@ class RunAnswers:
 
 
 class PlaybackRecorder:
-    """Collects what a device did from the first row of a trajectory to the last.
+    """Collects the samples of a device from the first row of a trajectory to the last.
 
-    The record has every sample of the device in between, on the device's time from 0, and of the
-    trajectory's axes ``cmd``, ``u`` (not of steppers, and only where the device tells it) and
-    ``meas``. Its metadata say mode, robot, driver, and which trajectory was asked for: name (its
-    ``# trajectory:`` or ``# name:``), rows, duration, digest, and the times of a short one.
+    The record has every sample of the device in between, on the device's time from 0, and for the
+    trajectory's axes ``cmd``, ``u`` (not of steppers, and only if the device reports it) and
+    ``meas``. Its metadata give mode, robot, driver, and the requested trajectory: name (its ``#
+    trajectory:`` or ``# name:``), rows, duration, digest, and the times of a short one.
 
-    With ``laser`` it has ``ref`` too, where the device's samples have a reference. ``calibrations``
-    names those that were applied to ``meas``, by axis; ``compensations`` the inverses that stood
-    between commands and actuators; ``loops`` the feedback that was closed. ``cmd`` is always what
-    the trajectory wanted.
+    With ``laser`` it also has ``ref``, if the device's samples have a reference. ``calibrations``
+    names those applied to ``meas``, by axis; ``compensations`` the inverses between commands and
+    actuators; ``loops`` the closed loops. ``cmd`` is always the desired position of the trajectory.
 
-    A sample takes 8 bytes a column: 128 with six axes of which three tell a voltage, 460 MB an
-    hour at 1 kHz. :meth:`finish` lets go of what it has copied, so the record is not held twice.
+    A sample takes 8 bytes per column: 128 with six axes of which three report a voltage, 460 MB per
+    hour at 1 kHz. :meth:`finish` releases its data while copying, so the record is not held twice.
     """
 
     def __init__(
@@ -128,7 +127,7 @@ class PlaybackRecorder:
             self._memory = memory
 
     def finish(self) -> Record | None:
-        """Return the record of what was played, once; None if that never began."""
+        """Return the record of the playback, once; None if it never started."""
         if self._row < 0:
             return None
         told = np.flatnonzero(self._told)

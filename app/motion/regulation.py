@@ -26,7 +26,7 @@ if TYPE_CHECKING:  # a search and what it needs take their time to import
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NamedRegulation:
-    """A loop that was found stable, and what a record is to call it."""
+    """A loop that was found stable, and its name in records."""
 
     regulation: Regulation
     name: str
@@ -86,7 +86,7 @@ class Loops:
             self._known = MappingProxyType({**self._known, axis: loop})
 
     def remove(self, axis: str, *, permit: Permit | None = None) -> None:
-        """Open the loop of an axis, which stays where it is; no way leads back from there.
+        """Open the loop of an axis, which stays in place; undo cannot cross this point.
 
         Raises
         ------
@@ -96,9 +96,7 @@ class Loops:
         permit = self._admission.drawn(permit)
         if axis not in self.applied:
             raise RefusedError(
-                message("engine", "axis {axis} is under no loop that could be taken off").fill(
-                    axis=AxisName(axis)
-                )
+                message("engine", "axis {axis} has no loop to open").fill(axis=AxisName(axis))
             )
         with self._admission.lock:
             self._admission.refuse_unless_at_rest("opening a loop")
@@ -136,8 +134,8 @@ def regulation_of(robot: Robot, tuning: "Tuning", name: str) -> NamedRegulation:
         raise FeedbackError(
             message(
                 "engine",
-                "{name}: axis {axis} is no piezo in open loop of robot {this}; a "
-                "loop is for one that is",
+                "{name}: axis {axis} of robot {this} is not a piezo in open loop, which the"
+                " loop needs",
             ).fill(name=name, axis=AxisName(axis), this=repr(robot.name))
         )
     if tuning.delay:

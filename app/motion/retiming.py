@@ -61,9 +61,9 @@ def piece(
 ) -> Piece:
     """Return the rows from ``row`` on, ``speed`` times as fast.
 
-    What begins in the middle of a curve (rows no farther apart than two set-points) begins easily:
-    its pace rises evenly from 0 to full over half a second, ``p(τ) = τ²/2T`` up to T, so that the
-    speed has no jump. For that its rows are joined by lines at the device's set-points.
+    A piece that starts in the middle of a curve (rows no farther apart than two set-points) starts
+    gently: its pace rises evenly from 0 to full over half a second, ``p(τ) = τ²/2T`` up to T, so
+    the speed has no jump. For that its rows are joined by lines at the device's set-points.
 
     Raises
     ------

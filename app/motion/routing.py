@@ -44,7 +44,7 @@ class Routing:
         return self._guard.move(envelope, {**self._unfinished(), **targets})
 
     def along(self, ways: Ways) -> tuple[PathSegment, ...]:
-        """Return how places are gone to, one after the other, from where the machine rests.
+        """Return the path through positions, one after the other, from where the machine rests.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""A run: a real record beside the model in use, with the gap of each axis."""
+"""A run: a real record and the model in use, with the gap of each axis."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -23,7 +23,7 @@ _REPLACED = ("compensation ", "feedback ")  # metadata: what was sent is not wha
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """A real record beside the answer to its commands of the model in use.
+    """A real record and the answer of the model in use to its commands.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ def compared(
     completed: bool = True,
     answers: RunAnswers | None = None,
 ) -> Run:
-    """Set a record beside a model.
+    """Compare a record with a model.
 
     Parameters
     ----------
@@ -129,9 +129,9 @@ def compared(
 
 
 def compared_again(model: ModelInUse, run: Run, memory: CommandMemory) -> Run:
-    """Set the record of a run beside another model, which knows what came before it too.
+    """Compare the record of a run with another model, which also knows the earlier commands.
 
-    What was commanded before is in the memory, for as long as the machine stays connected.
+    The memory holds all commands while the machine stays connected.
 
     Raises
     ------

@@ -8,7 +8,7 @@ MOST_LETTERS = 100  # of each
 
 @dataclass(frozen=True, slots=True)
 class RunLabels:
-    """Three texts that stand in the metadata of every playback and recording; "" is left out."""
+    """Three texts in the metadata of every playback and recording; "" is left out."""
 
     run: str = ""
     operator: str = ""

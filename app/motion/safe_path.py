@@ -11,9 +11,9 @@ _LIFT = "z"
 def safe_path(
     robot: Robot, now: Mapping[str, float], goal: Mapping[str, float]
 ) -> tuple[dict[str, float], ...]:
-    """Return the segments of a way that lifts the tip above both ends, goes across, and comes down.
+    """Return the segments of a path: raise the tip above both ends, move across, lower it.
 
-    Whatever stood between the two when one of them was left may still stand there.
+    An obstacle present when one end was left may still be in between.
 
     Parameters
     ----------

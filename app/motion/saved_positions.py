@@ -1,4 +1,4 @@
-"""Positions of one robot that an operator has named, to be gone to again."""
+"""Named positions of one robot."""
 
 import re
 from collections.abc import Mapping
@@ -42,10 +42,10 @@ _FORMAT = Format(PositionsFile, {}, SavedPositionError)
 
 
 class SavedPositions:
-    """Named places of one robot, each with all of its axes, in a file of the user's folder.
+    """Named positions of one robot, each with all of its axes, in a file of the user's folder.
 
-    A file that cannot be used is left alone: nothing is gone to and nothing is written until
-    somebody has mended it or put it away.
+    An unusable file is left alone: no move uses it and nothing is written until it is repaired or
+    removed.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ class SavedPositions:
         self._write({**self._kept, name: MappingProxyType(dict(place))})
 
     def delete(self, name: str) -> None:
-        """Forget a place.
+        """Delete a position.
 
         Raises
         ------
@@ -130,12 +130,12 @@ class SavedPositions:
         self._kept = kept
 
     def _check(self, name: str, place: Mapping[str, float], where: str) -> None:
-        """Refuse a name nobody could read, and a place that is not one of this robot."""
+        """Refuse an illegible name, and a position that does not fit this robot."""
         if not 0 < len(name) <= LONGEST_NAME or not name.isprintable() or name != name.strip():
             raise SavedPositionError(
                 message(
                     "engine",
-                    "{where}{name} is no name for a position; use 1 to {longest} "
+                    "{where}{name} is not a valid name of a position; use 1 to {longest} "
                     "letters without blanks at the ends",
                 ).fill(where=where, name=repr(name), longest=LONGEST_NAME)
             )

@@ -1,7 +1,7 @@
-"""Calibrations of the axes' sensors, applied to what a device's samples say.
+"""Calibrations of the axes' sensors, applied to the samples of a device.
 
-This is the one place where ``measured`` is put right: everything behind the session (history,
-guard, recorder, panels) sees corrected readings, and drivers know nothing of calibrations.
+Only this module corrects ``measured``: everything behind the session (history, guard, recorder,
+panels) sees corrected readings, and drivers know nothing of calibrations.
 """
 
 import threading
@@ -90,12 +90,12 @@ class SensorCorrections:
             self._paused = self._paused - {axis}
 
     def restart(self) -> None:
-        """Forget what was read before: a new connection has a time of its own."""
+        """Forget earlier readings: a new connection has its own device time."""
         for correction in self._corrections.values():
             correction.restart()
 
     def corrected(self, samples: Samples) -> Samples:
-        """Return samples with corrected readings; on the worker's thread alone."""
+        """Return samples with corrected readings; only on the worker's thread."""
         applied, paused = self._applied, self._paused
         if applied is not self._seen[0] or paused is not self._seen[1]:
             self._take_up(applied, paused)

@@ -13,7 +13,7 @@ from rotemina.sim.robot.model import AxisEffect
 
 
 class Service:
-    """Requests about what a device is and shows; whatever could let it move passes the gate."""
+    """Requests other than motion; any that could permit motion pass the gate."""
 
     def __init__(self, link: DeviceLink) -> None:
         self._link = link
@@ -52,7 +52,7 @@ class Service:
         self._link.ask(write, permit)
 
     def show(self, row: int, text: str) -> None:
-        """Show text on the device's display; nothing happens where there is none."""
+        """Show text on the device's display; does nothing without a display."""
 
         def action(driver: Driver, _: Permit) -> None:
             if isinstance(driver, Display):
@@ -76,7 +76,7 @@ class Service:
 
     @property
     def effects(self) -> tuple[AxisEffect, ...] | None:
-        """The effects on a simulated machine; None where the device is none that carries any."""
+        """The effects on a simulated machine; None if the device has no effects."""
         driver = self._link.driver
         return driver.effects if isinstance(driver, EffectCarrier) else None
 
@@ -108,5 +108,5 @@ class Service:
         driver = self._link.driver
         if not isinstance(driver, Parameterised):
             raise RefusedError(
-                message("engine", "driver {name} keeps no parameters").fill(name=repr(driver.name))
+                message("engine", "driver {name} stores no parameters").fill(name=repr(driver.name))
             )

@@ -43,18 +43,18 @@ _MOVES = (DeviceState.MOVING, DeviceState.PLAYING, DeviceState.HOMING)
 
 
 class MotionSession:
-    """Owns a driver: one worker thread talks to it, and only a stop goes past that.
+    """Owns a driver: only one worker thread talks to it, and only a stop bypasses that.
 
     Every motion passes through here: ranges, the tip's bounds and owners hold on every path. A
     request is checked on the caller's thread and refused at once with the reason
-    (:class:`rotemina.sim.errors.InputError`), or queued for the worker. What the device does is
-    seen in :meth:`snapshot`, ``history`` and events. After a failure nothing moves until
+    (:class:`rotemina.sim.errors.InputError`), or queued for the worker. :meth:`snapshot`,
+    ``history`` and events show the actions of the device. After a failure nothing moves until
     :meth:`reconnect`.
 
-    The session connects, stops and tells; what else it does, its parts do. Those of :class:`Moves`
-    and :class:`Subscribers` are called so often that they are the session's own methods: ``go_to``,
-    ``jog``, ``move_velocity``, ``go_safely``, ``home``, ``undo``, ``play``, ``check_play``,
-    ``tip_path``, ``set_voltage``, ``subscribe`` and ``tap``.
+    The session connects, stops and reports; its parts do the rest. The frequently used ones of
+    :class:`Moves` and :class:`Subscribers` are the session's own methods: ``go_to``, ``jog``,
+    ``move_velocity``, ``go_safely``, ``home``, ``undo``, ``play``, ``check_play``, ``tip_path``,
+    ``set_voltage``, ``subscribe`` and ``tap``.
 
     Parameters
     ----------
@@ -157,11 +157,11 @@ class MotionSession:
 
     @property
     def setpoint_period_s(self) -> float:
-        """How often the device applies set-points, s; what a dry run for it is to be told."""
+        """Period of the device's set-points, s; a dry run for it needs this."""
         return self._link.setpoint_period_s
 
     def start(self) -> None:
-        """Connect to the device and keep talking to it, on a thread of its own.
+        """Connect to the device and keep communicating with it, on a separate thread.
 
         Raises
         ------
@@ -196,7 +196,7 @@ class MotionSession:
         self._link.connect()
 
     def reconnect(self) -> None:
-        """Connect again after a failure; never happens by itself.
+        """Connect again after a failure; never happens automatically.
 
         Raises
         ------
@@ -287,16 +287,16 @@ class MotionSession:
         self._link.halt(StopRequest(by, why, self._local_time()), latch=why)
 
     def release(self) -> None:
-        """Let the machine move again after an emergency stop; it stands until it is told to."""
+        """Permit motion again after an emergency stop; the machine rests until the next command."""
         self._link.gate.release()
 
     def bar(self, reason: str | None) -> None:
-        """Accept no motion for this reason, on any path, until None is said; what moves goes on."""
+        """Refuse all motion for this reason, on any path, until None; present motion continues."""
         self._link.barred = reason
 
     @property
     def stop_asked_s(self) -> float | None:
-        """Host time of the latest stop, whoever asked for it; None before the first."""
+        """Host time of the latest stop, by anyone; None before the first."""
         return self._link.stop_asked_s
 
     @property
@@ -360,11 +360,10 @@ class MotionSession:
         return self._link.worker.models.memory
 
     def use_model(self, model: ModelInUse) -> None:
-        """Make predictions with another model from now on; what is sent stays as it is.
+        """Use another model for predictions from now on; commands to the machine stay the same.
 
-        What it remembers is carried on from what the machine was commanded since it was connected,
-        which takes a second or so: a window asks from another thread. An event tells when it is
-        in use.
+        Its memory is computed from the commands since the connection, which takes about a second:
+        call it from a thread of its own in a window. An event tells when it is in use.
 
         Raises
         ------
@@ -381,7 +380,7 @@ class MotionSession:
         self._link.ask(lambda _, __: self._link.worker.use_model(prepared))
 
     def note_contact(self, what: str) -> None:
-        """Note a contact: what is learned from the motion under way may come from it."""
+        """Note a contact: effects learned from the present motion may come from it."""
         self._link.worker.note(what)
 
     def _run(self) -> None:

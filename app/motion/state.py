@@ -15,7 +15,7 @@ from rotemina.sim.records.record import Record
 
 
 class Connection(StrEnum):
-    """How the session stands to its device."""
+    """State of the connection between session and device."""
 
     DISCONNECTED = "disconnected"
     CONNECTING = "connecting"
@@ -38,7 +38,7 @@ class Phase(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class SessionState:
-    """One moment of a session.
+    """The state of a session at one moment.
 
     Attributes
     ----------

@@ -46,7 +46,7 @@ class TipBounds:
         if self._guard.zone is None:
             name = self._link.robot.name
             raise OutOfLimitsError(
-                message("engine", "robot {name} has no tip that a floor could hold").fill(
+                message("engine", "robot {name} has no tip for a floor to limit").fill(
                     name=repr(name)
                 )
             )

@@ -38,6 +38,7 @@ def out_text(out: Excess) -> Message:
     told = tuple(how.fill(much=exact(much, "m")) for how, much in where if much > 0.0)
     return message(
         "engine",
-        "tip: {told}, as commanded or as read: it only moves back in, slowly and confirmed, by "
-        "axes that each bring it nearer; bring it back, or mend the sensor that reads wrong",
+        "tip: {told}, by command or by reading: it may only move back inside, "
+        "slowly and with confirmation, by axes that bring it nearer. Move it back, "
+        "or repair the wrong sensor",
     ).fill(told=Listed(told))

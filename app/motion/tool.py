@@ -34,9 +34,7 @@ class Tool:
         if not isinstance(self._link.driver, ToolOutput):
             name = self._link.driver.name
             raise RefusedError(
-                message("engine", "driver {name} has no tool that could be switched").fill(
-                    name=repr(name)
-                )
+                message("engine", "driver {name} has no switchable tool").fill(name=repr(name))
             )
         if on:
             self._admission.refuse_if_locked()

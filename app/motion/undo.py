@@ -49,6 +49,6 @@ class Undo:
         while self._places and self._places[-1] == now:
             self._places.pop()
         if not self._places:
-            raise RefusedError(message("engine", "there is no move to undo"))
+            raise RefusedError(message("engine", "there is no previous position"))
         goal = self._places.pop()
         return safe_path(self._robot, now, goal)

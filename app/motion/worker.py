@@ -473,7 +473,7 @@ class Worker:
 
 
 _TAKEN_OFF = message(
-    "engine", "the inverse of axis {axes} is off: where the axis is sent is what it is told"
+    "engine", "the inverse of axis {axes} is off: the axis receives its targets as commands"
 )
 _STIRRING = (Move, Drive, Play, Home, RunProfile, SetVoltage)
 _PORTION_S = 0.016  # between two times that samples are worked up

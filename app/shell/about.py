@@ -20,8 +20,8 @@ def show_about(parent: QWidget, bench: Workbench) -> None:
     box.setText(
         translate(
             "shell",
-            "RoTeMiNa {version}\nThe window of a hybrid robot of cell manipulation, with the "
-            "diagnosis of its gap between model and machine.",
+            "RoTeMiNa {version}\nOperator's window of a hybrid robot for cell "
+            "manipulation, with diagnosis of the gap between model and machine.",
         ).format(version=version("rotemina"))
     )
     box.setInformativeText(

@@ -138,7 +138,7 @@ class Arrangement(QObject):
             self._bench.notify(
                 Level.WARNING,
                 translate(
-                    "shell", "The layout {name!r} cannot be read; delete it and save it anew."
+                    "shell", "The layout {name!r} cannot be read; delete it and save it again."
                 ).format(name=name),
                 about="window.md#layouts",
             )

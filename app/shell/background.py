@@ -31,7 +31,7 @@ def _outcome(work: Callable[[], object]) -> tuple[object, str]:
         return None, explained(error)
     except Exception as error:  # a fault of the program must reach the operator, not vanish
         logger.exception("work in the background failed")
-        text = translate("shell", "a fault of the program: {name}: {error}")
+        text = translate("shell", "program error: {name}: {error}")
         return None, text.format(name=type(error).__name__, error=error)
 
 

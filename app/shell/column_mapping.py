@@ -91,7 +91,7 @@ class ColumnMappingDialog(QDialog):
         self._buttons.rejected.connect(self.reject)
         column = QVBoxLayout(self)
         column.addWidget(
-            QLabel(translate("shell", "The file has no header. Say what each column holds:"))
+            QLabel(translate("shell", "The file has no header. Choose the content of each column:"))
         )
         column.addWidget(self._table(seen), 1)
         column.addWidget(self._complaint)

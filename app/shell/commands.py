@@ -83,7 +83,7 @@ def _file(window: _Window) -> list[Command]:
             translate("shell", "Trajectory from &record …"),
             "",
             window.ask_trajectory_of_record,
-            translate("shell", "Take the commands of a record of the library in hand"),
+            translate("shell", "Load the commands of a record of the library"),
         ),
         Command(
             translate("shell", "&File"),
@@ -125,7 +125,9 @@ def _motion(window: _Window) -> list[Command]:
         return None if state().latched else translate("shell", "the machine is not locked")
 
     def no_way_back() -> str | None:
-        return None if bench.session.undoable else translate("shell", "there is no move to undo")
+        return (
+            None if bench.session.undoable else translate("shell", "there is no previous position")
+        )
 
     def no_device() -> str | None:
         return (
@@ -139,7 +141,7 @@ def _motion(window: _Window) -> list[Command]:
 
     def connected() -> str | None:
         return (
-            translate("shell", "it is connected")
+            translate("shell", "already connected")
             if state().connection is Connection.CONNECTED
             else None
         )
@@ -159,14 +161,14 @@ def _motion(window: _Window) -> list[Command]:
             translate("shell", "&Stop"),
             "",
             bench.stop,
-            translate("shell", "Stop all axes and hold (Esc)"),
+            translate("shell", "Stop all axes and hold their positions (Esc)"),
         ),
         Command(
             menu,
             translate("shell", "Stop and loc&k"),
             "",
             bench.emergency_stop,
-            translate("shell", "Latched (Shift+Esc)"),
+            translate("shell", "Locks until release (Shift+Esc)"),
         ),
         Command(
             menu,
@@ -178,7 +180,7 @@ def _motion(window: _Window) -> list[Command]:
         ),
         Command(
             menu,
-            translate("shell", "&Back to before the latest move"),
+            translate("shell", "&Back to the previous position"),
             "Ctrl+Z",
             bench.undo,
             translate("shell", "Retract, travel, approach"),
@@ -197,7 +199,7 @@ def _motion(window: _Window) -> list[Command]:
             translate("shell", "&Clear fault"),
             "",
             bench.clear_fault,
-            translate("shell", "Acknowledge it"),
+            translate("shell", "Acknowledge the fault"),
             no_fault,
         ),
         Command(
@@ -245,14 +247,14 @@ def _view(window: _Window) -> list[Command]:
             translate("shell", "Save la&yout …"),
             "",
             window.ask_layout_name,
-            translate("shell", "Save it under a name"),
+            translate("shell", "Save the layout under a name"),
         ),
         Command(
             translate("shell", "&View"),
             translate("shell", "&Restore the layout"),
             "Ctrl+Shift+0",
             window.reset_layout,
-            translate("shell", "Put all docks back"),
+            translate("shell", "Restore all docks"),
         ),
         *(
             Command(
@@ -283,7 +285,7 @@ def _view(window: _Window) -> list[Command]:
             translate("shell", "Text size: automatic"),
             "Ctrl+0",
             looks.suit_the_screen,
-            translate("shell", "By its height"),
+            translate("shell", "By the height of the screen"),
         ),
     ]
 
@@ -295,7 +297,7 @@ def _help(window: _Window) -> list[Command]:
             translate("shell", "&Find a command …"),
             "Ctrl+Shift+P",
             window.toggle_palette,
-            translate("shell", "By letters"),
+            translate("shell", "By letters of its name"),
         ),
         Command(
             translate("shell", "&Help"),
@@ -330,7 +332,7 @@ def _help(window: _Window) -> list[Command]:
             translate("shell", "&Support bundle …"),
             "",
             window.show_support,
-            translate("shell", "Log, settings, versions and record for those who help"),
+            translate("shell", "Log, settings, versions and record for support"),
         ),
         Command(
             translate("shell", "&Help"),

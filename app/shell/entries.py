@@ -124,4 +124,4 @@ def _why_not(button: QAbstractButton) -> str | None:
     if button.isEnabled():
         return None
     reason = why_not(button)
-    return spoken(reason) if reason else translate("shell", "its panel does not allow it now")
+    return spoken(reason) if reason else translate("shell", "its panel does not permit it now")

@@ -107,7 +107,7 @@ class FirstSteps(QFrame):
             if bench.plan is None:
                 return translate("shell", "there is no trajectory; load one first")
             if state.activity is not DeviceState.IDLE:
-                return translate("shell", "the axes still move")
+                return translate("shell", "the axes are still moving")
             return bench.plan.refusal or state.locked
 
         def no_diagnosis(_: SessionState) -> str | None:
@@ -118,13 +118,13 @@ class FirstSteps(QFrame):
         return (
             _Step(
                 (self.stay, self.connect_),
-                translate("shell", "Nothing real moves with the simulator"),
+                translate("shell", "The simulator moves no real machine"),
                 free,
                 lambda: self._chosen,
             ),
             _Step(
                 (self.load,),
-                translate("shell", "A trajectory for this robot, tried on the model first"),
+                translate("shell", "A trajectory for this robot, checked on the model first"),
                 free,
                 lambda: bench.plan is not None,
             ),

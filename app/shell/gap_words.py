@@ -30,7 +30,7 @@ def size(figure: GapFigure | None, unit: str) -> str:
 def small_print(figure: GapFigure | None, unit: str) -> str:
     """Return what stands beside a gap: it without its offset, and that of the nominal model."""
     if figure is None:
-        return translate("shell", "nothing moved")
+        return translate("shell", "no motion")
     text = translate("shell", "without offset {without} · nominal {nominal}")
     return text.format(
         without=gap_text(figure.without_offset, unit), nominal=gap_text(figure.nominal, unit)

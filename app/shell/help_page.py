@@ -160,8 +160,8 @@ class HelpPage(QDialog):
             self.told.setText(
                 translate(
                     "shell",
-                    "{address} is not carried by the program; it is in the folder docs of "
-                    "its source, and on the site that `make docs` makes.",
+                    "The program does not contain {address}; see the folder docs of its source,"
+                    " or the site that `make docs` builds.",
                 ).format(address=address.toString())
             )
             return
@@ -172,7 +172,7 @@ class HelpPage(QDialog):
         text = help_pages.contents() if page.name == help_pages.CONTENTS else page.text()
         if text is None:
             text = translate(
-                "shell", "# No such page\n\nThe program carries no page {name!r}. [All pages]"
+                "shell", "# No such page\n\nThe program has no page {name!r}. [All pages]"
             ).format(name=page.name)
             text += f"({help_pages.CONTENTS})"
             page = Page(help_pages.PACKAGE, page.path)
@@ -187,8 +187,8 @@ class HelpPage(QDialog):
         self.open_page(help_pages.CONTENTS)
 
     def _allow(self) -> None:
-        none = None if self._gone else translate("shell", "there is no page before this one")
-        allow(self.back, none, translate("shell", "The page before (Alt+Left)"))
+        none = None if self._gone else translate("shell", "there is no previous page")
+        allow(self.back, none, translate("shell", "Previous page (Alt+Left)"))
 
     def _button(self, text: str, keys: QKeySequence, act: object) -> QPushButton:
         button = QPushButton(text)

@@ -57,7 +57,7 @@ PAGES = {
     "rotemina.sim.effects": "effects.md",
     "rotemina.sim.excitation": "excitations.md#limits",
     "rotemina.sim.feedback": "tuning.md",
-    "rotemina.sim.gap": "gap-diagnosis.md#what-is-refused-and-what-is-only-told",
+    "rotemina.sim.gap": "gap-diagnosis.md#refusals-and-cautions",
     "rotemina.sim.identification": "identification.md",
     "rotemina.sim.kinematics": "kinematics.md",
     "rotemina.sim.microscope": "microscope.md#the-simulated-microscope",

@@ -32,7 +32,7 @@ def help_in(state: SessionState, requests: Requests) -> Help | None:
     if state.latched is not None:
         return Help(
             translate("shell", "Release"),
-            translate("shell", "Let the machine move again; nothing moves by itself"),
+            translate("shell", "Release the lock; nothing moves by itself"),
             requests.release,
         )
     if state.fault is not None:
@@ -44,7 +44,9 @@ def help_in(state: SessionState, requests: Requests) -> Help | None:
     if state.unhomed:
         return Help(
             translate("shell", "Home"),
-            translate("shell", "Find the limit switches of all axes that have some: they move"),
+            translate(
+                "shell", "Find the limit switches of all axes with switches; these axes move"
+            ),
             requests.home,
         )
     return None

@@ -11,10 +11,10 @@ from rotemina.app.shell.language import marked, translate
 
 #: Keys that no action has, for they work wherever the focus is.
 ANYWHERE = (
-    ("Esc", marked("shell", "Stop all axes and hold; a stop by software")),
+    ("Esc", marked("shell", "Stop all axes and hold their positions; a software stop")),
     (
         "Shift+Esc",
-        marked("shell", "Stop and lock: nothing moves until it is released; a stop by software"),
+        marked("shell", "Stop and lock: nothing moves until release; a software stop"),
     ),
 )
 

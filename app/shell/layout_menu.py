@@ -57,7 +57,7 @@ class KeptLayoutMenu(QMenu):
             action = self.addAction(name.replace("&", "&&"))
             action.triggered.connect(lambda _=False, name=name: self._use(name))
         if not names:
-            self.addAction(translate("shell", "None is saved yet")).setEnabled(False)
+            self.addAction(translate("shell", "No layout is saved")).setEnabled(False)
             return
         delete = self.addMenu(translate("shell", "Delete"))
         for name in names:

@@ -70,7 +70,7 @@ class Layout:
 OPERATE = Layout(
     marked("shell", "&Operate"),
     "Ctrl+1",
-    marked("shell", "Drive the machine: control, job, events, trajectory, penetration, recorder"),
+    marked("shell", "Operate the machine: control, job, events, trajectory, penetration, recorder"),
     {
         Area.CENTRE: ("plots",),
         Area.LEFT: ("control",),
@@ -95,7 +95,7 @@ TUNE = Layout(
 DIAGNOSE = Layout(
     marked("shell", "Dia&gnose"),
     "Ctrl+3",
-    marked("shell", "Find out why the machine departs from its model: gap, comparison, effects"),
+    marked("shell", "Find out why machine and model differ: gap, comparison, effects"),
     {
         Area.CENTRE: ("plots",),
         Area.BOTTOM: ("gap", "comparison", "trajectory", "effects", "faults", "recorder"),
@@ -213,11 +213,11 @@ class KeptLayouts:
     def objection(self, name: str) -> str | None:
         """Return why a layout cannot be kept under a name, or None."""
         if not name:
-            return translate("shell", "write a name")
+            return translate("shell", "enter a name")
         if len(name) > LONGEST_NAME:
-            return translate("shell", "the name has {n} letters; {most} are the most").format(
-                n=len(name), most=LONGEST_NAME
-            )
+            return translate(
+                "shell", "the name has {n} letters; at most {most} are possible"
+            ).format(n=len(name), most=LONGEST_NAME)
         if name.casefold() in (
             word.casefold() for layout in BUILT_IN for word in (layout.word, layout.shown)
         ):
@@ -226,7 +226,7 @@ class KeptLayouts:
             ).format(name=name)
         if len(self._all()) >= MOST_KEPT and name not in self._all():
             return translate(
-                "shell", "{n} layouts are kept, which is the most; delete one first"
+                "shell", "{n} layouts, the maximum, are saved; delete one first"
             ).format(n=MOST_KEPT)
         return None
 

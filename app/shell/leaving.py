@@ -51,8 +51,8 @@ class Leaving:
             Level.INFO,
             translate(
                 "shell",
-                "The window closes as soon as everything is written. Close it once more to leave "
-                "at once: a recording can be recovered at the next start.",
+                "The window closes as soon as everything is written. Close it again to "
+                "leave at once; the recording can then be recovered at the next start.",
             ),
         )
         self._workbench.finish_recording(self._window.close, self._stay)
@@ -71,7 +71,9 @@ def _may_stop(parent: QWidget, state: SessionState) -> bool:
     playing = state.activity is DeviceState.PLAYING
     return _asked(
         parent,
-        translate("shell", "A trajectory is playing. Quitting stops it; what was played is kept.")
+        translate(
+            "shell", "A trajectory is playing. Quitting stops it and keeps the record so far."
+        )
         if playing
         else translate("shell", "The machine is moving. Quitting stops it."),
         translate("shell", "Stop and quit"),
@@ -84,8 +86,8 @@ def _may_lose_record(parent: QWidget) -> bool:
         parent,
         translate(
             "shell",
-            "The last played record is in no file yet: quitting now loses it. "
-            "Stay, and save it with Ctrl+S.",
+            "The record of the last playback is not saved: quitting now loses it. To "
+            "save it, stay and press Ctrl+S.",
         ),
         translate("shell", "Quit and lose it"),
     )

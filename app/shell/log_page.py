@@ -52,8 +52,8 @@ _LEVELS = {
 _ROLES = {Level.WARNING: "warning", Level.ERROR: "danger_text", Level.GOOD: "good"}
 _ABOUT_LATENESS = marked(
     "shell",
-    "How long the window took to react since it was started. When it does not react for a quarter "
-    "of a second, the log says what it did.",
+    "Reaction time of the window since its start. The log names the cause of "
+    "any delay above a quarter of a second.",
 )
 _Index = QModelIndex | QPersistentModelIndex
 _TOP = QModelIndex()
@@ -127,9 +127,9 @@ class LogPage(QDialog):
         self.level, self.words = QComboBox(), QLineEdit()
         for least, text in _LEAST.items():
             self.level.addItem(translate("shell", text), least)
-        self.level.setAccessibleName(translate("shell", "Which messages"))
+        self.level.setAccessibleName(translate("shell", "Messages to show"))
         self.words.setPlaceholderText(translate("shell", "search words"))
-        self.words.setAccessibleName(translate("shell", "Words to search the messages for"))
+        self.words.setAccessibleName(translate("shell", "Words to search for in the messages"))
         self.words.setClearButtonEnabled(True)
         self.table = self._make_table()
         self.count = QLabel()
@@ -142,7 +142,7 @@ class LogPage(QDialog):
         self.copy.clicked.connect(self.copy_messages)
         self.help = QPushButton("?")
         self.help.setAutoDefault(False)
-        self.help.setAccessibleName(translate("shell", "Help on the chosen message"))
+        self.help.setAccessibleName(translate("shell", "Help on the selected message"))
         self.help.clicked.connect(lambda: self.asked.emit(self._page()))
         self.table.selectionModel().selectionChanged.connect(lambda *_: self._allow_help())
         self._lay_out()
@@ -189,7 +189,7 @@ class LogPage(QDialog):
         self.count.setText(
             translate("shell", "{n} of {all} messages").format(n=len(picked), all=len(messages))
         )
-        tip = translate("shell", "Copy the selected messages, or all that are shown")
+        tip = translate("shell", "Copy the selected messages, or all displayed ones")
         allow(self.copy, None if picked else translate("shell", "no message is shown"), tip)
         self._allow_help()
 
@@ -209,15 +209,15 @@ class LogPage(QDialog):
     def _allow_help(self) -> None:
         one = len(self.table.selectionModel().selectedRows()) == 1
         none = (
-            translate("shell", "no page is about it")
+            translate("shell", "no page describes it")
             if one
-            else translate("shell", "choose one message")
+            else translate("shell", "select one message")
         )
         page = self._page()
         allow(
             self.help,
             None if page else none,
-            translate("shell", "What the message means: {page}").format(page=page) if page else "",
+            translate("shell", "Meaning of the message: {page}").format(page=page) if page else "",
         )
 
     def _make_table(self) -> QTableView:

@@ -31,11 +31,11 @@ WORDS = {
     Machine.MACHINE: marked("shell", "MACHINE"),
 }
 TIPS = {
-    Machine.SIMULATOR: marked("shell", "The built-in simulator: nothing real moves."),
+    Machine.SIMULATOR: marked("shell", "The built-in simulator: no real machine moves."),
     Machine.VIRTUAL_BOARDS: marked(
-        "shell", "Boards that this computer emulates, behind ports of its own: nothing real moves."
+        "shell", "Boards that this computer emulates on its own ports: no real machine moves."
     ),
-    Machine.MACHINE: marked("shell", "A real machine moves when this window says so."),
+    Machine.MACHINE: marked("shell", "Commands of this window move a real machine."),
 }
 
 

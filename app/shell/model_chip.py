@@ -59,8 +59,8 @@ class ModelChip(QToolButton):
             translate("shell", "The model that plots, comparison, dry run and 3-D view use."),
             translate(
                 "shell",
-                "Predictions only: what is sent to the machine does not change; Compensate does "
-                "that.",
+                "Predictions only: commands to the machine do not change. The panel "
+                "Compensation changes them.",
             ),
         ]
         lines += [f"{label(one.axis)}: {_title(one.id)}" for one in model.effects]
@@ -68,8 +68,8 @@ class ModelChip(QToolButton):
             lines.append(
                 translate(
                     "shell",
-                    "≈ What {axes} did before is not known: until it has swung through its range, "
-                    "the model may be off by the band in the plots.",
+                    "≈ The history of {axes} is unknown: until it has swept its range, the "
+                    "model may be off by the band in the plots.",
                 ).format(axes=", ".join(map(label, unsettled)))
             )
         self.setToolTip(plain_tip(*lines, model.id))

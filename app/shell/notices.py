@@ -68,9 +68,7 @@ class Notice(QFrame):
             self.help = QToolButton()
             self.help.setText("?")
             self.help.setAutoRaise(True)
-            self.help.setToolTip(
-                translate("shell", "What this means, and what to do: {page}").format(page=page)
-            )
+            self.help.setToolTip(translate("shell", "Meaning and remedy: {page}").format(page=page))
             self.help.setAccessibleName(translate("shell", "Help on this notice"))
             self.help.clicked.connect(lambda _=False: self.asked.emit(page))
             row.addWidget(self.help, 0, Qt.AlignmentFlag.AlignTop)

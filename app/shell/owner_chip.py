@@ -33,7 +33,7 @@ class OwnerChip(QLabel):
         set_tone(self, Tone.BUSY if owners else Tone.QUIET)
         self.setToolTip(
             plain_tip(
-                translate("shell", "Who moves the machine: an axis that moves is one owner's"),
-                axes or translate("shell", "Nobody does now."),
+                translate("shell", "Who moves the machine: each moving axis has one owner"),
+                axes or translate("shell", "Nobody at present."),
             )
         )

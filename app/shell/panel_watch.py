@@ -128,7 +128,8 @@ class PanelWatch(QObject):
         if times == 1:
             logger.error("a fault of the program", exc_info=error)
             text = translate(
-                "shell", "RoTeMiNa has a fault: {error}. The log has more; save a support bundle."
+                "shell",
+                "Program error: {error}. The log has details; please save a support bundle.",
             )
             self._tell(Level.ERROR, text.format(error=_said(error)))
         elif times & (times - 1) == 0:

@@ -79,7 +79,7 @@ class Progress:
     def text(self) -> str:
         """What is being done, and for how long yet."""
         if self.cancelled:
-            return translate("shell", "{doing} Being cancelled.").format(doing=self.doing)
+            return translate("shell", "{doing} Cancelling.").format(doing=self.doing)
         if (left_s := self.left_s) is not None:
             return translate("shell", "{doing} About {left} left.").format(
                 doing=self.doing, left=duration_text(left_s)

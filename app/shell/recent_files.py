@@ -60,4 +60,4 @@ class RecentFiles(QMenu):
             action.triggered.connect(lambda _=False, path=path, use=use: use(path))
         self.setToolTipsVisible(True)
         if not there:
-            self.addAction(translate("shell", "None yet")).setEnabled(False)
+            self.addAction(translate("shell", "None")).setEnabled(False)

@@ -87,8 +87,8 @@ class RecordChooser(QDialog):
         workbench.library.refresh()
 
     def _allow(self) -> None:
-        none = translate("shell", "choose a record in the table")
-        tip = translate("shell", "Use the chosen records")
+        none = translate("shell", "select a record in the table")
+        tip = translate("shell", "Use the selected records")
         allow(self.open, None if self.table.chosen else none, tip)
 
     def _accept(self) -> None:

@@ -138,15 +138,16 @@ class RecordLibrary(QObject):
         if taken > 1e9 * most:
             text = translate(
                 "shell",
-                "Playbacks take {size}, more than {most} GB (preference {key}). None is deleted by "
-                "itself: delete those that you do not need in the panel Recorder.",
+                "Playbacks occupy {size}, more than {most} GB (preference {key}). The "
+                "program deletes none of them: delete unneeded ones in the panel Recorder.",
             )
             return text.format(size=size_text(taken), most=most, key=BOUND_GB)
         if self._free is not None and self._free < _LEAST_FREE:
             text = translate(
                 "shell",
-                "Only {free} are free where records are kept, of which playbacks take {size}. None "
-                "is deleted by itself: delete those that you do not need in the panel Recorder.",
+                "Only {free} are free on the disk of the records; playbacks occupy {size}. "
+                "The program deletes none of them: delete unneeded ones in the panel "
+                "Recorder.",
             )
             return text.format(free=size_text(self._free), size=size_text(taken))
         return ""
@@ -164,7 +165,7 @@ def write_played(record: Record, path: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FileWriteError(
-            translate("shell", "{parent}: cannot be made: {strerror}").format(
+            translate("shell", "{parent}: cannot be created: {strerror}").format(
                 parent=path.parent, strerror=error.strerror
             )
         ) from error

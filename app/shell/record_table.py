@@ -110,7 +110,7 @@ class _Model(QAbstractTableModel):
         if role == _Role.ToolTipRole and section == GAP:
             return translate(
                 "shell",
-                "Gap from the model in use at that time, of the axis with most noise floors",
+                "Gap from the model in use at that time, of the axis with the most noise floors",
             )
         return None
 
@@ -222,7 +222,7 @@ class RecordTable(QTableView):
         )
         self.search.textChanged.connect(lambda _: self._fill())
         self.kinds.setAccessibleName(translate("shell", "Kind of the records"))
-        self.kinds.setToolTip(translate("shell", "Which kind of records is listed"))
+        self.kinds.setToolTip(translate("shell", "Kind of records to list"))
         self.kinds.addItem(translate("shell", "All records"), None)
         for kind, (_, several) in KINDS.items():
             self.kinds.addItem(translate("shell", several), kind)

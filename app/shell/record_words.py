@@ -28,7 +28,7 @@ COLUMNS = (
 KINDS = {
     Kind.PLAYBACK: (marked("shell", "playback"), marked("shell", "Playbacks")),
     Kind.RECORDING: (marked("shell", "recording"), marked("shell", "Recordings")),
-    Kind.FILE: (marked("shell", "file"), marked("shell", "Files from elsewhere")),
+    Kind.FILE: (marked("shell", "file"), marked("shell", "Other files")),
 }
 
 
@@ -65,7 +65,7 @@ def moment_text(began: datetime | None) -> str:
 def state_text(one: Entry) -> str:
     """Return what is wrong with a record's file; "" for nothing."""
     if one.missing:
-        return translate("shell", "The file is not there: delete the entry, or say where it is now")
+        return translate("shell", "The file is missing: delete the entry, or find the file")
     if one.problem:
         return translate("shell", "cannot be opened: {problem}").format(problem=one.problem)
     if one.changed:

@@ -43,5 +43,7 @@ class RecordingSign(QLabel):
             )
         )
         self.setToolTip(
-            plain_tip(translate("shell", "A recording runs: its time and size"), str(writer.path))
+            plain_tip(
+                translate("shell", "Time and size of the running recording"), str(writer.path)
+            )
         )

@@ -39,14 +39,14 @@ class ReplayBar(QFrame):
         self.phase.setAccessibleName(translate("shell", "Phase in the recording"))
         self.phase.setToolTip(
             translate(
-                "shell", "The machine's state at that time; its present state is in the tool bar"
+                "shell", "State of the machine at that time; the tool bar shows the present state"
             )
         )
-        self.machine = QLabel(translate("shell", "The machine moves now"))
+        self.machine = QLabel(translate("shell", "The machine is moving now"))
         set_tone(self.machine, Tone.DANGER)
         self.live = QPushButton(translate("shell", "Back to live"))
         self.live.setProperty("primary", True)
-        self.live.setToolTip(translate("shell", "Show the machine again, and let it be moved"))
+        self.live.setToolTip(translate("shell", "Show the machine again and permit motion"))
         self.live.clicked.connect(workbench.replaying.end)
         self.play = QPushButton()
         self.play.setMinimumWidth(70)
@@ -58,8 +58,8 @@ class ReplayBar(QFrame):
         self.timeline.setToolTip(
             translate(
                 "shell",
-                "Time of the recording. Marks: faults, then stops, refusals and warnings, then "
-                "the rest",
+                "Time of the recording. Marks, by importance: faults; stops, refusals and "
+                "warnings; others",
             )
         )
         self.timeline.valueChanged.connect(lambda value: self._seek(value / 1000.0))

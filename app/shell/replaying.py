@@ -49,7 +49,7 @@ class Replaying(QObject):
         name = replay.recording.path.name
         self._refuse_unless_at_rest(name)
         self._session.bar(
-            translate("shell", "a replay of {name} is shown; go back to live first").format(
+            translate("shell", "a replay of {name} is displayed; go back to live first").format(
                 name=name
             )
         )
@@ -87,7 +87,7 @@ class Replaying(QObject):
         if (moves and state.fault is None) or state.queued:
             raise RefusedError(
                 translate(
-                    "shell", "{name} cannot be shown: the machine moves; wait, or stop it first"
+                    "shell", "{name} cannot be shown: the machine is moving; wait, or stop it first"
                 ).format(name=name)
             )
 
@@ -108,9 +108,9 @@ def opened(path: Path, robot: Robot) -> Replay:
         raise RecordingError(
             translate(
                 "shell",
-                "{name}: recorded on robot {robot!r} with axes {axes}; this "
-                "window's has {here}. Start a window for it: rotemina recording info "
-                "--robot-file {path} > {file} && rotemina --robot {file}",
+                "{name}: recorded on robot {robot!r} with axes {axes}, but the robot of "
+                "this window has {here}. Start a window for that robot: rotemina recording "
+                "info --robot-file {path} > {file} && rotemina --robot {file}",
             ).format(
                 name=path.name,
                 robot=recording.metadata.get("robot", ""),
@@ -129,6 +129,6 @@ def remark(replay: Replay, robot: Robot) -> str | None:
         return None
     return translate(
         "shell",
-        "{name}: recorded with another robot file; ranges and scales on the "
-        "screen are those of this window's",
+        "{name}: recorded with another robot file; ranges and scales on the screen "
+        "are those of this window",
     ).format(name=replay.recording.path.name)

@@ -97,7 +97,7 @@ class Requests(QObject):
                 raise
             except Exception as error:  # whatever a plugin raises, the window stays
                 raise DriverUnusableError(
-                    translate("shell", "driver {name!r} cannot be made: {kind}: {error}").format(
+                    translate("shell", "driver {name!r} cannot be created: {kind}: {error}").format(
                         name=kind.name, kind=type(error).__name__, error=error
                     )
                 ) from error

@@ -29,7 +29,7 @@ class StatusText(QLabel):
         parts = [f"{self._session.driver.name}: {word(state)}"]
         if state.latched is not None:
             parts.append(
-                translate("shell", "{latched} latched").format(latched=spoken(state.latched))
+                translate("shell", "{latched} active").format(latched=spoken(state.latched))
             )
         if state.age_s is not None:
             parts.append(translate("shell", "data {age} old").format(age=age(state.age_s)))

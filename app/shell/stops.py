@@ -180,15 +180,13 @@ class EmergencyButton(QPushButton):
         )
         tip = (
             (
-                translate(
-                    "shell", "Stop all axes, and let nothing move until it is released (Shift+Esc)."
-                ),
+                translate("shell", "Stop all axes and block motion until release (Shift+Esc)."),
                 translate("shell", _SOFTWARE),
             )
             if latched is None
             else (
                 translate("shell", "Locked: {latched}.").format(latched=spoken(latched)),
-                translate("shell", "Press to release; nothing moves until it is told to."),
+                translate("shell", "Press to release; nothing moves without a command."),
             )
         )
         self.setToolTip(plain_tip(*tip))
@@ -222,7 +220,9 @@ class StopButton(QPushButton):
         self.setToolTip(
             plain_tip(
                 translate(
-                    "shell", "Stop all axes and hold (Esc); a second press within 1 s locks."
+                    "shell",
+                    "Stop all axes and hold their positions (Esc); a second press within 1 s "
+                    "locks.",
                 ),
                 translate("shell", _SOFTWARE),
             )

@@ -66,7 +66,7 @@ def gather(
         Item("log.txt", translate("shell", "Messages of the program since its start"), f"{log}\n"),
         Item(
             "settings.json",
-            translate("shell", "Preferences of the screen, and settings of drivers"),
+            translate("shell", "Display preferences, and driver settings"),
             _json(preferences),
         ),
         Item(
@@ -76,12 +76,12 @@ def gather(
         ),
         Item(
             "machine.json",
-            translate("shell", "Robot, driver, and how the connection stands"),
+            translate("shell", "Robot, driver and state of the connection"),
             _json(_machine(state, driver, robot)),
         ),
         Item(
             "window.json",
-            translate("shell", "How late the window reacted; the log says to what"),
+            translate("shell", "Delays of the window; the log names their causes"),
             _json(lateness),
         ),
     ]

@@ -29,8 +29,9 @@ from rotemina.app.widgets.controls import allow
 _SHOWN = 20_000  # letters of a file; the rest of a record looks alike
 _INTRODUCTION = marked(
     "shell",
-    "This is what the bundle will hold. User names, home folders and the name of this computer "
-    "are taken out already. Nothing is sent: the archive is written where you choose.",
+    "The bundle will contain these files. User names, home folders and the name"
+    " of this computer are already removed. Nothing is sent: you choose where "
+    "the archive is saved.",
 )
 
 
@@ -128,7 +129,7 @@ class SupportPage(QDialog):
 
     def _allow_saving(self) -> None:
         why_not = None if self.items else translate("shell", "the bundle is still being assembled")
-        allow(self.save, why_not, translate("shell", "Write all of it into one zip archive"))
+        allow(self.save, why_not, translate("shell", "Write all files into one zip archive"))
 
     def _show_item(self, row: int) -> None:
         if 0 <= row < len(self.items):

@@ -80,7 +80,7 @@ def _narrow(session: MotionSession, settings: Settings, workbench: Workbench) ->
         session.ranges.begin_with(kept_ranges(settings, session.robot))
     except InputError as error:
         text = language.translate(
-            "shell", "No range is narrowed: {error}. Narrow them again in Control, Axes."
+            "shell", "No range is limited: {error}. Set the limits again in Control, Axes."
         ).format(error=error)
         workbench.notify(Level.WARNING, text, about="control.md")
 
@@ -89,12 +89,12 @@ def _tell_of(settings: Settings, workbench: Workbench) -> None:
     """Tell of preferences that could not be read, and where they are kept."""
     if settings.aside is not None:
         text = language.translate(
-            "shell", "The preferences begin anew: {fault}. That file is kept as {path}."
+            "shell", "The preferences were reset: {fault}. The old file is kept as {path}."
         ).format(fault=settings.fault, path=settings.aside)
     elif settings.fault:
         text = language.translate(
             "shell",
-            "The preferences begin anew, and none is kept: {fault}. Move that file away.",
+            "The preferences were reset and cannot be saved: {fault}. Move that file away.",
         ).format(fault=settings.fault)
     else:
         return

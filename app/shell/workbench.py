@@ -546,7 +546,7 @@ class Workbench(Requests):
 
         self.work(
             f"keep {path.name}",
-            translate("shell", "Keeping {name} …").format(name=path.name),
+            translate("shell", "Storing {name} …").format(name=path.name),
             lambda: write_played(record, path),
             done,
         )

@@ -19,10 +19,10 @@ class Question(QFrame):
         self.yes = button(
             translate("widgets", "Yes"),
             self._agree,
-            translate("widgets", "Do what the question asks"),
+            translate("widgets", "Confirm"),
         )
         self.no = button(
-            translate("widgets", "Cancel"), self.hide, translate("widgets", "Leave it as it is")
+            translate("widgets", "Cancel"), self.hide, translate("widgets", "Change nothing")
         )
         row = QHBoxLayout()
         row.setSpacing(6)

@@ -258,8 +258,7 @@ class Film(_OpenCvCamera):
             raise CameraRefusedError(
                 message(
                     "engine",
-                    "{address}: it is no video, or one that was cut off or is of an unknown kind; "
-                    "choose another file",
+                    "{address}: not a video, or a truncated or unknown one; choose another file",
                 ).fill(address=self.identity.address)
             )
         raise CameraLostError(

@@ -135,7 +135,7 @@ def _pages(path: Path) -> tuple[tuple[Path, int], ...]:
     count = cv2.imcount(str(path), cv2.IMREAD_UNCHANGED)
     if count < 1:
         raise CameraRefusedError(
-            message("engine", "{path}: it is no picture; choose a TIFF or PNG file").fill(path=path)
+            message("engine", "{path}: not a picture; choose a TIFF or PNG file").fill(path=path)
         )
     return tuple((path, page) for page in range(count))
 

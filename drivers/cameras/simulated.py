@@ -173,7 +173,7 @@ class SimulatedCamera(FocusDrive):
             raise CameraLostError(
                 message(
                     "engine",
-                    "{name}: there is no simulated machine to look at; connect the simulator",
+                    "{name}: there is no simulated machine; connect the simulator",
                 ).fill(name=self.name)
             )
         try:

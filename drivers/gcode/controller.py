@@ -382,8 +382,9 @@ class Controller:
         if not self._may_be_silent() and now_s - self.dialogue.heard_s > _LOST_S:
             self._lost = message(
                 "engine",
-                "{port}: the controller has said nothing for {seconds} s; it ends what it was told "
-                "within half a second and braking. Look at the machine, then connect again",
+                "{port}: the controller has not answered for {seconds} s; it ends its "
+                "motion within half a second plus braking. Check the machine, then "
+                "reconnect",
             ).fill(port=self._port, seconds=_LOST_S)
             raise ConnectionLostError(self._lost)
 

@@ -171,7 +171,7 @@ def _latest(driver: AnalogInputs) -> Told:
         )
     if not readings and not buttons:
         raise InputLostError(
-            message("engine", "{name}: no joystick has told anything; is one plugged in?").fill(
+            message("engine", "{name}: no joystick reports; check whether one is plugged in").fill(
                 name=driver.name
             )
         )

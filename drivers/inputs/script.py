@@ -160,7 +160,7 @@ def _number(where: str, column: str, text: str) -> float:
         value = float(text)
     except ValueError as error:
         raise ScriptError(
-            message("engine", "{where}, column {column}: {strip} is no number").fill(
+            message("engine", "{where}, column {column}: {strip} is not a number").fill(
                 where=where, column=repr(column), strip=repr(text.strip())
             )
         ) from error

@@ -32,7 +32,7 @@ _WORDS = {
     Fault.LATE_SETPOINT: marked("engine", "a set-point came too late; the trajectory ended there"),
     Fault.PROFILE: marked("engine", "the profile could not be run"),
     Fault.TOO_FAST: marked(
-        "engine", "a set-point was farther away than the axis goes in that time; it was refused"
+        "engine", "a set-point was farther away than the axis can move in that time; it was refused"
     ),
 }
 

@@ -346,8 +346,9 @@ def _nobody(board: Board, baud: int, *, garbage: bool) -> DriverError:
         return ProtocolError(
             message(
                 "engine",
-                "{where}: what comes from there at {baud} baud is no frame of a board; is the baud "
-                "rate another one ({others}), or the device at this port no MC68HC11 board?",
+                "{where}: at {baud} baud no valid frame of a board arrives; check the baud "
+                "rate (others: {others}), and whether an MC68HC11 board is connected to "
+                "this port",
             ).fill(where=board.where, baud=baud, others=others)
         )
     return DriverTimeoutError(

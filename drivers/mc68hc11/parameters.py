@@ -36,7 +36,7 @@ _OF_STEPPERS = (
     Meaning(marked("engine", "microsteps a revolution"), ""),
     Meaning("pitch", "nm"),
     Meaning(marked("engine", "homing speed"), "steps/s"),
-    Meaning(marked("engine", "way from the low switch to zero"), "steps"),
+    Meaning(marked("engine", "distance from the low switch to zero"), "steps"),
 )
 _OF_PIEZOS = (
     *_OF_ALL,

@@ -145,8 +145,8 @@ class SerialPort:
             raise ConnectionLostError(
                 message(
                     "engine",
-                    "{url}: the port is gone ({error}); is it unplugged? Plug it in and connect "
-                    "again, then check where the machine stands",
+                    "{url}: the port has disappeared ({error}). Plug it in and reconnect, then "
+                    "check the position of the machine",
                 ).fill(url=self._url, error=str(error))
             ) from error
 
@@ -166,6 +166,7 @@ def _why(url: str, error: Exception) -> str:
     if number in _ABSENT or "could not open port" in said or "FileNotFoundError" in said:
         return message(
             "engine",
-            "{url}: there is no such port ({said}); is the adapter plugged in, the name right?",
+            "{url}: there is no such port ({said}); check the name, and whether the "
+            "adapter is plugged in",
         ).fill(url=url, said=said)
     return message("engine", "{url}: it cannot be opened: {said}").fill(url=url, said=said)

@@ -239,8 +239,7 @@ class Session:
                 raise ConnectionLostError(
                     message(
                         "engine",
-                        "{where} was reset: it does not know where it stands; connect again, and "
-                        "home it",
+                        "{where} was reset and has lost its position; reconnect and home",
                     ).fill(where=board.where)
                 )
             quiet_s = self.served_s - board.telemetry_s
@@ -248,8 +247,8 @@ class Session:
                 raise ConnectionLostError(
                     message(
                         "engine",
-                        "{where} has said nothing for {quiet_s} s; check cable and supply, connect "
-                        "again, then check where the machine stands",
+                        "{where} has not answered for {quiet_s} s; check cable and supply, "
+                        "reconnect, then check the position of the machine",
                     ).fill(where=board.where, quiet_s=rounded(quiet_s, 2))
                 )
 

@@ -79,7 +79,7 @@ class Compensating:
                 raise CompensationError(
                     message(
                         "engine",
-                        "inverse of axis {axis}: the axis stands at {at}; the inverse saw {low} "
+                        "inverse of axis {axis}: the axis is at {at}, but the inverse covers {low} "
                         "to {high}: move the axis there first",
                     ).fill(
                         axis=model.axis,

@@ -205,7 +205,7 @@ class Simulator(
             raise LimitError(
                 message(
                     "engine",
-                    "{name}: axis {axis} is no piezo in open loop; {what} is for one that is",
+                    "{name}: axis {axis} is not a piezo in open loop, which {what} needs",
                 ).fill(name=self.name, axis=axis, what=what)
             )
         return self.axes.index(axis)

@@ -51,7 +51,7 @@ class CalibrationPanel(Panel):
         self._motion: CheckedTrajectory | None = None
         self._run: CalibrationRun | None = None
         self.tabs, self.views = tabbed(
-            translate("calibration", "What is shown"),
+            translate("calibration", "View"),
             {
                 translate("calibration", "Result"): self.result,
                 "ISO 230-2": self.result.iso,

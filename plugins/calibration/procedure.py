@@ -48,21 +48,20 @@ class Procedure(QWidget):
         self.runs = _count(translate("calibration", "Runs"), 3, 50, RUNS)
         self.runs.setToolTip(
             translate(
-                "calibration", "3 to 50; each run is held out of the fit once; ISO 230-2 asks for 5"
+                "calibration",
+                "3 to 50; each run validates the fit of the others once; ISO 230-2 requires 5",
             )
         )
         self.targets = _count(translate("calibration", "Targets"), 5, 101, TARGETS)
         self.targets.setToolTip(
-            translate(
-                "calibration", "5 to 101 positions that are approached from both sides (ISO 230-2)"
-            )
+            translate("calibration", "5 to 101 positions, approached from both sides (ISO 230-2)")
         )
         self.absolute = QCheckBox(translate("calibration", "the laser's zero is the axis' zero"))
         self.absolute.setChecked(True)
         self.absolute.setToolTip(
             translate(
                 "calibration",
-                "Off: the laser was zeroed anywhere; the reading in the middle of the travel stays",
+                "Off: the zero of the laser is arbitrary; the reading at mid-travel stays",
             )
         )
         self.plan, self.run = (
@@ -99,23 +98,23 @@ class Procedure(QWidget):
     def refresh(self, session: SessionState, motion: Record | None, run: RunState) -> None:
         """Enable what can be done now, and say why the rest cannot."""
         moving = run.phase is Phase.MOVING
-        why_not = translate("calibration", "a run is under way") if moving else None
+        why_not = translate("calibration", "a run is in progress") if moving else None
         for widget in (self.axis, self.runs, self.absolute):
             widget.setEnabled(not moving)
         self.targets.setEnabled(not moving and cycles(self._robot, self.chosen))
         allow(
             self.plan,
             why_not,
-            translate("calibration", "Make the motion, and check it against all limits"),
+            translate("calibration", "Compute the motion and check it against all limits"),
         )
         allow(
             self.fit,
             why_not,
-            translate("calibration", "Fit records of this axis that hold its sensor and the laser"),
+            translate("calibration", "Fit records of this axis with its sensor and the laser"),
         )
         allow(
             self.stop,
-            None if moving else translate("calibration", "no run is under way"),
+            None if moving else translate("calibration", "no run is in progress"),
             translate("calibration", "Stop the machine now"),
         )
         if why_not is None and session.locked is not None:
@@ -127,7 +126,7 @@ class Procedure(QWidget):
         allow(
             self.run,
             why_not,
-            translate("calibration", "Play the motion; sensor and laser are recorded and fitted"),
+            translate("calibration", "Play the motion, record sensor and laser, and fit"),
         )
 
     def _change(self) -> None:

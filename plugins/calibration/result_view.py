@@ -24,7 +24,9 @@ from rotemina.plugins.calibration.words import (
 from rotemina.sim.calibration.calibrating import Calibration
 
 _TIP = marked(
-    "calibration", "Keep this calibration, dated, and correct the axis' readings by it from now on"
+    "calibration",
+    "Store this calibration with its date, and correct the readings of the axis"
+    " with it from now on",
 )
 
 
@@ -91,7 +93,9 @@ class ResultView(QWidget):
 
     def done_storing(self) -> None:
         """Show that the result is kept."""
-        allow(self.store, translate("calibration", "it is stored"), translate("calibration", _TIP))
+        allow(
+            self.store, translate("calibration", "already stored"), translate("calibration", _TIP)
+        )
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""

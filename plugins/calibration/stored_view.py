@@ -11,7 +11,7 @@ from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.calibration.words import STORED_HEAD, shown, stored_row
 
-_NONE = marked("calibration", "choose a calibration in the table")
+_NONE = marked("calibration", "select a calibration in the table")
 
 
 class StoredView(QWidget):
@@ -72,8 +72,10 @@ class StoredView(QWidget):
 
     def _allow(self) -> None:
         chosen, none = self.chosen, translate("calibration", _NONE)
-        already = None if chosen is None or not chosen.on else translate("calibration", "it is on")
-        idle = None if chosen is None or chosen.on else translate("calibration", "it is off")
+        already = (
+            None if chosen is None or not chosen.on else translate("calibration", "already on")
+        )
+        idle = None if chosen is None or chosen.on else translate("calibration", "already off")
         allow(
             self.on,
             none if chosen is None else already,
@@ -82,5 +84,5 @@ class StoredView(QWidget):
         allow(
             self.off,
             none if chosen is None else idle,
-            translate("calibration", "Leave the axis' readings as they are"),
+            translate("calibration", "Do not correct the readings of the axis"),
         )

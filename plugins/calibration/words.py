@@ -32,7 +32,7 @@ ISO_HEAD = (
     marked("calibration", "position reached"),
 )
 NOTHING = marked(
-    "calibration", "Plan the motion and run it, or fit records that hold the sensor and the laser."
+    "calibration", "Plan and run the motion, or fit records with the sensor and the laser."
 )
 
 
@@ -113,7 +113,7 @@ def progress(state: RunState, duration_s: float) -> str:
         return translate("calibration", "The run has failed: {message}.").format(
             message=spoken(state.message)
         )
-    return translate("calibration", "The run is done.") if state.phase is Phase.DONE else ""
+    return translate("calibration", "The run is complete.") if state.phase is Phase.DONE else ""
 
 
 def verdict(calibration: Calibration) -> str:
@@ -128,7 +128,7 @@ def verdict(calibration: Calibration) -> str:
             amount(each, unit) for each in (calibration.before_rms, calibration.after_rms)
         )
         text = translate(
-            "calibration", "Error at held-out runs: {before} rms before, {after} after."
+            "calibration", "Error in the validation runs: {before} rms before, {after} after."
         )
         text = text.format(before=before, after=after)
     return "\n".join(

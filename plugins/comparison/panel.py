@@ -30,10 +30,10 @@ from rotemina.sim.records.record import Tap
 
 EMPTY = marked(
     "comparison",
-    "Play a trajectory or open a record of the real machine to see how far the model is off.",
+    "Play a trajectory or open a record of the real machine to compare it with the model.",
 )
 COLUMNS = (
-    marked("comparison", "tap"),
+    marked("comparison", "signal"),
     RUN,
     marked("comparison", "without offset"),
     marked("comparison", "nominal"),
@@ -59,7 +59,7 @@ class ComparisonPanel(Panel):
         )
         self.open.clicked.connect(lambda: self.main_window.ask_record())
         self.save = QPushButton(translate("comparison", "Save record …"))
-        self.save.setToolTip(translate("comparison", "Write the record in hand to a file (Ctrl+S)"))
+        self.save.setToolTip(translate("comparison", "Save the current record to a file (Ctrl+S)"))
         self.save.clicked.connect(lambda: self.main_window.ask_save())
         self.save.setEnabled(False)
         self.summary = QLabel(translate("comparison", EMPTY))

@@ -137,7 +137,9 @@ class Actuation:
         at_limit = translate("compensation", AT_A_LIMIT) if axis in session.loops.limited else ""
         controls.beyond.setText(" ".join(filter(None, (said, at_limit))))
         moves = (
-            None if state.activity is DeviceState.IDLE else translate("compensation", "it moves")
+            None
+            if state.activity is DeviceState.IDLE
+            else translate("compensation", "the axis is moving")
         )
         locked = spoken(state.locked) if state.locked else None
         still = locked or moves or owners_text(state.owners)
@@ -146,28 +148,30 @@ class Actuation:
         no_loop = session.loops.unavailable or no_axis
         tip = translate(
             "compensation",
-            "Close a loop of these gains around the axis, which stays in place, or open it",
+            "Close a loop with these gains around the axis, or open it; the axis stays in place",
         )
         allow(controls.apply, still or (None if loop_on else no_loop), tip)
         no_inverse = (
-            None if inverse_on else translate("compensation", "no inverse is on: put one on first")
+            None
+            if inverse_on
+            else translate("compensation", "no inverse is active: apply one first")
         )
         allow(controls.sweep, still or no_inverse, translate("compensation", SWEEP))
         allow(
             controls.trial,
             still or no_axis,
-            translate("compensation", "Play 6 s of swings over 60 % of the range"),
+            translate("compensation", "Play 6 s of oscillations over 60 % of the range"),
         )
 
     def _switch_tip(self) -> str:
         if self._workbench.session.inverses.live:
             return translate(
                 "compensation",
-                "Every set-point of this axis goes through the inverse; the axis stays in place",
+                "Apply the inverse to every set-point of this axis; the axis stays in place",
             )
         return translate(
             "compensation",
-            "Ends of moves, speeds and each row of a trajectory go through the inverse; "
+            "Apply the inverse to ends of moves, speeds and each row of a trajectory; "
             "the axis stays in place",
         )
 

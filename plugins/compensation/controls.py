@@ -35,9 +35,7 @@ class Controls(QWidget):
         super().__init__()
         self.axis = QComboBox()
         self.axis.setAccessibleName(translate("compensation", "Axis"))
-        self.axis.setToolTip(
-            translate("compensation", "Piezo axis in open loop that is compensated")
-        )
+        self.axis.setToolTip(translate("compensation", "Piezo axis in open loop to be compensated"))
         for name, axis in robot.axes.items():
             if isinstance(axis, PiezoAxis) and axis.controller is None:
                 self.axis.addItem(label(name), name)
@@ -54,8 +52,8 @@ class Controls(QWidget):
             )
         )
         self.kind = QComboBox()
-        self.kind.setAccessibleName(translate("compensation", "Which inverse is put on"))
-        self.kind.setToolTip(translate("compensation", "Which of the trained inverses is put on"))
+        self.kind.setAccessibleName(translate("compensation", "Inverse to apply"))
+        self.kind.setToolTip(translate("compensation", "Trained inverse to apply"))
         self.switch, self.trial = (
             _switch(SWITCH, primary=True),
             QPushButton(translate("compensation", "Try it")),
@@ -68,7 +66,7 @@ class Controls(QWidget):
             QPushButton(translate("compensation", "Open …")),
         )
         self.keep, self.apply = (
-            QPushButton(translate("compensation", "Keep …")),
+            QPushButton(translate("compensation", "Save gains …")),
             _switch(APPLY),
         )
         self.generations = QSpinBox()
@@ -82,7 +80,7 @@ class Controls(QWidget):
         )
         self.forward = QCheckBox(translate("compensation", "through the inverse"))
         self.forward.setToolTip(
-            translate("compensation", "Feed the reference forward through the inverse in hand")
+            translate("compensation", "Feed the reference forward through the current inverse")
         )
         self.typed = TypedGains(robot)
         self.stop = QPushButton(translate("compensation", "Stop"))
@@ -108,7 +106,7 @@ class Controls(QWidget):
         grid.setSpacing(5)
         rows: tuple[tuple[tuple[QWidget, int], ...], ...] = (
             ((_plain(translate("compensation", "Axis")), 1), (self.axis, 2)),
-            ((_head(translate("compensation", "Learn from")), 3),),
+            ((_head(translate("compensation", "Train with")), 3),),
             ((self.simulate, 1), (self.record, 1), (self.files, 1)),
             ((self.open, 1), (self.save, 1)),
             ((_head(translate("compensation", "Feed-forward")), 3),),

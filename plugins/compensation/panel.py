@@ -65,7 +65,7 @@ class CompensationPanel(Panel):
         self.learned: Learned | None = None
         self._source = ""
         self.tabs, self.views = tabbed(
-            translate("compensation", "What is shown"),
+            translate("compensation", "View"),
             {
                 translate("compensation", "Check"): self.check,
                 translate("compensation", "Live"): self.live,
@@ -178,7 +178,7 @@ class CompensationPanel(Panel):
         def named(tell: Tell) -> tuple[str, Learned]:
             return source, work(lambda what, share: tell(what, share, None))
 
-        self.controls.tell(translate("compensation", "Learning …"), 0.0)
+        self.controls.tell(translate("compensation", "Training …"), 0.0)
         self.job.start(named)
 
     def _told(self, what: str, share: float, _news: object) -> None:
@@ -190,7 +190,7 @@ class CompensationPanel(Panel):
         self._take(learned)
 
     def _failed(self, message: str) -> None:
-        self.controls.tell(translate("compensation", "It failed; nothing was replaced."), None)
+        self.controls.tell(translate("compensation", "Failed; nothing was replaced."), None)
         text = translate("compensation", "Compensation: {message}")
         self.workbench.notify(Level.ERROR, text.format(message=message), about=self)
 
@@ -225,12 +225,14 @@ class CompensationPanel(Panel):
         no_axis = None if axis else translate("compensation", "the robot has no piezo in open loop")
         running = self.job.running or self.search.running
         busy = (
-            translate("compensation", "work is under way; stop it or wait") if running else no_axis
+            translate("compensation", "work is in progress; stop it or wait")
+            if running
+            else no_axis
         )
         record = (
             None
             if self.workbench.record is not None
-            else translate("compensation", "no record is in hand")
+            else translate("compensation", "there is no record")
         )
         none = None if self.learned is not None else translate("compensation", NOTHING)
         other = self._other(axis)
@@ -239,17 +241,17 @@ class CompensationPanel(Panel):
         allow(
             controls.simulate,
             busy,
-            translate("compensation", "Move the simulated axis over its range and learn from it"),
+            translate("compensation", "Train with a motion of the simulated axis over its range"),
         )
         allow(
             controls.record,
             busy or record,
-            translate("compensation", "Learn from the record in hand"),
+            translate("compensation", "Train with the last record"),
         )
         allow(
             controls.files,
             busy,
-            translate("compensation", "Learn from records with cmd and meas, or ref"),
+            translate("compensation", "Train with records that have cmd and meas or ref"),
         )
         allow(controls.open, busy, translate("compensation", "Load inverses from a file"))
         allow(controls.save, none, translate("compensation", "Save these inverses to a file"))
@@ -261,12 +263,12 @@ class CompensationPanel(Panel):
         allow(
             controls.forward,
             other,
-            translate("compensation", "Feed the reference forward through the inverse in hand"),
+            translate("compensation", "Feed the reference forward through the current inverse"),
         )
         allow(
             controls.keep,
             busy or point,
-            translate("compensation", "Write the front with the point that is marked"),
+            translate("compensation", "Save the front with the selected point"),
         )
         allow(
             controls.open_gains,
@@ -276,8 +278,8 @@ class CompensationPanel(Panel):
         working = running or state.activity is DeviceState.PLAYING
         allow(
             controls.stop,
-            None if working else translate("compensation", "nothing is under way"),
-            translate("compensation", "End it"),
+            None if working else translate("compensation", "nothing is running"),
+            translate("compensation", "Stop the work"),
         )
 
     def _other(self, axis: str) -> str | None:
@@ -287,7 +289,9 @@ class CompensationPanel(Panel):
         mine = self.learned.axis
         if mine == axis:
             return None
-        return translate("compensation", "the inverse in hand is of axis {axis}").format(axis=mine)
+        return translate("compensation", "the current inverse belongs to axis {axis}").format(
+            axis=mine
+        )
 
     def _connect(self) -> None:
         controls = self.controls
@@ -337,7 +341,7 @@ class CompensationPanel(Panel):
         ask_file(self, self.workbench, title, kinds, self.search.open)
 
     def _ask_where_gains(self) -> None:
-        title, kinds = translate("compensation", "Keep gains"), translate("compensation", TUNINGS)
+        title, kinds = translate("compensation", "Save gains"), translate("compensation", TUNINGS)
         ask_where(self, self.workbench, title, kinds, "gains.toml", self.search.keep)
 
     def _change_axis(self) -> None:

@@ -60,7 +60,7 @@ class TypedGains(QWidget):
             field.setText(rounded(getattr(gains, name), _DIGITS) if axis else "")
             field.setModified(False)
             if axis:
-                tip = translate("compensation", "0 to {most}; held against the axis before it acts")
+                tip = translate("compensation", "0 to {most}; checked on the axis before use")
                 field.setToolTip(plain_tip(tip.format(most=_told(most[name], unit))))
 
     def gains(self, axis: str, base: Gains | None) -> Gains:
@@ -81,8 +81,8 @@ class TypedGains(QWidget):
                 raise FeedbackError(
                     message(
                         "compensation",
-                        "gain {letter} = {text}: must be a number from 0 to {most}, the greatest "
-                        "that a search tries",
+                        "gain {letter} = {text}: must be a number from 0 to {most}, the bound of "
+                        "the search",
                     ).fill(letter=letter, text=repr(text), most=_told(most[name], unit))
                 )
             amounts[name] = value

@@ -28,8 +28,8 @@ from rotemina.sim.tuning.result import Tuning
 from rotemina.sim.tuning.search import Generation, objectives_of
 
 # Names of curves.
-_POSITION, _WANTED = marked("compensation", "position"), marked("compensation", "wanted")
-_INVERTED, _FRONT = marked("compensation", "inverse of it"), marked("compensation", "front")
+_POSITION, _WANTED = marked("compensation", "position"), marked("compensation", "desired")
+_INVERTED, _FRONT = marked("compensation", "its inverse"), marked("compensation", "front")
 _MICRO = 1e6
 _AXIS_WIDTH = 52
 _NEAR_PX = 40.0  # of a click to the point that it means
@@ -103,7 +103,7 @@ class CheckView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self.table = Table(
-            translate("compensation", "Residual of each inverse on unseen rows"),
+            translate("compensation", "Residual of each inverse on validation rows"),
             [translate("compensation", text) for text in HEAD],
             choose=False,
         )
@@ -113,7 +113,7 @@ class CheckView(QWidget):
         roles = {_POSITION: "quiet", _INVERTED: "accent"}
         self.loop = Curves(
             theme,
-            marked("compensation", "Unseen, over the command [{unit}]"),
+            marked("compensation", "Validation rows, over the command [{unit}]"),
             roles,
             marked("compensation", "command [{unit}]"),
         )
@@ -219,7 +219,7 @@ class FrontView(QWidget):
         self.front.plot.addItem(self._dots)
         self.front.plot.addItem(self._mark)
         self.front.plot.setToolTip(
-            translate("compensation", "Click a point: its step and triangle are tried at once")
+            translate("compensation", "Click a point to simulate its step and triangle")
         )
         self.front.plot.setAccessibleName(translate("compensation", "Pareto front"))
         self.front.plot.scene().sigMouseClicked.connect(self._clicked)

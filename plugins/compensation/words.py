@@ -19,15 +19,17 @@ HEAD = (
     marked("compensation", "worst"),
     marked("compensation", "of range"),
 )
-NOTHING = marked("compensation", "There is no inverse yet: learn one, or open a file.")
-NO_FRONT = marked("compensation", "there is no front yet: tune, or open gains")
+NOTHING = marked("compensation", "There is no inverse: train one, or open a file.")
+NO_FRONT = marked("compensation", "there is no front: tune, or open gains")
 LIVE_LOOP = marked(
     "compensation",
-    "The simulated machine closes the loop live, at 5 kHz; it is put on only where it is stable on "
-    "axes off by 5 % too. The boards close none: there, what is put on is feed-forward.",
+    "The simulated machine closes the loop live at 5 kHz, only if it is also "
+    "stable on axes off by 5 %. The boards close no loop: there, only "
+    "feedforward is possible.",
 )
 AT_A_LIMIT = marked(
-    "compensation", "Its loop asks for more than the axis' range: move it away from the end."
+    "compensation",
+    "The loop demands more than the range of the axis: move the axis away from the end.",
 )
 SWEEP = marked(
     "compensation",
@@ -35,12 +37,12 @@ SWEEP = marked(
     "a constant error (a loop removes it anyway)",
 )
 # What the buttons that put on and take off say, each before and after.
-SWITCH = (marked("compensation", "Put on"), marked("compensation", "Take off"))
-APPLY = (marked("compensation", "Apply gains"), marked("compensation", "Take loop off"))
+SWITCH = (marked("compensation", "Apply"), marked("compensation", "Remove"))
+APPLY = (marked("compensation", "Apply gains"), marked("compensation", "Open loop"))
 _SAID = {
-    Exceedance.LOW: marked("compensation", "below its trained range (clamped)"),
-    Exceedance.HIGH: marked("compensation", "above its trained range (clamped)"),
-    Exceedance.FAST: marked("compensation", "faster than it was trained"),
+    Exceedance.LOW: marked("compensation", "below its training range (clamped)"),
+    Exceedance.HIGH: marked("compensation", "above its training range (clamped)"),
+    Exceedance.FAST: marked("compensation", "faster than in training"),
     Exceedance.COMMAND: marked("compensation", "at an end of the machine's range (clamped)"),
 }
 
@@ -82,7 +84,7 @@ def residual_text(trial: Trial | None, unit: str) -> str:
 def owners_text(owners: Mapping[str, str]) -> str | None:
     """Return why the axes cannot be played: somebody drives one still."""
     for axis, owner in owners.items():
-        text = translate("compensation", "axis {axis} is still driven by {owner}; wait, or stop it")
+        text = translate("compensation", "{owner} still controls axis {axis}; wait, or stop it")
         return text.format(axis=label(axis), owner=spoken(owner))
     return None
 
@@ -90,7 +92,7 @@ def owners_text(owners: Mapping[str, str]) -> str | None:
 def exceedance_text(said: Exceedance) -> str:
     """Return in what an axis went beyond its inverse; empty: in nothing."""
     parts = [translate("compensation", words) for flag, words in _SAID.items() if said & flag]
-    text = translate("compensation", "It has been {where}.")
+    text = translate("compensation", "The axis has been {where}.")
     return text.format(where=", ".join(parts)) if parts else ""
 
 

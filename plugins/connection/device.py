@@ -65,7 +65,7 @@ class DriverChoice(SteadyChoice):
             translate("connection", "Driver"),
             translate(
                 "connection",
-                "What the program drives: the simulator, boards, or a device of a plugin",
+                "Device that the program controls: the simulator, boards, or a device of a plugin",
             ),
             letters=0,
         )
@@ -149,7 +149,7 @@ class DeviceSection(Section):
         allow(
             self.reconnect_button,
             reasons.against_reconnecting(state),
-            translate("connection", "Connect again to {name}, with the settings it had").format(
+            translate("connection", "Connect to {name} again with the same settings").format(
                 name=self._workbench.session.driver.name
             ),
         )

@@ -19,7 +19,7 @@ _STOP = (
     marked("connection", "Latest"),
     marked("connection", "99.9 % of stops within"),
     marked("connection", "Worst"),
-    marked("connection", "Last stop handed over in"),
+    marked("connection", "Last stop sent within"),
     marked("connection", "At rest after"),
 )
 
@@ -41,7 +41,7 @@ class LineSection(Section):
         self.figures.setVisible(link is not None)
         if link is None:
             self.text.setText(
-                translate("connection", "{name} has no line, or has not opened it yet.").format(
+                translate("connection", "{name} has no open line.").format(
                     name=self._session.driver.name
                 )
             )

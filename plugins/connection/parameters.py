@@ -57,28 +57,26 @@ class ParameterSection(Section):
             )
             self.text.setText(
                 translate(
-                    "connection", "{are} from the robot file; nothing moves until that is settled."
+                    "connection",
+                    "{are} from the robot file; the machine cannot move until you write or "
+                    "accept the values.",
                 ).format(are=are)
             )
         else:
             keeps = isinstance(driver, Parameterised)
-            none = translate("connection", "{name} keeps no parameters of its own.").format(
-                name=driver.name
-            )
+            none = translate("connection", "{name} stores no parameters.").format(name=driver.name)
             self.text.setText(
-                translate("connection", "Nothing differs from the robot file.") if keeps else none
+                translate("connection", "The parameters match the robot file.") if keeps else none
             )
         allow(
             self.write,
             why,
-            translate(
-                "connection", "Write the robot file's values into the device, which keeps them"
-            ),
+            translate("connection", "Store the values of the robot file in the device"),
         )
         allow(
             self.accept,
             why,
-            translate("connection", "Move with the device's own values until it is opened again"),
+            translate("connection", "Use the values of the device until the next connection"),
         )
 
     def _fill(self, rows: list[tuple[str, ...]]) -> None:

@@ -39,7 +39,7 @@ class PositionSection(Section):
         allow(
             self.home_all,
             why,
-            translate("connection", "Find the limit switches of all axes that have some"),
+            translate("connection", "Find the limit switches of all axes with switches"),
         )
         for axis, one in self.home.items():
             allow(
@@ -54,7 +54,7 @@ class PositionSection(Section):
             reasons.against_confirming(state),
             translate(
                 "connection",
-                "Confirm that the machine stands where it stood when the connection was lost",
+                "Confirm that the machine has not moved since the connection was lost",
             ),
         )
         allow(
@@ -62,10 +62,10 @@ class PositionSection(Section):
             reasons.against_going_back(state, undoable=self._workbench.session.undoable),
             translate(
                 "connection",
-                "Go back to where the axes rested before the latest move: up, across, down",
+                "Return to the position before the latest move: up, across, down",
             ),
         )
-        self.owners.setText(driven(state) or translate("connection", "No axis is driven now."))
+        self.owners.setText(driven(state) or translate("connection", "No axis is moving."))
 
     def _offer(self, axes: tuple[str, ...]) -> None:
         """Have a button for each axis that has a switch."""
@@ -87,11 +87,11 @@ class PositionSection(Section):
 
 def _known(state: SessionState) -> str:
     if state.unhomed:
-        return translate("connection", "Unknown, to be homed: {axes}").format(
+        return translate("connection", "Not homed: {axes}").format(
             axes=", ".join(label(axis) for axis in state.unhomed)
         )
     return (
         translate("connection", "All positions are known.")
         if state.position_known
-        else translate("connection", "Nothing is known yet.")
+        else translate("connection", "No position is known.")
     )

@@ -13,7 +13,7 @@ _STEADY = (DeviceState.IDLE, DeviceState.FAULT, DeviceState.CLOSED)
 def without_device(state: SessionState) -> str | None:
     """Why nothing can be asked of a device."""
     if state.connection is Connection.CONNECTING:
-        return translate("connection", "it is still connecting")
+        return translate("connection", "the connection is being opened")
     return (
         None
         if state.connection is Connection.CONNECTED
@@ -31,9 +31,9 @@ def in_motion(state: SessionState) -> str | None:
 def against_connecting(state: SessionState, *, same: bool) -> str | None:
     """Why not connect; ``same`` is whether it would be the device in use, with its settings."""
     if state.connection is Connection.CONNECTING:
-        return translate("connection", "it is still connecting")
+        return translate("connection", "the connection is being opened")
     if same and state.connection is Connection.CONNECTED:
-        return translate("connection", "it is connected with these settings")
+        return translate("connection", "already connected with these settings")
     return in_motion(state)
 
 
@@ -46,9 +46,9 @@ def against_disconnecting(state: SessionState) -> str | None:
 def against_reconnecting(state: SessionState) -> str | None:
     """Why not connect once more."""
     if state.connection is Connection.CONNECTING:
-        return translate("connection", "it is still connecting")
+        return translate("connection", "the connection is being opened")
     return (
-        translate("connection", "it is connected")
+        translate("connection", "already connected")
         if state.connection is Connection.CONNECTED
         else None
     )
@@ -64,13 +64,11 @@ def against_clearing(state: SessionState) -> str | None:
 def against_homing(state: SessionState, driver: Driver) -> str | None:
     """Why not look for limit switches."""
     if not isinstance(driver, Homer) or not driver.homing_axes:
-        return translate("connection", "{name} has no switches to be found").format(
-            name=driver.name
-        )
+        return translate("connection", "{name} has no limit switches").format(name=driver.name)
     if (why := without_device(state)) is not None:
         return why
     if state.latched is not None:
-        return translate("connection", "{latched} is latched; release it first").format(
+        return translate("connection", "{latched} is locked; release it first").format(
             latched=state.latched
         )
     if state.fault is not None:
@@ -85,14 +83,14 @@ def against_confirming(state: SessionState) -> str | None:
     if (why := without_device(state)) is not None:
         return why
     if state.latched is not None:
-        return translate("connection", "{latched} is latched; release it first").format(
+        return translate("connection", "{latched} is locked; release it first").format(
             latched=state.latched
         )
     if not state.position_known:
-        return translate("connection", "the position is not known; home first")
+        return translate("connection", "the position is unknown; home first")
     other = state.fault is not None or state.silent_s > 0.0 or bool(state.differences)
     if state.locked is None or other:
-        return translate("connection", "no lost connection makes the position doubtful")
+        return translate("connection", "the position is certain: no connection was lost")
     return None
 
 
@@ -101,20 +99,18 @@ def against_going_back(state: SessionState, *, undoable: bool) -> str | None:
     if state.locked is not None:
         return state.locked
     if not undoable:
-        return translate("connection", "there is no move to undo")
+        return translate("connection", "there is no previous position")
     return in_motion(state)
 
 
 def against_writing(state: SessionState, driver: Driver) -> str | None:
     """Why not write the robot file's parameters into the device."""
     if not isinstance(driver, Parameterised):
-        return translate("connection", "{name} keeps no parameters").format(name=driver.name)
+        return translate("connection", "{name} stores no parameters").format(name=driver.name)
     if (why := without_device(state)) is not None:
         return why
     if not state.differences:
-        return translate(
-            "connection", "the device's parameters are those of the robot file, or accepted"
-        )
+        return translate("connection", "the parameters match the robot file or are accepted")
     return in_motion(state)
 
 
@@ -128,14 +124,14 @@ def against_voltage(state: SessionState, driver: Driver) -> str | None:
 def against_teaching(state: SessionState, zone: KeepOutZone | None) -> str | None:
     """Why not put the tip's floor where the tip is."""
     if zone is None:
-        return translate("connection", "this robot has no tip that a floor could bound")
+        return translate("connection", "this robot has no tip for a floor to limit")
     return state.locked if state.locked is not None else in_motion(state)
 
 
 def against_removing(zone: KeepOutZone | None, state: SessionState | None = None) -> str | None:
     """Why not take the tip's floor away; without a state, whether there is one to take away."""
     if zone is None:
-        return translate("connection", "this robot has no tip that a floor could bound")
+        return translate("connection", "this robot has no tip for a floor to limit")
     if zone.floor == float("-inf"):
         return translate("connection", "there is no floor")
     if state is None or state.locked is not None:

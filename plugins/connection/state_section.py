@@ -43,7 +43,7 @@ class StateSection(Section):
             else translate("connection", "Locked: {locked}.").format(locked=spoken(locked))
         )
         latched = (
-            translate("connection", "{latched} is latched already").format(
+            translate("connection", "{latched} is already locked").format(
                 latched=spoken(state.latched)
             )
             if state.latched is not None
@@ -52,12 +52,14 @@ class StateSection(Section):
         allow(
             self.emergency,
             latched,
-            translate("connection", "Stop all axes, and let nothing move until it is released"),
+            translate("connection", "Stop all axes and block motion until release"),
         )
         allow(
             self.release,
             None if state.latched is not None else translate("connection", "nothing is locked"),
-            translate("connection", "Let the machine move again; it stands until it is told to"),
+            translate(
+                "connection", "Release the lock; the machine stays at rest until the next command"
+            ),
         )
         allow(
             self.clear,

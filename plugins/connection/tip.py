@@ -52,12 +52,17 @@ class TipSection(Section):
         allow(
             self.teach,
             why,
-            translate("connection", "Set the floor where the tip is now; nothing moves below it"),
+            translate(
+                "connection",
+                "Set the floor at the present height of the tip; nothing moves below it",
+            ),
         )
         allow(
             self.remove,
             reasons.against_removing(zone, state),
-            translate("connection", "Let the tip go as low as its axes can"),
+            translate(
+                "connection", "Remove the lower limit of the tip; only the axis ranges remain"
+            ),
         )
         self._withdraw(why)
 
@@ -72,7 +77,7 @@ class TipSection(Section):
                 Level.WARNING,
                 translate(
                     "connection",
-                    "The tip has moved: no floor was taught. Ask again where it rests.",
+                    "The tip has moved, so no floor was set. Try again when it is at rest.",
                 ),
                 about=self,
             )
@@ -86,15 +91,16 @@ class TipSection(Section):
             return
         self._asked, floor = self._height, self._floor()
         old = (
-            translate("connection", "there is none yet")
+            translate("connection", "there is none")
             if floor is None
             else translate("connection", "it is at {height}").format(height=height(floor))
         )
         self.question.ask(
             translate(
-                "connection", "Put the floor at {height}, where the tip is now? So far {old}."
+                "connection",
+                "Set the floor at {height}, the present height of the tip? So far {old}.",
             ).format(height=height(self._height), old=old),
-            translate("connection", "Teach"),
+            translate("connection", "Set floor"),
             self._workbench.teach_floor,
         )
 
@@ -106,8 +112,7 @@ class TipSection(Section):
         self.question.ask(
             translate(
                 "connection",
-                "Take the floor at {height} away? New floor: none; only the ranges of "
-                "the axes hold the tip then.",
+                "Remove the floor at {height}? Without a floor only the axis ranges limit the tip.",
             ).format(height=height(floor)),
             translate("connection", "Remove"),
             self._workbench.clear_floor,

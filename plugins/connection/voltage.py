@@ -51,7 +51,7 @@ class VoltageSection(Section):
         """Show a state."""
         why = reasons.against_voltage(state, self._workbench.session.driver)
         tip = translate(
-            "connection", "For service: apply this voltage slowly, whatever position it leads to"
+            "connection", "For service: apply this voltage slowly, regardless of the position"
         )
         for widget in (self.axis, self.apply):
             allow(widget, why, tip)

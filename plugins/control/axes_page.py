@@ -24,7 +24,8 @@ class AxesPage(QWidget):
         super().__init__()
         self._workbench, self._session = workbench, workbench.session
         self.axis = SteadyChoice(
-            translate("control", "Axis"), translate("control", "Whose range and approach")
+            translate("control", "Axis"),
+            translate("control", "Axis whose range and approach are set"),
         )
         for name in workbench.robot.axes:
             self.axis.addItem(label(name), name)
@@ -32,13 +33,13 @@ class AxesPage(QWidget):
         self.low, self.high, self.width_field = QLineEdit(), QLineEdit(), QLineEdit()
         self.low.setAccessibleName(translate("control", "Low end of the range"))
         self.high.setAccessibleName(translate("control", "High end of the range"))
-        self.width_field.setAccessibleName(translate("control", "Width of the approach"))
+        self.width_field.setAccessibleName(translate("control", "Overshoot of the approach"))
         self.narrow = button(translate("control", "Narrow"), self._narrow)
         self.whole = button(translate("control", "Whole"), self._restore)
         self.unit = QLabel()
         self.side = SteadyChoice(
             translate("control", "Approach"),
-            translate("control", "From which side targets are come to"),
+            translate("control", "Side from which targets are approached"),
         )
         for text, rising in (
             (translate("control", "straight"), None),
@@ -60,19 +61,19 @@ class AxesPage(QWidget):
         if why is None and not session.at_rest:
             why = translate("control", "the machine is moving")
         narrowed = axis in session.ranges.narrowed
-        allow(self.narrow, why, translate("control", "Let the axis be sent nowhere else"))
+        allow(self.narrow, why, translate("control", "Limit the targets of the axis to this range"))
         allow(
             self.whole,
-            why or (None if narrowed else translate("control", "its range is whole")),
-            translate("control", "Give back the range of the robot file"),
+            why or (None if narrowed else translate("control", "its range is not limited")),
+            translate("control", "Restore the range of the robot file"),
         )
         if not isinstance(self._workbench.robot.axes[axis], StepperAxis):
-            why = translate("control", "only stepper axes have backlash to take up")
-        allow(self.side, why, translate("control", "From which side targets are come to"))
+            why = translate("control", "only stepper axes have backlash")
+        allow(self.side, why, translate("control", "Side from which targets are approached"))
         allow(
             self.width_field,
             why,
-            translate("control", "How far beyond it goes first: more than the play"),
+            translate("control", "Distance beyond the target, more than the backlash"),
         )
 
     @property

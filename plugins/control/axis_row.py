@@ -319,7 +319,7 @@ class AxisRow(QFrame):
 
     def _lock(self, why_not: str | None) -> None:
         name, held = label(self._axis), self._steps.step(self._axis) is None
-        how = translate("control", "while it is held") if held else translate("control", "one step")
+        how = translate("control", "while pressed") if held else translate("control", "one step")
         for button in (self.minus, self.plus):
             button.setProperty("held", held)  # the command palette can only click
         allow(
@@ -339,14 +339,14 @@ class AxisRow(QFrame):
         allow(
             self.target,
             why_not,
-            translate("control", "Where {name} is to go, {bounds}; Enter, or Go").format(
+            translate("control", "Target of {name}, {bounds}; press Enter or Go").format(
                 name=name, bounds=bounds
             ),
         )
         allow(
             self.go,
             why_not,
-            translate("control", "A large move: press once more to make it")
+            translate("control", "A large move: press again to confirm")
             if self.confirmation.asked is not None
             else translate("control", "Move {name} to the typed position").format(name=name),
         )
@@ -357,7 +357,7 @@ def _against(state: SessionState, *, known: bool, stale: bool) -> str | None:
     if state.locked is not None:
         return state.locked
     if not known:
-        return translate("control", "its position is not known")
+        return translate("control", "its position is unknown")
     if stale:
         return translate("control", "its reading is too old")
     return (

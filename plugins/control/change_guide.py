@@ -59,7 +59,7 @@ class ChangeGuide(QDialog):
         self.lines = [QLabel() for _ in self.steps]
         self.do = button("", self._do)
         self.skip = button(
-            translate("control", "Skip"), self._next, translate("control", "Leave this step out")
+            translate("control", "Skip"), self._next, translate("control", "Skip this step")
         )
         column = QVBoxLayout(self)
         for line in self.lines:
@@ -118,7 +118,9 @@ class ChangeGuide(QDialog):
             return state.locked or in_motion(state)
 
         def to_place(name: str) -> Callable[[SessionState], str | None]:
-            none = translate("control", "no position {name!r} is saved; skip, or save it")
+            none = translate(
+                "control", "position {name!r} is not saved; skip the step or save the position"
+            )
             return lambda state: (
                 to_move(state) if name in self._places() else none.format(name=name)
             )
@@ -153,23 +155,21 @@ class ChangeGuide(QDialog):
                 lambda state: state.latched is not None,
             ),
             Step(
-                translate(
-                    "control", "Pin or dish is changed and hands are clear: release the lock"
-                ),
+                translate("control", "Pin or dish changed, hands clear: release the lock"),
                 translate("control", "Release"),
                 self._bench.release,
                 lambda _: None,
                 lambda state: state.latched is None,
             ),
             Step(
-                translate("control", "Go above the work position, Z up"),
+                translate("control", "Move above the work position with Z raised"),
                 translate("control", "Go there"),
                 lambda: self._bench.ask(lambda: session.go_safely(self._above_work())),
                 to_place(WORK),
                 lambda state: _rests_at(state, self._above_work()),
             ),
             Step(
-                translate("control", "Find the tip in the microscope; come down by hand, slowly"),
+                translate("control", "Find the tip in the microscope; lower it slowly by hand"),
                 translate("control", "Show the microscope"),
                 lambda: self._show_panel("microscope"),
                 lambda _: None,

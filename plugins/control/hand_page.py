@@ -42,7 +42,7 @@ class HandPage(QWidget):
         )
         self.preset = SteadyChoice(
             translate("control", "Step preset"),
-            translate("control", "Factor on way, speed and force of the stick"),
+            translate("control", "Factor on distance, speed and force of the joystick"),
         )
         for factor in STEP_PRESETS:
             self.preset.addItem(f"× {rounded(factor, 6)}", factor)
@@ -81,14 +81,14 @@ class HandPage(QWidget):
                 box.setCurrentIndex(box.findData(value))
         self.trust.show_text(trust_text(view))
         self.reason.show_text(steered.refused or reason_text(steered, stale=stale))
-        self.owners.show_text(owners_text(state) or translate("control", "No axis is driven now."))
+        self.owners.show_text(owners_text(state) or translate("control", "No axis is moving."))
         others = taken(state)
         allow(
             self.over,
-            None if others else translate("control", "nobody else drives an axis"),
+            None if others else translate("control", "no other control moves an axis"),
             translate(
                 "control",
-                "Take over the axes that somebody else drives; they go on until you command them",
+                "Take over axes that another control moves; they continue until your first command",
             ),
         )
 

@@ -27,7 +27,7 @@ class Overview(QWidget):
         self.speed.choose(workbench.settings.get(_SPEED_KEY, 1.0))
         self.speed.activated.connect(lambda _: workbench.settings.set(_SPEED_KEY, self.speed.share))
         self.stick = QLabel("–")
-        self.stick.setAccessibleName(translate("control", "How the joystick stands"))
+        self.stick.setAccessibleName(translate("control", "State of the joystick"))
         self.stick.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self.stick, Tone.QUIET)
         self.device, self.tip = ElidedLabel(), ElidedLabel()

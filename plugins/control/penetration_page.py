@@ -47,10 +47,10 @@ class PenetrationPage(QWidget):
         self._plan_preview: PlanPreview | None = None
         self._planned_for: object = None
         self.arm = QPushButton(translate("penetration", arm_word(self._shown)))
-        self.arm.setToolTip(translate("control", "Prepare the penetration; nothing moves yet"))
+        self.arm.setToolTip(translate("control", "Prepare the penetration without motion"))
         self.arm.clicked.connect(lambda _: self._arm())
         self.button = QPushButton(translate("penetration", button_word(self._shown)))
-        self.button.setToolTip(translate("control", "Begin the armed penetration"))
+        self.button.setToolTip(translate("control", "Start the armed penetration"))
         self.button.setProperty("primary", True)
         # By Tab alone: no space bar that follows a click may start or end anything.
         self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
@@ -82,7 +82,9 @@ class PenetrationPage(QWidget):
         self._shown = phase = status.phase
         self.arm.setText(translate("penetration", arm_word(phase)))
         against = (
-            translate("control", "it is in {phase}; stop it first").format(phase=spoken(phase))
+            translate("control", "the penetration is running ({phase}); stop it first").format(
+                phase=spoken(phase)
+            )
             if phase in UNDER_WAY
             else None
         )

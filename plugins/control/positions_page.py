@@ -35,7 +35,7 @@ class PositionsPage(QWidget):
         self._again: Pending[str] = Pending(workbench.session)
         self.names = SteadyChoice(
             translate("control", "Saved positions"),
-            translate("control", "Places of all axes, by name"),
+            translate("control", "Saved positions of all axes"),
         )
         self.names.setPlaceholderText(translate("control", "none saved yet"))
         self.names.currentIndexChanged.connect(lambda _: self._choose())
@@ -87,9 +87,9 @@ class PositionsPage(QWidget):
         allow(
             self.go,
             none or state.locked or moving,
-            translate("control", "Lift the tip above both places, go across, come down"),
+            translate("control", "Raise the tip above both positions, move across, lower it"),
         )
-        allow(self.delete, none, translate("control", "Delete this position, after a question"))
+        allow(self.delete, none, translate("control", "Delete this position after confirmation"))
         known = (
             None
             if state.position_known and state.command
@@ -120,7 +120,7 @@ class PositionsPage(QWidget):
             against_going_back(state, undoable=self._workbench.session.undoable),
             translate(
                 "control",
-                "Go back to where the axes rested before the latest move: up, across, down",
+                "Return to the position before the latest move: up, across, down",
             ),
         )
 
@@ -131,8 +131,7 @@ class PositionsPage(QWidget):
         if name in self.positions.kept:
             tip = translate(
                 "control",
-                "Go to the position {name!r} by a safe way; to move it, save another one by "
-                "that name",
+                "Go to position {name!r} along a safe path; save a new one by this name to move it",
             )
             allow(one, state.locked or moving, tip.format(name=name))
         else:
@@ -186,7 +185,7 @@ class PositionsPage(QWidget):
 
     def _delete(self) -> None:
         name = self.names.currentText()
-        if self._sure(f"delete {name}", self.delete, translate("control", "Delete it?")):
+        if self._sure(f"delete {name}", self.delete, translate("control", "Delete?")):
             self._forget()
             self._do(lambda: self.positions.delete(name), "")
 

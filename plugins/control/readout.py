@@ -30,7 +30,7 @@ class Readout(QLabel):
             self.setText(text)
         if bool(self.property("stale")) != stale:
             set_property(self, "stale", stale)
-            self.setAccessibleDescription(translate("control", "old") if stale else "")
+            self.setAccessibleDescription(translate("control", "outdated") if stale else "")
             self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)

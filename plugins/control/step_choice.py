@@ -52,7 +52,7 @@ class SpeedChoice(SteadyChoice):
     def __init__(self, robot: Robot) -> None:
         super().__init__(
             translate("control", "Speed of moves"),
-            translate("control", "Speed of steps, hold and go-to, of the axis' greatest"),
+            translate("control", "Speed of jogging and go-to, relative to the axis' maximum"),
         )
         self._robot = robot
         for share in SPEEDS:
@@ -90,7 +90,7 @@ def _box(quantity: str, span: float) -> SteadyChoice:
         translate("control", "Jog step, {kind}").format(kind=kind),
         translate(
             "control",
-            "How far one press of + or − moves an axis ({kind}); hold: while the button is held",
+            "Distance of one press of + or − ({kind}); hold: while the button is pressed",
         ).format(kind=kind),
     )
     for step in step_presets(quantity, span):

@@ -98,20 +98,22 @@ def aids(
     if inverse is not None:
         signs.append("H⁻¹")
         text = translate(
-            "control", "H⁻¹: commands go through the inverse {name}; take it off in Compensation."
+            "control", "H⁻¹: commands pass the inverse {name}; remove it in the panel Compensation."
         )
         meant.append(text.format(name=inverse.name))
     if approach is not None:
         arrow = "↑" if approach.rising else "↓"
         signs.append(arrow if taken_up else f"({arrow})")
         side = (
-            translate("control", "{sign}: jogs and go-to end from below.")
+            translate("control", "{sign}: jogs and go-to approach from below.")
             if approach.rising
-            else translate("control", "{sign}: jogs and go-to end from above.")
+            else translate("control", "{sign}: jogs and go-to approach from above.")
         )
         meant.append(side.format(sign=arrow))
         if not taken_up:
-            meant.append(translate("control", "In brackets: it did not come here so."))
+            meant.append(
+                translate("control", "In brackets: the last approach was from the other side.")
+            )
     return " ".join(signs), " ".join(meant)
 
 
@@ -136,7 +138,7 @@ def range_tip(axis: str, position: float | None, ends: Range, scale: Scale) -> s
     if position is None:
         return text
     down, up = max(position - low, 0.0), max(high - position, 0.0)
-    return translate("control", "{range}; left: {down} down, {up} up").format(
+    return translate("control", "{range}; remaining: {down} down, {up} up").format(
         range=text, down=scale.text(down), up=scale.text(up)
     )
 
@@ -169,9 +171,9 @@ def echo(text: str, scale: Scale) -> str:
     target = typed(text, scale)
     if target is None:
         return (
-            translate("control", "a point, no comma")
+            translate("control", "decimal point, no comma")
             if "," in text
-            else translate("control", "no number")
+            else translate("control", "not a number")
         )
     return translate("control", "to {target}").format(target=scale.text(target))
 
@@ -199,12 +201,12 @@ def no_position(axis: str, text: str, scale: Scale) -> str:
 def tip_text(state: SessionState, zone: KeepOutZone | None) -> str:
     """Return where the tip is, and what is below it."""
     if zone is None:
-        return translate("control", "No tip: this robot has no chain of axes to one.")
+        return translate("control", "No tip: this robot has no kinematic chain to a tip.")
     if state.tip is None or not state.position_known:
         return translate("control", "Tip: unknown.")
     above = above_floor(state, zone)
     if above is None:
-        return translate("control", "Tip {height} high; no floor is taught.").format(
+        return translate("control", "Tip at {height}; no floor is taught.").format(
             height=_millimetres(state.tip[2])
         )
     if above < 0.0:
@@ -239,7 +241,7 @@ def above_floor(state: SessionState, zone: KeepOutZone | None) -> float | None:
 def bounds_text(zone: KeepOutZone | None) -> str:
     """Return what bounds the tip, and what the slow zone means."""
     if zone is None:
-        return translate("control", "Only the ranges of its axes bound this robot.")
+        return translate("control", "Only the axis ranges limit this robot.")
     bounds = []
     if abs(zone.low) < float("inf"):
         bounds.append(
@@ -258,11 +260,11 @@ def bounds_text(zone: KeepOutZone | None) -> str:
     if not bounds:
         return translate(
             "control",
-            "Only the ranges of the axes bound the tip. Teach a floor in Connection, Tip.",
+            "Only the axis ranges limit the tip. Teach a floor in Connection, Tip.",
         )
     slow = (
         translate(
-            "control", " Within {height} above the floor it goes down at {speed} at most."
+            "control", " Within {height} above the floor it descends at {speed} at most."
         ).format(height=exact(SLOW_HEIGHT, "m"), speed=exact(SLOW_SPEED, "m/s"))
         if abs(zone.low) < float("inf")
         else ""

@@ -22,7 +22,7 @@ from rotemina.plugins.effects.words import effect_summary, effect_title, formula
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import Robot
 
-NOTHING = marked("effects", "Add an effect, and tune it here while the simulator runs.")
+NOTHING = marked("effects", "Add an effect and adjust it while the simulator runs.")
 LEAST_HEIGHT = 10  # of the fields, which scroll: a notice must not make the window taller
 
 
@@ -50,13 +50,13 @@ class Editor(QWidget):
         self.title.setTextFormat(Qt.TextFormat.PlainText)
         self.formulation = SteadyChoice(
             translate("effects", "Formulation"),
-            translate("effects", "Which equations the effect has; they stand below"),
+            translate("effects", "Formulation of the effect; its equations appear below"),
         )
         self.formulation.activated.connect(
             lambda: self.formulation_chosen.emit(self.formulation.currentData())
         )
         self._from = QLabel(translate("effects", "from"))
-        self.source = SteadyChoice(translate("effects", "The axis that the effect comes from"))
+        self.source = SteadyChoice(translate("effects", "Axis in which the effect originates"))
         self.source.activated.connect(lambda: self.source_chosen.emit(self.source.currentData()))
         self.equation = QLabel()
         self.equation.setTextFormat(Qt.TextFormat.PlainText)

@@ -58,10 +58,10 @@ class ParameterField(QObject):
         self.reset = QToolButton()
         self.reset.setText("↺")
         self.reset.setAccessibleName(
-            translate("effects", "{name} back to its preset").format(name=name)
+            translate("effects", "Reset {name} to its preset").format(name=name)
         )
         self.reset.setToolTip(
-            plain_tip(translate("effects", "Back to the preset, {value}").format(value=preset))
+            plain_tip(translate("effects", "Reset to the preset, {value}").format(value=preset))
         )
         self.reset.clicked.connect(lambda: self._take(quantity.preset))
         for widget in (self._title, self.edit, self._unit, self.slider):

@@ -122,7 +122,7 @@ class LiveEffects(QObject):
         if self._told or self._tries > 1:
             self._end(
                 ApplyState.REFUSED,
-                self._told or translate("effects", "the simulator did not take the change"),
+                self._told or translate("effects", "the simulator did not accept the change"),
             )
             return
         self._wanted = self._wanted or self._sent

@@ -39,8 +39,8 @@ from rotemina.sim.trajectory.demonstration import worn_effects
 
 REAL_MACHINE = marked(
     "effects",
-    "Effects belong to the simulator. A real machine has its own: connect to the simulator to "
-    "switch and tune any.",
+    "Only the simulator has adjustable effects. Connect to the simulator to "
+    "switch and adjust them.",
 )
 FILES = marked("effects", "Robot files (*.toml)")
 MOST_PAST = 100  # lists that can be brought back
@@ -79,43 +79,38 @@ class EffectsPanel(Panel):
 
     def _make_buttons(self) -> None:
         self.add = QPushButton(translate("effects", "Add effect"))
-        self.add.setToolTip(
-            translate("effects", "Choose an axis, an effect that it may have, and its formulation")
-        )
+        self.add.setToolTip(translate("effects", "Choose an axis, an effect and its formulation"))
         self.machine = QPushButton(translate("effects", "Machine"))
         self.machine.setToolTip(
             translate(
                 "effects",
-                "Let the simulator be as the robot file says, or worn, to demonstrate with",
+                "Simulate the machine of the robot file, or a worn one for demonstration",
             )
         )
-        self.up = _button(
-            "▲", translate("effects", "Let the signal meet this effect earlier within its stage")
-        )
-        self.down = _button(
-            "▼", translate("effects", "Let the signal meet this effect later within its stage")
-        )
+        self.up = _button("▲", translate("effects", "Apply this effect earlier within its stage"))
+        self.down = _button("▼", translate("effects", "Apply this effect later within its stage"))
         self.remove = _button(
-            translate("effects", "Remove"), translate("effects", "Take this effect away")
+            translate("effects", "Remove"), translate("effects", "Remove this effect")
         )
         self.undo = _button(
             translate("effects", "Undo"),
-            translate("effects", "Take back the last change of this list"),
+            translate("effects", "Undo the last change of this list"),
         )
         self.all_off = _button(
             translate("effects", "All off"),
             translate(
-                "effects", "Compare with the nominal machine: no effect acts until this is released"
+                "effects",
+                "Compare with the nominal machine: disable all effects until this is released",
             ),
         )
         self.all_off.setCheckable(True)
         self.load = _button(
             translate("effects", "Load …"),
-            translate("effects", "Take the effects of a robot file in place of these"),
+            translate("effects", "Replace these effects by those of a robot file"),
         )
         self.save = _button(
             translate("effects", "Save robot …"),
-            translate("effects", "Write a robot file of this robot with these effects"),
+            translate("effects", "Save a robot file of this robot with these effects"),
         )
 
     def _lay_out(self) -> None:
@@ -162,10 +157,10 @@ class EffectsPanel(Panel):
         robot = self.workbench.robot
         menu = QMenu(self.machine)
         menu.addAction(
-            translate("effects", "As the robot file says"), lambda: self.use_effects(robot.effects)
+            translate("effects", "From the robot file"), lambda: self.use_effects(robot.effects)
         )
         worn = menu.addAction(
-            translate("effects", "Worn, to demonstrate with"),
+            translate("effects", "Worn, for demonstration"),
             lambda: self.use_effects(worn_effects(robot)),
         )
         worn.setEnabled(bool(worn_effects(robot)))
@@ -271,7 +266,9 @@ class EffectsPanel(Panel):
         def work() -> Chain:
             effects = load_robot(path).effects
             if not effects:
-                text = translate("effects", "{path}: the robot file has no effects; these stay")
+                text = translate(
+                    "effects", "{path}: the robot file has no effects; the list is unchanged"
+                )
                 raise InputError(text.format(path=path))
             return Chain.of(self.workbench.robot, effects)
 

@@ -81,16 +81,16 @@ class Quantity:
         """
         number = parsed(text)
         if number is None:
-            told = translate("effects", "{text} is no number; type one with a decimal point")
+            told = translate("effects", "{text} is not a number; enter one with a decimal point")
             if self.unit:
                 told = translate(
-                    "effects", "{text} is no number; type one in {unit} with a decimal point"
+                    "effects", "{text} is not a number; enter one in {unit} with a decimal point"
                 )
             raise ValueRefusedError(told.format(text=repr(text), unit=self.unit))
         value = self._snapped(number / self.per_si)
         if not self.low <= value <= self.high or math.isinf(value):
             typed = f"{text.strip()} {self.unit}".rstrip()
-            told = translate("effects", "{value} is refused: must be {range}")
+            told = translate("effects", "{value} must be {range}")
             raise ValueRefusedError(told.format(value=typed, range=self.range_text))
         return value
 

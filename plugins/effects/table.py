@@ -42,7 +42,7 @@ class EffectTable(Table):
 
     def __init__(self) -> None:
         super().__init__(
-            translate("effects", "Effects in place"),
+            translate("effects", "List of effects"),
             [translate("effects", column) for column in COLUMNS],
             row_height=24,
         )
@@ -67,7 +67,7 @@ class EffectTable(Table):
             switch = self.item(row, 0)
             switch.setFlags(switch.flags() | Qt.ItemFlag.ItemIsUserCheckable)
             switch.setCheckState(_CHECKS[acts])
-            switch.setToolTip(plain_tip(translate("effects", "Whether the effect acts")))
+            switch.setToolTip(plain_tip(translate("effects", "Turn the effect on or off")))
         if 0 <= place < len(chain):
             self.setCurrentCell(place, max(self.currentColumn(), 0))
         self.blockSignals(False)

@@ -106,9 +106,9 @@ class Journal:
             self._tell_penetration(now.penetration)
         if now.recording != before.recording:
             text = (
-                translate("events", "Recording {name} begins").format(name=now.recording)
+                translate("events", "Recording {name} started").format(name=now.recording)
                 if now.recording
-                else translate("events", "Recording {name} ends").format(name=before.recording)
+                else translate("events", "Recording {name} ended").format(name=before.recording)
             )
             self._note(Level.INFO, text)
         if now.model != before.model:
@@ -125,7 +125,7 @@ class Journal:
         if new.stop is not None and new.stop != old.stop:
             self._tell_stop(new)
         if old.latched is not None and new.latched is None:
-            self._note(Level.INFO, translate("events", "The lock is released"))
+            self._note(Level.INFO, translate("events", "Lock released"))
 
     def _tell_stop(self, state: SessionState) -> None:
         request = state.stop
@@ -161,12 +161,12 @@ class Journal:
             return
         name, row = plan or translate("events", "a trajectory"), max(new.row, 0) + 1
         text = {
-            PlaybackPhase.PLAYING: translate("events", "Plays {name}"),
+            PlaybackPhase.PLAYING: translate("events", "Playing {name}"),
             PlaybackPhase.PAUSED: translate("events", "{name} is paused at row {row}"),
-            PlaybackPhase.IDLE: translate("events", "{name} has ended"),
+            PlaybackPhase.IDLE: translate("events", "{name} ended"),
         }[new.phase]
         if (old.phase, new.phase) == (PlaybackPhase.PAUSED, PlaybackPhase.PLAYING):
-            text = translate("events", "{name} goes on at row {row}")
+            text = translate("events", "{name} resumed at row {row}")
         self._note(Level.INFO, text.format(name=name, row=row))
 
     def _tell_penetration(self, status: PenetrationStatus) -> None:

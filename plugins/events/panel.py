@@ -49,7 +49,7 @@ class EventsPanel(Panel):
         self.list.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
         self.show_log = QPushButton(translate("events", "Show log"))
         self.show_log.setToolTip(
-            translate("events", "All that the program told, to be filtered and copied (Ctrl+L)")
+            translate("events", "All messages of the program, with filter and copy (Ctrl+L)")
         )
         self.show_log.clicked.connect(lambda: self.main_window.show_log())
         self._lay_out()

@@ -70,11 +70,10 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
             translate("faults", "Bytes"),
             translate(
                 "faults",
-                "The next bytes are lost, come twice, or with a wrong bit; or some that nobody "
-                "sent",
+                "The next bytes are lost, doubled or corrupted by one bit, or extra bytes arrive",
             ),
             (
-                Pick(translate("faults", "What"), damage),
+                Pick(translate("faults", "Fault"), damage),
                 Number(translate("faults", "Bytes"), 3, 1, 10_000),
                 towards,
                 line,
@@ -82,9 +81,9 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
         ),
         Fault(
             translate("faults", "Delay"),
-            translate("faults", "From now on bytes come this much later; 0 ends it"),
+            translate("faults", "Delay all bytes by this time; 0 ends the delay"),
             (
-                Pick(translate("faults", "What"), ((translate("faults", "delay"), "delay"),)),
+                Pick(translate("faults", "Fault"), ((translate("faults", "delay"), "delay"),)),
                 Number(translate("faults", "Delay"), 5.0, 0.0, 1000.0, "ms", "ms", 1),
                 towards,
                 line,
@@ -94,11 +93,12 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
             translate("faults", "Cable"),
             translate(
                 "faults",
-                "Nothing comes through, both ways; held at space, the boards hear a stop first",
+                "The line transmits nothing in either direction; held at space, the boards "
+                "receive a stop first",
             ),
             (
                 Pick(
-                    translate("faults", "What"),
+                    translate("faults", "Fault"),
                     (
                         (translate("faults", "silent"), "silence"),
                         (translate("faults", "held at space"), "space"),
@@ -110,10 +110,10 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
         ),
         Fault(
             translate("faults", "Board"),
-            translate("faults", "A board restarts and does not know where its steppers are"),
+            translate("faults", "A board restarts and loses the positions of its steppers"),
             (
                 Pick(
-                    translate("faults", "What"),
+                    translate("faults", "Fault"),
                     (
                         (translate("faults", "reset"), "reset"),
                         (translate("faults", "brown-out"), "brown-out"),
@@ -124,13 +124,13 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
         ),
         Fault(
             translate("faults", "Sensor"),
-            translate("faults", "A sensor repeats one reading until it is thawed"),
+            translate("faults", "A sensor repeats one reading until released"),
             (
                 Pick(
-                    translate("faults", "What"),
+                    translate("faults", "Fault"),
                     (
                         (translate("faults", "freeze"), "freeze"),
-                        (translate("faults", "thaw"), "thaw"),
+                        (translate("faults", "release"), "thaw"),
                     ),
                 ),
                 _axes(axes),
@@ -139,11 +139,11 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
     ]
     if steppers:
         lost = Number(translate("faults", "Microsteps"), 40, 1, 1_000_000)
-        what = Pick(translate("faults", "What"), ((translate("faults", "lose steps"), "lose"),))
+        what = Pick(translate("faults", "Fault"), ((translate("faults", "lose steps"), "lose"),))
         made.append(
             Fault(
                 translate("faults", "Stepper"),
-                translate("faults", "It stays behind its command"),
+                translate("faults", "The stepper falls behind its command"),
                 (what, _axes(steppers), lost),
             )
         )

@@ -128,7 +128,7 @@ class History:
             self._latched = latched
             text = marked("faults", "released")
             if latched is not None:
-                text = marked("faults", "{about} latched")
+                text = marked("faults", "{about} locked")
             self.add(at, Kind.STOP, text, latched or "")
 
     def _note_state(self, at: datetime, state: SessionState) -> None:
@@ -146,7 +146,7 @@ class History:
     def _note_soundness(self, at: datetime, before: SessionState, state: SessionState) -> None:
         lost, was_lost = state.phase is Phase.SHORT_LOSS, before.phase is Phase.SHORT_LOSS
         if lost and not was_lost:
-            self.add(at, Kind.LOST, marked("faults", "the device says nothing for a short while"))
+            self.add(at, Kind.LOST, marked("faults", "the device is silent for a short time"))
         elif was_lost and not lost:
             self.add(at, Kind.RECOVERED, marked("faults", "the device answers again"))
         if before.fault is not None and state.fault is None:

@@ -24,12 +24,13 @@ from rotemina.sim.robot.model import StepperAxis
 
 _ABOUT = marked(
     "faults",
-    "For training. The simulator inside this program has neither line nor board that could fail; "
-    "what its machine does wrong is in the panel Effects. A virtual board is a process of its own: "
-    "start it, connect to its ports, and let things go wrong.",
+    "For training: start a virtual board, connect to its ports, and inject "
+    "faults. The virtual board is a process of its own. The built-in simulator "
+    "has neither lines nor boards that could fail; the panel Effects sets the "
+    "effects of its machine.",
 )
-_NOT_RUNNING = marked("faults", "no virtual board runs; start it first")
-_NO_COMMANDS = marked("faults", "on this system a virtual board takes no commands")
+_NOT_RUNNING = marked("faults", "no virtual board is running; start it first")
+_NO_COMMANDS = marked("faults", "on this system a virtual board accepts no commands")
 _BOARD_AXES = 3
 
 
@@ -137,7 +138,7 @@ class Injection(QWidget):
         )
         self.homed = QCheckBox(translate("faults", "Position known"))
         self.homed.setToolTip(
-            translate("faults", "Begin homed and without a fault, as no real board does")
+            translate("faults", "Start homed and without a fault, unlike a real board")
         )
         self.start = QPushButton(translate("faults", "Start virtual board"))
         self.start.setProperty("primary", True)
@@ -221,21 +222,21 @@ class Injection(QWidget):
         running, ports = self.board.running, self.board.ports
         if ports:
             where = ", ".join(port for port, _ in ports)
-            text = translate("faults", "Listening on {ports}: connect to it.").format(ports=where)
+            text = translate("faults", "Listening on {ports}; connect to it.").format(ports=where)
         else:
             text = (
                 translate("faults", "Starting …")
                 if running
-                else translate("faults", "No virtual board runs.")
+                else translate("faults", "No virtual board is running.")
             )
         self.state.show_text(text)
         allow(
             self.start,
-            translate("faults", "it runs already") if running else None,
+            translate("faults", "it is already running") if running else None,
             translate("faults", "Start boards of this robot"),
         )
         none = None if running else translate("faults", _NOT_RUNNING)
-        allow(self.end, none, translate("faults", "End it: a line that falls silent"))
+        allow(self.end, none, translate("faults", "End the virtual board; its lines fall silent"))
         for widget in (self.lines, self.homed):
             widget.setEnabled(not running)
         why = None if ports else translate("faults", _NOT_RUNNING)

@@ -44,7 +44,7 @@ class FaultsPanel(Panel):
         self.clear_fault = button(translate("faults", "Clear fault"), workbench.clear_fault)
         self.copy = button(translate("faults", "Copy"), self.copy_all)
         self.save = button(translate("faults", "Save …"), self._ask_save)
-        self.empty = button(translate("faults", "Empty"), self._empty)
+        self.empty = button(translate("faults", "Clear"), self._empty)
         self._lay_out()
         # Told on the session's thread: the time is taken there, not when this window has time.
         self._unsubscribe = workbench.session.subscribe(
@@ -110,12 +110,14 @@ class FaultsPanel(Panel):
             against_clearing(state),
             translate("faults", "Acknowledge the device's fault"),
         )
-        none = None if entries else translate("faults", "there is nothing yet")
+        none = None if entries else translate("faults", "the list is empty")
         allow(
-            self.copy, none, translate("faults", "Copy the chosen rows, or all, as text (Ctrl+C)")
+            self.copy,
+            none,
+            translate("faults", "Copy the selected rows, or all rows, as text (Ctrl+C)"),
         )
         allow(self.save, none, translate("faults", "Write all rows into a text file"))
-        allow(self.empty, none, translate("faults", "Forget all rows"))
+        allow(self.empty, none, translate("faults", "Clear all rows"))
 
     def _note(self, at: datetime, event: Event) -> None:
         self.history.note_event(at, event)

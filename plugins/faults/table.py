@@ -12,7 +12,7 @@ from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.faults.history import Entry, Kind, as_text
 
-COLUMNS = (marked("faults", "Time"), marked("faults", "What"), marked("faults", "Reason"))
+COLUMNS = (marked("faults", "Time"), marked("faults", "Fault"), marked("faults", "Reason"))
 _CLOCK = 11  # where the time of day begins in the text of a time
 
 
@@ -21,7 +21,7 @@ class HistoryTable(Table):
 
     def __init__(self) -> None:
         super().__init__(
-            translate("faults", "What went wrong, newest first"),
+            translate("faults", "Faults, newest first"),
             [translate("faults", column) for column in COLUMNS],
             row_height=24,
         )

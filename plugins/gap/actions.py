@@ -97,9 +97,9 @@ class Actions(QObject):
             if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
                 self._workbench.notify(
                     Level.WARNING,
-                    translate("gap", "{path}: nothing here opens it; open it in a browser").format(
-                        path=path
-                    ),
+                    translate(
+                        "gap", "{path}: no program here opens it; open it in a browser"
+                    ).format(path=path),
                     about=self,
                 )
 

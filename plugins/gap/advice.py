@@ -10,18 +10,19 @@ from rotemina.sim.messages import listed
 
 FIRST_STEPS = marked(
     "gap",
-    "1  Choose records of the real machine: files, or play a trajectory, whose record is taken.\n"
-    "2  Diagnose: the program looks where the model departs from them, and why.\n"
-    "3  Use the answer: add what was found to the model, check it on a new motion, keep the "
-    "report.",
+    "1  Choose records of the real machine: choose files, or play a trajectory "
+    "and use its record.\n2  Diagnose: find where and why the model differs from"
+    " the records.\n3  Use the answer: add the causes to the model, check it "
+    "with a new motion, keep the report.",
 )
 READY_ONE = marked("gap", "One record is chosen.")
 READY_MORE = marked("gap", "{n} records are chosen.")
 READY = marked(
     "gap",
-    "Press Diagnose: the program looks where the model departs from what was measured, which effect"
-    " the model lacks, and how far the gap shrinks with it. It takes about half a minute for each "
-    "axis with a gap, and can be stopped at any time.",
+    "Press Diagnose to find where the model differs from the measurements, "
+    "which effect it lacks, and how far the gap shrinks with that effect. This "
+    "takes about half a minute for each axis with a gap; you can stop it at any"
+    " time.",
 )
 NO_PROOF = marked(
     "gap",
@@ -31,7 +32,7 @@ NO_PROOF = marked(
 
 _MEANS = {
     Verdict.NONE: (
-        marked("gap", "The model does what the machine does, as far as these motions show."),
+        marked("gap", "The model matches the machine in these motions."),
         marked(
             "gap",
             "Use the model as it is. Effects that these motions do not excite are not ruled out.",
@@ -39,7 +40,7 @@ _MEANS = {
     ),
     Verdict.EXPLAINED: (
         marked(
-            "gap", "The model lacks what is named below; with it, the model follows the machine."
+            "gap", "The model lacks the effects named below; with them, it follows the machine."
         ),
         marked(
             "gap", "Press “Use corrected model”; then “New motion …” shows how far the gap shrinks."
@@ -48,33 +49,32 @@ _MEANS = {
     Verdict.PARTLY: (
         marked(
             "gap",
-            "What is named below is present; no effect of the catalogue explains the rest of the "
-            "gap.",
+            "The effects named below are present; no effect of the catalogue explains "
+            "the rest of the gap.",
         ),
         marked(
             "gap",
-            "Press “Use corrected model”: it follows the machine better. Look under Where what the "
-            "rest depends on.",
+            "Press “Use corrected model”: it follows the machine better. The page Where"
+            " shows what the rest depends on.",
         ),
     ),
     Verdict.UNKNOWN: (
         marked(
             "gap",
-            "The gap is real, but no effect of the catalogue accounts for it. Nothing is guessed.",
+            "The gap is real, but no effect of the catalogue explains it.",
         ),
         marked(
             "gap",
-            "Look under Where what it depends on; check cables, clamps and sensor; record once "
-            "more, "
-            "slower and faster. Keep what the report says for whoever maintains the model.",
+            "The page Where shows what it depends on. Check cables, clamps and sensor; "
+            "record again, slower and faster. Keep the report for the maintainer of the"
+            " model.",
         ),
     ),
     Verdict.INSUFFICIENT: (
         marked(
             "gap",
-            "These motions cannot tell one effect from another: they are too short, too small or "
-            "too "
-            "much alike.",
+            "These motions cannot distinguish the effects: they are too short, too "
+            "small or too similar.",
         ),
         marked(
             "gap",
@@ -94,12 +94,12 @@ def advice(one: AxisDiagnosis, *, has_experiment: bool) -> Iterator[str]:
     if rivals and one.verdict in CORRECTING:
         open_ = translate(
             "gap",
-            "Not settled: {effects} would do as well on these records. Take the whole set as the "
-            "answer.",
+            "Undecided: {effects} would explain these records equally well. Take the "
+            "whole set as the answer.",
         )
         yield open_.format(effects=any_of([effect_word(effect) for effect in sorted(rivals)]))
         if has_experiment:
-            parts = translate("gap", "Press “Play next experiment …” to tell them apart.")
+            parts = translate("gap", "Press “Play next experiment …” to distinguish them.")
             do = f"{parts} {do}"
     yield translate("gap", "What to do: {advice}").format(advice=do)
 

@@ -216,4 +216,4 @@ def _tap(one: AxisDiagnosis) -> Tap:
 def _unseen(told: Shrinkage | None) -> str:
     if told is None:
         return ""
-    return translate("gap", "Nominal → corrected, on data that no fit has seen")
+    return translate("gap", "Nominal → corrected, on validation data")

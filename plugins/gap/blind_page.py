@@ -32,23 +32,24 @@ from rotemina.sim.robot.writing import robot_text
 
 ABOUT = marked(
     "gap",
-    "Machines are drawn by equations that the diagnosis does not know, each with hidden effects. "
-    "The name of what is hidden is sealed until the diagnosis has answered; then it is opened and "
-    "compared. A case takes about half a minute. It runs beside everything else and can be stopped "
-    "and gone on with: what is done stays.",
+    "The test draws machines with hidden effects, by equations that the "
+    "diagnosis does not know. The names of the effects are sealed until the "
+    "diagnosis has answered; then they are opened and compared. A case takes "
+    "about half a minute. The test runs in the background; you can stop and "
+    "resume it without losing finished cases.",
 )
 NOTHING = marked(
     "gap",
-    "No case is scored yet.\n"
-    "Press Start: figures and confusion matrix come when all cases are done; or press Stop at any "
-    "time, then “Score what is done”.",
+    "No case is scored yet.\nPress Start; figures and confusion matrix appear "
+    "when all cases are done. To score earlier, press Stop, then “Score "
+    "finished cases”.",
 )
 _MOST_CASES, _MOST_SEED = 9999, 999_999_999
 _STRENGTH = 170  # of the strongest colour, of 255
 _VERDICTS = {
     "none": marked("gap", "no gap"),
     "unknown": marked("gap", "unknown"),
-    "insufficient_excitation": marked("gap", "cannot tell"),
+    "insufficient_excitation": marked("gap", "undecided"),
     "failed": marked("gap", "failed"),
     "explained": marked("gap", "explained"),
 }
@@ -62,32 +63,28 @@ class BlindPage(QDialog):
         self.setWindowTitle(translate("gap", "Blind test of the diagnosis"))
         self._workbench, self._robots = workbench, robots
         self.run = BlindRun(self)
-        self.cases = _field(
-            "12", _MOST_CASES, 1, translate("gap", "How many machines are drawn, 1 to 9999")
-        )
+        self.cases = _field("12", _MOST_CASES, 1, translate("gap", "Number of machines, 1 to 9999"))
         self.seed = _field(
             "1",
             _MOST_SEED,
             0,
-            translate("gap", "Which machines: the same seed draws the same ones"),
+            translate("gap", "Seed of the machines: the same seed draws the same machines"),
         )
         self.start, self.stop = (
             QPushButton(translate("gap", "Start")),
             QPushButton(translate("gap", "Stop")),
         )
         self.start.setProperty("primary", True)
-        self.score = QPushButton(translate("gap", "Score what is done"))
+        self.score = QPushButton(translate("gap", "Score finished cases"))
         self.progress = QProgressBar()
         self.progress.setFormat(translate("gap", "%v of %m"))
         self.doing = QLabel()
         self.doing.setTextFormat(Qt.TextFormat.PlainText)
         self.figures = Table(
-            translate("gap", "Figures beside the levels that they are to reach"),
+            translate("gap", "Figures beside their target levels"),
             [translate("gap", text) for text in HEAD],
         )
-        self.matrix = Table(
-            translate("gap", "What is there, and what was named first"), choose=False
-        )
+        self.matrix = Table(translate("gap", "True cause and cause named first"), choose=False)
         self._lay_out()
         self._connect()
         self._show_state()
@@ -113,8 +110,8 @@ class BlindPage(QDialog):
             _titled(
                 translate(
                     "gap",
-                    "Confusion matrix, cases with one effect at most: a row is what is there, a "
-                    "column what was named first",
+                    "Confusion matrix, cases with one effect at most: rows are true causes, "
+                    "columns are the causes named first",
                 ),
                 self.matrix,
             )
@@ -137,7 +134,7 @@ class BlindPage(QDialog):
         self.run.progressed.connect(self._show_progress)
         self.run.finished.connect(self.show_result)
         self.run.stopped.connect(
-            lambda: self._show_end(translate("gap", "stopped; what is done stays"))
+            lambda: self._show_end(translate("gap", "stopped; finished cases are kept"))
         )
         self.run.failed.connect(self._fail)
         self._workbench.closing.connect(self.run.close)
@@ -153,15 +150,13 @@ class BlindPage(QDialog):
         try:
             robot = self._robot(folder)
         except OSError as error:
-            text = translate("gap", "{folder}: it cannot be made ({reason})")
+            text = translate("gap", "{folder}: cannot be created ({reason})")
             self._fail(text.format(folder=folder, reason=error.strerror))
             return
         self.run.start(robot, int(self.cases.text()), seed, folder, score=score)
         self.progress.setRange(0, 0)
         self.doing.setText(
-            translate("gap", "being scored")
-            if score
-            else translate("gap", "the first machine is drawn")
+            translate("gap", "scoring") if score else translate("gap", "drawing the first machine")
         )
         self._show_state()
 
@@ -181,7 +176,7 @@ class BlindPage(QDialog):
 
     def _end(self) -> None:
         self.run.stop()
-        self._show_end(translate("gap", "being stopped"))
+        self._show_end(translate("gap", "stopping"))
 
     def _show_progress(self, done: int, count: int) -> None:
         self.progress.setRange(0, count)
@@ -201,24 +196,22 @@ class BlindPage(QDialog):
         running = self.run.running
         whole = all(field.hasAcceptableInput() for field in (self.cases, self.seed))
         why = (
-            translate("gap", "it runs already")
+            translate("gap", "it is already running")
             if running
             else None
             if whole
-            else translate("gap", "write cases and seed")
+            else translate("gap", "enter cases and seed")
         )
         allow(
             self.start,
             why,
-            translate("gap", "Run the cases that are not done yet, then score them"),
+            translate("gap", "Run the unfinished cases, then score all"),
         )
-        allow(
-            self.score, why, translate("gap", "Score the cases that are done, without running more")
-        )
+        allow(self.score, why, translate("gap", "Score the finished cases without running more"))
         allow(
             self.stop,
-            None if running else translate("gap", "nothing runs"),
-            translate("gap", "End it; what is done stays"),
+            None if running else translate("gap", "nothing is running"),
+            translate("gap", "Stop the test; finished cases are kept"),
         )
         self.progress.setVisible(running)
         for field in (self.cases, self.seed):
@@ -245,7 +238,7 @@ class BlindPage(QDialog):
             [colours[one.reached] for one in result.rows],
         )
         names = result.names
-        self.matrix.set_head((translate("gap", "what is there"), *map(title, names)))
+        self.matrix.set_head((translate("gap", "true cause"), *map(title, names)))
         self.matrix.show_rows(
             [
                 (title(there), *(str(result.counts.get((there, told), "")) for told in names))

@@ -60,8 +60,7 @@ class BlindResult:
             raise InputError(
                 translate(
                     "gap",
-                    "{path}: the result of the blind test cannot be read ({reason}); run it once "
-                    "more",
+                    "{path}: the result of the blind test cannot be read ({reason}); run it again",
                 ).format(path=path, reason=error)
             ) from error
 

@@ -34,14 +34,12 @@ HEAD = (
 _TIPS = (
     marked(
         "gap",
-        "What was tried in place of the leading cause, the likeliest first; those that may be it "
-        "stand out",
+        "Alternatives to the leading cause, likeliest first; possible causes are highlighted",
     ),
-    marked("gap", "How likely it is the cause, of those tried and what is not among them"),
+    marked("gap", "Probability of being the cause, among the candidates and an unknown cause"),
     marked(
         "gap",
-        "Rms of the remaining gap on data that its fit did not see, in noise floors; noise alone "
-        "is 1",
+        "Rms of the remaining gap on validation data, in noise floors; noise alone is 1",
     ),
     marked("gap", "95 % interval of the remainder, in noise floors"),
 )
@@ -63,8 +61,8 @@ class CausesView(QSplitter):
             self.ranking.horizontalHeaderItem(column).setToolTip(plain_tip(translate("gap", text)))
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
-        self.text.setAccessibleName(translate("gap", "What is said of the axis"))
-        self.text.setToolTip(translate("gap", "What the diagnosis says of the axis"))
+        self.text.setAccessibleName(translate("gap", "Result for the axis"))
+        self.text.setToolTip(translate("gap", "Result of the diagnosis for the axis"))
         self.addWidget(self.ranking)
         self.addWidget(self.text)
         self.setSizes([480, 460])
@@ -140,7 +138,7 @@ def _cause(cause: Cause, answer: Answer) -> Iterator[str]:
     )
     if cause.ambiguous_with:
         rivals = any_of([effect_word(effect) for effect in cause.ambiguous_with])
-        text = translate("gap", "    These records cannot tell it from {effects}.")
+        text = translate("gap", "    These records cannot distinguish it from {effects}.")
         yield text.format(effects=rivals)
     for one in cause.parameters:
         yield f"    {_parameter(one, parameter_unit(one, cause, answer.records))}"

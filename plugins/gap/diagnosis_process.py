@@ -25,8 +25,8 @@ from rotemina.sim.robot.model import Robot
 
 _ENDED = marked(
     "gap",
-    "the process of the diagnosis has ended (status {status}) before it answered; is there memory "
-    "enough? Diagnose again, with fewer or shorter records",
+    "the process of the diagnosis ended (status {status}) without an answer, "
+    "perhaps for lack of memory; diagnose again with fewer or shorter records",
 )
 _WORKER = ("-m", "rotemina.plugins.gap.diagnosis_worker")
 _LOOKS_S = 0.05  # between two questions whether an answer is still wanted

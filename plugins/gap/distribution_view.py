@@ -22,7 +22,7 @@ from rotemina.sim.gap.report.heat import Heat
 from rotemina.sim.quantities import NOTHING, amount, percent, percents, rounded
 
 HEAD = (
-    marked("gap", "axis, tap"),
+    marked("gap", "axis, signal"),
     marked("gap", "share"),
     marked("gap", "gap rms"),
     marked("gap", "floor"),
@@ -33,14 +33,13 @@ HEAD = (
 _TIPS = (
     marked(
         "gap",
-        "Where it was read: u is the voltage, ref the reference sensor, meas the machine's own "
-        "sensor",
+        "Signal: u is the voltage, ref the reference sensor, meas the machine's own sensor",
     ),
     marked("gap", "Share of the gap above the noise floors of all axes and channels"),
     marked("gap", "Measured minus model, mean removed"),
-    marked("gap", "Rms of the sensor's noise and rounding, which no model explains"),
-    marked("gap", "The band that holds most of it"),
-    marked("gap", "What the axis was doing where the gap is largest"),
+    marked("gap", "Rms of noise and rounding of the sensor, which no model explains"),
+    marked("gap", "Band with the largest share"),
+    marked("gap", "Motion of the axis where the gap is largest"),
     marked("gap", "95 % interval of the share"),
 )
 _BANDS = 2  # columns before those of the bands
@@ -145,15 +144,15 @@ class DistributionView(QSplitter):
         heat = self._answer.heats.get((place.axis, place.tap))
         if heat is None:
             text = translate(
-                "gap", "{place}: no record is sampled evenly and long enough for a map"
+                "gap", "{place}: no record is long enough and evenly sampled for a map"
             )
             self._clear(text.format(place=name))
             return
         self.heat_title.setText(
             translate(
                 "gap",
-                "{place}: gap rms [noise floors], by what the axis did and by frequency from … "
-                "Hz on. Click a cell to see its traces.",
+                "{place}: gap rms [noise floors] by motion and frequency, from … Hz on. "
+                "Click a cell to see its traces.",
             ).format(place=name)
         )
         self._draw(heat)
@@ -176,7 +175,7 @@ class DistributionView(QSplitter):
             ]
         )
         here = translate("gap", "{regime}, {low} to {high} Hz: {floors} noise floors rms")
-        whole = translate("gap", "{share} of the gap of the whole path")
+        whole = translate("gap", "{share} of the gap of the channel")
         for row, floors in enumerate(heat.floors):
             for column, value in enumerate(floors, start=_BANDS):
                 colour = QColor(self._theme.real)

@@ -44,8 +44,9 @@ def why_worse(one: Shrunk, answer: Answer) -> str:
     if figure.without_offset < _CONSTANT * figure.rms:
         return translate(
             "gap",
-            "It is off by a constant: the axis has a past that the records do not share. Swing it "
-            "once through its range, and play the motion again.",
+            "The model is off by a constant, because the axis has a different history "
+            "than in the records. Sweep its whole range once, and play the motion "
+            "again.",
         )
     ways = [own.signal(trace.axis, Tap.CMD) for own in answer.records if trace.axis in own.axes]
     low, high = min(float(way.min()) for way in ways), max(float(way.max()) for way in ways)
@@ -53,10 +54,10 @@ def why_worse(one: Shrunk, answer: Answer) -> str:
     if trace.command.min() < low - slack or trace.command.max() > high + slack:
         return translate(
             "gap",
-            "The motion goes where no record has been: choose this record too, and diagnose them "
-            "together.",
+            "The motion leaves the region of the records: choose this record too, and "
+            "diagnose them together.",
         )
     return translate(
         "gap",
-        "The motion does what no record did: choose this record too, and diagnose them together.",
+        "The motion differs from all records: choose this record too, and diagnose them together.",
     )

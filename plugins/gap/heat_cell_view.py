@@ -37,7 +37,7 @@ class HeatCellView(QWidget):
         self.choice = QComboBox()
         self.choice.setAccessibleName(translate("gap", "Record"))
         self.choice.setToolTip(
-            translate("gap", "Records by what they hold of this place, the most first")
+            translate("gap", "Records by their share of this place, largest first")
         )
         policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(policy)
@@ -78,14 +78,14 @@ class HeatCellView(QWidget):
         for name, _ in CURVES:
             self.plot.clear_signal(name)
         if part is None:
-            self.legend.setText(translate("gap", "No record has a row of this place."))
+            self.legend.setText(translate("gap", "No record has rows at this place."))
             return
         trace, theme = part.trace, self._theme
         scale = scale_of(trace.unit, float(np.abs(trace.before).max()))
         text = translate(
             "gap",
-            'gap [{unit}]: <span style="color:{command}">the whole</span>, '
-            '<span style="color:{real}">in this band meanwhile</span>: {rms} rms in {time:.3g} s',
+            'gap [{unit}]: <span style="color:{command}">total</span>, <span '
+            'style="color:{real}">in this band</span>: {rms} rms in {time:.3g} s',
         )
         self.legend.setText(
             text.format(

@@ -59,8 +59,8 @@ class HiddenMachineTrial(QObject):
             self.secret = secret
             told = translate(
                 "gap",
-                "A hidden machine is connected: play, diagnose, then choose More → Reveal. It has "
-                "one or two effects, or none.",
+                "A hidden machine is connected. It has one or two effects, or none. Play a "
+                "motion, diagnose it, then choose More → Reveal.",
             )
             self._workbench.notify(Level.INFO, told, about=self._parent)
 
@@ -71,12 +71,12 @@ class HiddenMachineTrial(QObject):
         box.setWindowTitle(translate("gap", "Hidden machine"))
         box.setTextFormat(Qt.TextFormat.PlainText)
         box.setText(
-            translate("gap", "Right: all that is there was named, and nothing else.")
+            translate("gap", "Correct: the diagnosis named exactly the effects of the machine.")
             if right
-            else translate("gap", "Not right.")
+            else translate("gap", "Not correct.")
         )
         lines = (
-            translate("gap", "It has: {causes}").format(causes=_listed(secret.causes)),
+            translate("gap", "The machine has: {causes}").format(causes=_listed(secret.causes)),
             translate("gap", "The diagnosis names: {causes}").format(causes=_listed(named)),
             translate("gap", "Score: {right} of {played}").format(
                 right=settings.get(RIGHT, 0), played=settings.get(PLAYED, 0)

@@ -48,8 +48,7 @@ class ModelSwitch(QObject):
         question.setText(translate("gap", "Use this model for predictions anyway?"))
         safe = translate(
             "gap",
-            "Predictions only. What is sent to the machine does not change, and no bound of it "
-            "becomes wider.",
+            "Predictions only: commands to the machine do not change, and no bound widens.",
         )
         question.setInformativeText("\n\n".join([*reasons, safe]))
         yes, no = QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No
@@ -87,11 +86,11 @@ def against(answer: Answer, proof: Proof | None) -> str | None:
             for one in each.shrinkage
             if one.tap is Tap.MEAS and each.fitted and not one.corrected < one.raw
         ]
-        name = translate("gap", "data that no fit saw")
+        name = translate("gap", "validation data")
     if not worse:
         return None
     text = translate(
-        "gap", "On {motion}, the corrected model is worse than the nominal one: {axes}."
+        "gap", "The corrected model is worse than the nominal one on {motion}: {axes}."
     )
     return text.format(motion=name, axes=", ".join(dict.fromkeys(worse)))
 
@@ -100,13 +99,14 @@ def noted_in(answer: Answer) -> Iterator[str]:
     """Yield what was noted while the model was learned: faults, contacts, and causes like one."""
     for name, record in zip(answer.names, answer.records, strict=True):
         if NOTED in record.metadata:
-            text = translate("gap", "While {record} was played: {noted}.")
+            text = translate("gap", "During {record}: {noted}.")
             yield text.format(record=name, noted=record.metadata[NOTED])
     found = [one for one in answer.diagnosis.fitted if one.enabled and one.id in CONTACT_LIKE]
     if found:
         text = translate(
             "gap",
-            "It has learned {causes}: the axis may have touched something. A penetration leaves "
-            "this out and looks for the contact with the nominal model as well.",
+            "The model includes {causes}: the axis may have touched something. A "
+            "penetration ignores this and also detects the contact with the nominal "
+            "model.",
         )
         yield text.format(causes=all_of([effect_word(one.id) for one in found]))

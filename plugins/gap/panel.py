@@ -56,15 +56,15 @@ VIEWS = (
 WHERE, WHICH, FAR, PROOF, RUNNING, HINT = range(6)
 TIPS = (
     marked("gap", "Axis, channel, frequencies and kind of motion in which the gap lies"),
-    marked("gap", "The candidates with their probabilities, what is said of them and what to do"),
-    marked("gap", "How far the gap shrinks with what was found, down to the noise floor"),
+    marked("gap", "Candidates with their probabilities, explanation and advice"),
+    marked("gap", "How far the gap shrinks with the causes, down to the noise floor"),
     marked("gap", "How far it shrinks on a motion that the diagnosis has not seen"),
 )
 _HEIGHT = 240
 _UPRIGHT_FROM = (1400, 420)  # px of width and height, from which the rail stands at the side
 _WIDEST = 1400  # of the main column: longer lines read worse
-_NOT_FORETOLD = marked("gap", "nothing of what was found can be predicted from commands")
-_NO_ANSWER = marked("gap", "there is no answer yet; diagnose records first")
+_NOT_FORETOLD = marked("gap", "commands cannot predict any of the causes")
+_NO_ANSWER = marked("gap", "there is no diagnosis yet; diagnose records first")
 
 
 class GapPanel(Panel):
@@ -111,7 +111,7 @@ class GapPanel(Panel):
         self.more = QToolButton()
         self.more.setText(translate("gap", "More"))
         self.more.setToolTip(
-            translate("gap", "Save the diagnosis as JSON; test how often the diagnosis is right")
+            translate("gap", "Save the diagnosis as JSON; test how often the diagnosis is correct")
         )
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QMenu(self)
@@ -143,7 +143,7 @@ class GapPanel(Panel):
         ):
             self.views.addWidget(view)
         self.tabs = QTabBar()
-        self.tabs.setAccessibleName(translate("gap", "What is shown"))
+        self.tabs.setAccessibleName(translate("gap", "View"))
         self.tabs.setExpanding(False)
         self.tabs.setDrawBase(False)
         for number, name in enumerate(VIEWS):
@@ -156,8 +156,8 @@ class GapPanel(Panel):
             plain_tip(
                 translate(
                     "gap",
-                    "Play the motion that best tells what these records cannot, and diagnose its "
-                    "record with them",
+                    "Play the motion that best distinguishes the candidates, and diagnose its "
+                    "record with the others",
                 )
             )
         )
@@ -259,7 +259,7 @@ class GapPanel(Panel):
             return
         names = [each.full for each in chosen]
         doing = (
-            translate("gap", "waiting for the end of what was stopped")
+            translate("gap", "waiting for the stopped work to end")
             if self.diagnosing.busy
             else stage_name("reading")
         )
@@ -286,7 +286,9 @@ class GapPanel(Panel):
         self._show_state()
 
     def _fail(self, message: str) -> None:
-        self.doing.setText(translate("gap", "The diagnosis failed; the notice above says why."))
+        self.doing.setText(
+            translate("gap", "The diagnosis failed; the notice above gives the reason.")
+        )
         self.workbench.notify(Level.ERROR, message, about=self)
         self._show_state()
 
@@ -299,15 +301,19 @@ class GapPanel(Panel):
             translate("gap", "Diagnose") if chosen else translate("gap", "Diagnose …")
         )
         tip_of_start = (
-            translate("gap", "Find what the model lacks")
+            translate("gap", "Find the effects that the model lacks")
             if chosen
-            else translate("gap", "Choose records, diagnose them")
+            else translate("gap", "Choose records and diagnose them")
         )
-        allow(self.start, translate("gap", "a diagnosis runs") if running else None, tip_of_start)
+        allow(
+            self.start,
+            translate("gap", "a diagnosis is running") if running else None,
+            tip_of_start,
+        )
         allow(
             self.stop,
-            None if running else translate("gap", "nothing runs"),
-            translate("gap", "Stop the diagnosis; motion goes on"),
+            None if running else translate("gap", "nothing is running"),
+            translate("gap", "Stop the diagnosis; motion continues"),
         )
         self.robots.setEnabled(not running)
         self.rail.menu.setEnabled(not running)
@@ -322,17 +328,17 @@ class GapPanel(Panel):
         allow(
             self.twin,
             found,
-            translate("gap", "Write a robot file of the model with what was found"),
+            translate("gap", "Write a robot file of the model with the causes found"),
         )
         allow(
             self.motion,
             found,
-            translate("gap", "Play a motion that no record holds, and see how far it is off"),
+            translate("gap", "Play a motion that no record contains, and measure its gap"),
         )
         allow(
             self.report,
             why,
-            translate("gap", "Write the report, a page with all figures, and open it"),
+            translate("gap", "Write the report with all figures, and open it"),
         )
         self.save.setEnabled(why is None)
         done = answer is not None and not running
@@ -353,7 +359,8 @@ class GapPanel(Panel):
             why_not = translate("gap", "the machine is still moving")
         said = translate(
             "gap",
-            "Predictions only. What is sent to the machine does not change; Compensate does that.",
+            "Predictions only: commands to the machine do not change. The panel "
+            "Compensation changes them.",
         )
         self.use.setText(
             translate("gap", "Use anyway …") if doubt else translate("gap", "Use corrected model")
@@ -413,7 +420,7 @@ class GapPanel(Panel):
         name = self._check
         self.workbench.work(
             "gap motion",
-            translate("gap", "Making a motion …"),
+            translate("gap", "Computing a motion …"),
             lambda: new_motion(answer.diagnosis, answer.records, axes),
             lambda motion: self.playing.ask(
                 self.main_window, translate("gap", "New motion"), name, motion

@@ -72,7 +72,7 @@ class Playing(QObject):
 
 def told(robot: Robot, trajectory: Record) -> str:
     """Return how long a motion lasts, and from where to where it leads each axis."""
-    lasts = translate("gap", "It takes {time:.3g} s, after the way to its first row.")
+    lasts = translate("gap", "It takes {time:.3g} s after the move to its first row.")
     lines = [lasts.format(time=trajectory.duration_s)]
     rests = translate("gap", "rests at {low} {unit}")
     for axis in trajectory.axes:

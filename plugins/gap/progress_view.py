@@ -10,15 +10,11 @@ from rotemina.plugins.gap.ranking_view import RankingView
 from rotemina.sim.gap.progress import Progress
 
 STAGES = {
-    "reading": marked("gap", "The records are read."),
-    "where": marked(
-        "gap", "Where does the gap lie: on which axis, in which channel, at which frequencies?"
-    ),
-    "screening": marked("gap", "Screening every effect that the axis may have."),
-    "fitting": marked(
-        "gap", "The likeliest candidates are fitted to the records, one beside the other."
-    ),
-    "deciding": marked("gap", "Which of them holds on data that its fit has not seen?"),
+    "reading": marked("gap", "Reading the records."),
+    "where": marked("gap", "Locating the gap by axis, channel and frequency."),
+    "screening": marked("gap", "Screening all effects that the axis may have."),
+    "fitting": marked("gap", "Fitting the likeliest candidates to the records, in parallel."),
+    "deciding": marked("gap", "Deciding between the candidates on validation data."),
     "drawing": marked("gap", "Drawing the result."),
 }
 
@@ -82,7 +78,8 @@ def _of_axis(axis: str) -> str:
 def _meaning() -> str:
     return translate(
         "gap",
-        "A bar is the share of the gap that a candidate closes: an outline at a first look, light "
-        "once it is fitted, full once it is judged by data that its fit has not seen. The answer "
-        "also asks which causes are needed beside each other, and may be another.",
+        "A bar is the share of the gap that a candidate closes: outlined after "
+        "screening, light after the fit, solid after the decision on validation "
+        "data. The answer also considers which causes are needed together, and may "
+        "differ.",
     )

@@ -19,9 +19,9 @@ from rotemina.sim.quantities import rounded
 
 HEAD = (
     marked("gap", "record"),
-    marked("gap", "axis, tap"),
+    marked("gap", "axis, signal"),
     marked("gap", "nominal"),
-    marked("gap", "with what was found"),
+    marked("gap", "corrected"),
     marked("gap", "unseen motion"),
     "95 %",
     marked("gap", "floor"),
@@ -43,8 +43,8 @@ class ProofView(QStackedWidget):
         self.title.setToolTip(
             translate(
                 "gap",
-                "Rms of what was measured less what the model says, its offset included, over "
-                "what moves and 0.5 s after; intervals by drawing blocks of the record anew",
+                "Rms of measurement minus model, including offset, during motion and 0.5 s "
+                "after it; intervals by block bootstrap",
             )
         )
         self.table = Table(

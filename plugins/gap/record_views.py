@@ -58,13 +58,13 @@ class RecordMenu(QToolButton):
             text = translate("gap", "1 record") if count else translate("gap", "Records …")
         self.setText(text)
         few = (
-            translate("gap", "Three records of different motions or more tell best.")
+            translate("gap", "Three or more records of different motions give the best diagnosis.")
             if count < _ENOUGH
             else ""
         )
         said = names or [translate("gap", "Choose the records of the real machine")]
         self.setToolTip(
-            plain_tip(translate("gap", "Records that are diagnosed:") if names else "", *said, few)
+            plain_tip(translate("gap", "Records to diagnose:") if names else "", *said, few)
         )
 
     def _fill(self) -> None:
@@ -97,7 +97,7 @@ class RecordList(QTreeWidget):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setHeaderLabels([translate("gap", "Records"), translate("gap", "gap")])
         self.headerItem().setToolTip(
-            1, translate("gap", "Gap from the model in use: of the axis with most noise floors")
+            1, translate("gap", "Gap from the model in use, of the axis with the most noise floors")
         )
         head = self.header()
         head.setStretchLastSection(False)

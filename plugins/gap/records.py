@@ -282,7 +282,7 @@ class Records(QObject):
                 self._workbench.notify(
                     Level.WARNING,
                     translate(
-                        "gap", "{name}: it has no header; add it by itself to name its columns"
+                        "gap", "{name}: no header; add this file alone to name its columns"
                     ).format(name=path.name),
                     about=self._parent,
                 )

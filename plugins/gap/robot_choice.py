@@ -33,15 +33,13 @@ class RobotChoice(QComboBox):
         self.source: str | Path | None = None  # of the robot's text, None for the one in use
         self._place = 0
         self.setAccessibleName(translate("gap", "Model"))
-        self.setToolTip(
-            translate("gap", "The model whose gap is looked for; at first the nominal one")
-        )
+        self.setToolTip(translate("gap", "Model to be diagnosed; initially the nominal one"))
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(17)
         self.setMinimumWidth(80)  # where the window is narrow, a name is cut rather than the row
         nominal = translate("gap", "{robot}, nominal").format(robot=workbench.robot.name)
         self.addItem(nominal, None)
-        self.addItem(translate("gap", "What remains beyond the model in use"), _BEYOND)
+        self.addItem(translate("gap", "Remainder of the model in use"), _BEYOND)
         for name in shipped_robots():
             self.addItem(name, name)
         self.addItem(translate("gap", "Robot file …"), _FILE)

@@ -21,9 +21,10 @@ from rotemina.sim.quantities import amount, percent, percents
 
 TIP = marked(
     "gap",
-    "Rms of the gap on data that no fit has seen: as the model is, with its own parameters "
-    "re-tuned, then with one effect after the other. No model gets below the noise floor; the "
-    "black box is what no explanation can be expected to beat by far.",
+    "Rms of the gap on validation data: with the original model, with its own "
+    "parameters re-tuned, then with one effect after the other. No model gets "
+    "below the noise floor; the black-box model shows about how far any "
+    "explanation can get.",
 )
 
 _SHORT = 0.1  # of the nominal gap's bar
@@ -143,7 +144,7 @@ class ShrinkageView(QSplitter):
 
     def _show_bars(self, told: Shrinkage | None, answer: Answer) -> None:
         if told is None:
-            self.title.setText(translate("gap", "No gap to close was found on this axis."))
+            self.title.setText(translate("gap", "This axis has no gap to close."))
             self.bars.show_bars((), ())
             return
         unit = answer.unit(told.axis, told.tap)

@@ -22,7 +22,7 @@ class TraceView(QWidget):
         super().__init__()
         self._theme = theme
         self.choice = QComboBox()
-        self.choice.setAccessibleName(translate("gap", "Record and tap"))
+        self.choice.setAccessibleName(translate("gap", "Record and signal"))
         self.choice.setToolTip(translate("gap", "Record and channel"))
         policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(policy)

@@ -34,25 +34,25 @@ STAGES = {
 }
 # The figures of a blind test.
 FIGURES = (
-    marked("gap", "first cause right, one effect"),
+    marked("gap", "first cause correct, one effect"),
     marked("gap", "… where the gap is ≥ 5 floors"),
     marked("gap", "… where it is smaller"),
-    marked("gap", "one effect exactly, nothing beside it"),
+    marked("gap", "exactly one effect and no other"),
     marked("gap", "truth in the reported set"),
     marked("gap", "mean size of the set"),
-    marked("gap", "two effects exactly"),
-    marked("gap", "three effects exactly"),
-    marked("gap", "a cause that is not there"),
-    marked("gap", "verdict explained or partly"),
-    marked("gap", "healthy machines accused"),
-    marked("gap", "unknown effects called unknown"),
-    marked("gap", "poor excitation called so"),
+    marked("gap", "exactly two effects"),
+    marked("gap", "exactly three effects"),
+    marked("gap", "false cause named"),
+    marked("gap", "verdict: explained or partly"),
+    marked("gap", "healthy machines blamed"),
+    marked("gap", "unknown effects recognised"),
+    marked("gap", "poor excitation recognised"),
     marked("gap", "gap closed on unseen data, median"),
     marked("gap", "gap closed, 10th percentile"),
     marked("gap", "expected calibration error"),
-    marked("gap", "seconds a case, median"),
-    marked("gap", "seconds a case, greatest"),
-    marked("gap", "seconds a healthy case, median"),
+    marked("gap", "seconds per case, median"),
+    marked("gap", "seconds per case, maximum"),
+    marked("gap", "seconds per healthy case, median"),
 )
 
 

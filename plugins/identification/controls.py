@@ -33,12 +33,13 @@ class Controls(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.open = QPushButton(translate("identification", "Open …"))
-        self.open.setToolTip(translate("identification", "Open a record for this page alone"))
+        self.open.setToolTip(translate("identification", "Open a record for this page only"))
         self.excite = QPushButton(translate("identification", "Excite"))
         self.excite.setCheckable(True)
         self.excite.setToolTip(
             translate(
-                "identification", "Choose a motion that excites an axis, play it, and look at it"
+                "identification",
+                "Choose a motion that excites an axis, play it and analyse the record",
             )
         )
         self.axis = _choice(translate("identification", "Axis"))
@@ -47,7 +48,7 @@ class Controls(QWidget):
             _choice(translate("identification", "Output")),
         )
         self.view = _choice(
-            translate("identification", "What is shown"),
+            translate("identification", "Analysis"),
             [(localized(view.value), view) for view in View],
         )
         averages = translate("identification", "{n} averages")
@@ -58,8 +59,8 @@ class Controls(QWidget):
         self.averages.setToolTip(
             translate(
                 "identification",
-                "Segments of Welch's method: more are smoother, fewer resolve narrower peaks. "
-                "A periodic record is averaged over its periods instead.",
+                "Segments of Welch's method: more segments smooth the curve, fewer resolve "
+                "narrower peaks. A periodic record is averaged over its periods instead.",
             )
         )
         self.method = _choice(
@@ -79,11 +80,9 @@ class Controls(QWidget):
         )
         self.copy.setToolTip(translate("identification", "Copy the figures as text"))
         self.save.setToolTip(translate("identification", "Write the figures into a file"))
-        self.keep = QPushButton(translate("identification", "Keep card"))
+        self.keep = QPushButton(translate("identification", "Store card"))
         self.keep.setToolTip(
-            translate(
-                "identification", "Write this health card behind the earlier ones of the axis"
-            )
+            translate("identification", "Store this health card with the earlier ones of the axis")
         )
         self._lay_out()
         self.axis.activated.connect(self._change_axis)

@@ -109,9 +109,11 @@ class Prepared:
             bound=exact(axis.bounds.max_speed or 0.0, unit),
             time=_lasting(self.dry_run.duration_s),
         )
-        change = translate("identification", "Changed: {change}.")
+        change = translate("identification", "Reduced to the limits: {change}.")
         changed = (change.format(change=each.message) for each in self.made.adjustments)
-        verdict = translate("identification", "Dry run: inside all limits and the tip's bounds.")
+        verdict = translate(
+            "identification", "Dry run: within all limits and the bounds of the tip."
+        )
         if self.objection:
             verdict = translate("identification", "Not playable: {reason}")
         return "\n".join([asks, *changed, verdict.format(reason=self.objection)])
@@ -211,8 +213,8 @@ def _number(name: str, text: str, unit: str) -> float | None:
         raise ExcitationError(
             translate(
                 "identification",
-                "{name}: {text} is no number of {unit}; write it like 2.5 {unit}, or leave it "
-                "empty",
+                "{name}: {text} is not a number in {unit}; enter a value such as 2.5 "
+                "{unit}, or leave the field empty",
             ).format(name=translate("identification", name), text=repr(text[:40]), unit=unit)
         )
     return number

@@ -30,12 +30,11 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import parsed
 from rotemina.sim.records.record import Record
 
-CHECKING = marked("identification", "Making the motion, and trying it on the model …")
+CHECKING = marked("identification", "Computing the motion and checking it on the model …")
 _AMPLITUDE = marked(
     "identification",
-    "Amplitude. To each side of the middle, such as 5um, 200urad or 30% of the range; what "
-    "exceeds a limit is "
-    "reduced, and said",
+    "Amplitude each way from the middle, such as 5um, 200urad or 30% of the "
+    "range; a value beyond a limit is reduced, with a notice",
 )
 
 
@@ -70,19 +69,19 @@ class ExciteView(QWidget):
         self.amplitude.setPlaceholderText(translate("identification", "amplitude"))
         self.frequency = _field(
             translate("identification", "Frequency of the excitation"),
-            translate("identification", "Frequency, above 0 Hz; of a multisine the highest"),
+            translate("identification", "Frequency, above 0 Hz; the highest one of a multisine"),
         )
         self.time = _field(
             translate("identification", "Time of the excitation"),
             translate(
-                "identification", "Duration, above 0 s; of a staircase the rest on each level"
+                "identification", "Duration, above 0 s; the rest on each level of a staircase"
             ),
         )
-        self.here = QCheckBox(translate("identification", "about here"))
+        self.here = QCheckBox(translate("identification", "around here"))
         self.here.setToolTip(
             translate(
                 "identification",
-                "Move about where the axis stands; off: about the middle of its range",
+                "Move around the present position; off: around the middle of the range",
             )
         )
         self.told, self.owner = plain_text(quiet=False, wrap=True), plain_text(wrap=True)
@@ -91,8 +90,8 @@ class ExciteView(QWidget):
             QPushButton(translate("identification", "Stop")),
         )
         self.play.setProperty("primary", True)
-        self.play.setToolTip(translate("identification", "Play it; the record is analysed at once"))
-        self.stop.setToolTip(translate("identification", "Stop the machine, and end it"))
+        self.play.setToolTip(translate("identification", "Play the motion and analyse the record"))
+        self.stop.setToolTip(translate("identification", "Stop the machine and end the motion"))
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
@@ -180,18 +179,18 @@ class ExciteView(QWidget):
         driver = session.owners.get(axis)
         owner = translate("identification", "{axis}: free")
         if driver:
-            owner = translate("identification", "{axis}: driven by {driver}")
+            owner = translate("identification", "{axis}: controlled by {driver}")
         self.owner.setText(owner.format(axis=label(axis), driver=spoken(driver or "")))
         allow(
             self.play,
             self._why_not(session, state),
-            translate("identification", "Play it; the record is analysed at once"),
+            translate("identification", "Play the motion and analyse the record"),
         )
         waits = under_way or self._awaited.what is not None
         allow(
             self.stop,
-            None if waits else translate("identification", "it is not playing"),
-            translate("identification", "Stop the machine, and end it"),
+            None if waits else translate("identification", "the motion is not playing"),
+            translate("identification", "Stop the machine and end the motion"),
         )
         share = state.path_s / state.duration_s if under_way and state.duration_s else 0.0
         self.progress.setValue(round(1000 * share))
@@ -209,7 +208,7 @@ class ExciteView(QWidget):
         return (
             None
             if session.activity is DeviceState.IDLE
-            else translate("identification", "the axes still move")
+            else translate("identification", "the axes are still moving")
         )
 
     def _take(self, answer: Prepared | str) -> None:
@@ -265,11 +264,14 @@ class ExciteView(QWidget):
 
     def _lay_out(self) -> None:
         self.axis.setAccessibleName(translate("identification", "Axis to excite"))
-        self.axis.setToolTip(translate("identification", "Axis to excite; the others stand still"))
+        self.axis.setToolTip(
+            translate("identification", "Axis to be excited; the others stay at rest")
+        )
         self.wave.setAccessibleName(translate("identification", "Motion of the excitation"))
         self.wave.setToolTip(
             translate(
-                "identification", "Motion of the excitation: what each tells is in the help (F1)"
+                "identification",
+                "Motion of the excitation; the help (F1) describes what each one shows",
             )
         )
         grid = QGridLayout()
@@ -299,6 +301,6 @@ def _field(name: str, tip: str) -> QLineEdit:
     field = QLineEdit()
     field.setAccessibleName(name)
     field.setToolTip(
-        translate("identification", "{tip}; empty: what suits the axis").format(tip=tip)
+        translate("identification", "{tip}; empty: a value that suits the axis").format(tip=tip)
     )
     return field

@@ -92,7 +92,7 @@ def answered(look: Callable[[Question], Findings], question: Question) -> Findin
     except Exception as error:  # a fault of the program must reach the operator, not vanish
         logger.exception("identification failed")
         reason = FilledTemplate(
-            marked("identification", "a fault of the program: {kind}: {error}"),
+            marked("identification", "program error: {kind}: {error}"),
             kind=type(error).__name__,
             error=error,
         )

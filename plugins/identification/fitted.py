@@ -51,7 +51,7 @@ def model_findings(question: Question) -> Findings:
             FilledTemplate(
                 marked(
                     "identification",
-                    "Fitted to the first {n} of {rows} rows: more would take long.",
+                    "The fit uses the first {n} of {rows} rows, to save time.",
                 ),
                 n=signals.count,
                 rows=whole.count,
@@ -140,7 +140,7 @@ def _rows(
     if model.prediction_percent is not None:
         rows.append(
             (
-                marked("identification", "fit of one step ahead"),
+                marked("identification", "fit one step ahead"),
                 f"{fixed(model.prediction_percent, 2)} %",
                 "",
             )
@@ -204,7 +204,8 @@ def _doubts(model: IdentifiedModel, modes: tuple[NaturalMode, ...]) -> list[str]
         doubts.append(
             marked(
                 "identification",
-                "The fitted model is unstable: it stands for noise or drift; fit by output error.",
+                "The fitted model is unstable: it describes noise or drift. Choose the "
+                "method output error.",
             )
         )
     elif model.fit_percent < _GOOD_FIT:
@@ -212,9 +213,8 @@ def _doubts(model: IdentifiedModel, modes: tuple[NaturalMode, ...]) -> list[str]
             FilledTemplate(
                 marked(
                     "identification",
-                    "Fit {fit:.1f} %, below {bound:g} %: noise, distortion, another axis or too "
-                    "few poles; "
-                    "frequency and damping are not those of the machine.",
+                    "The fit of {fit:.1f} % is below {bound:g} %: noise, distortion, another "
+                    "axis or too few poles. Frequency and damping are not those of the machine.",
                 ),
                 fit=model.fit_percent,
                 bound=_GOOD_FIT,
@@ -226,9 +226,8 @@ def _doubts(model: IdentifiedModel, modes: tuple[NaturalMode, ...]) -> list[str]
             FilledTemplate(
                 marked(
                     "identification",
-                    "One step ahead it fits {ahead:.1f} %, simulated {fit:.1f} %: noise of the "
-                    "sensor "
-                    "spoils ARX; fit by output error.",
+                    "The model fits {ahead:.1f} % one step ahead but {fit:.1f} % in simulation:"
+                    " sensor noise biases ARX. Choose the method output error.",
                 ),
                 ahead=predicted,
                 fit=model.fit_percent,
@@ -253,9 +252,8 @@ def _mode_doubts(mode: NaturalMode, rate_hz: float) -> list[str]:
             FilledTemplate(
                 marked(
                     "identification",
-                    "{mode:.4g} Hz lies above {highest:.4g} Hz, {share:g} of half the sampling "
-                    "rate: it "
-                    "is a delay or noise, and no mode of the machine.",
+                    "{mode:.4g} Hz is above {highest:.4g} Hz, {share:g} of half the sampling "
+                    "rate: it is a delay or noise, not a mode of the machine.",
                 ),
                 mode=mode.frequency_hz,
                 highest=highest_hz,
@@ -267,9 +265,8 @@ def _mode_doubts(mode: NaturalMode, rate_hz: float) -> list[str]:
             FilledTemplate(
                 marked(
                     "identification",
-                    "The frequency is known to {deviation:.2g} Hz alone, more than {rough:.0f} "
-                    "%: the record "
-                    "hardly excites it; use faster steps or a multisine.",
+                    "The frequency is uncertain by {deviation:.2g} Hz, more than {rough:.0f} %:"
+                    " the record hardly excites the mode. Use faster steps or a multisine.",
                 ),
                 deviation=mode.frequency_deviation,
                 rough=100 * _ROUGH,

@@ -94,8 +94,9 @@ def estimate(signals: Signals, averages: int) -> Estimate:
         raise TooShortError(
             translate(
                 "identification",
-                "frequency response: {n} samples in {averages} averages leave segments of "
-                "{segment}; at least {least} are needed, record longer or average less",
+                "frequency response: {averages} averages of {n} samples give segments of "
+                "{segment} samples; at least {least} are needed. Record longer or average "
+                "less.",
             ).format(n=signals.count, averages=averages, segment=segment, least=_FEW_LINES)
         )
     found = welch_response(signals, segment=segment)
@@ -184,7 +185,7 @@ def _rows(
     rows = [
         (marked("identification", "gain, lowest line"), scale.text(size[0])),
         (marked("identification", "largest gain"), scale.text(size[peak])),
-        (marked("identification", "at"), f"{rounded(frequency_hz[peak], 5)} Hz"),
+        (marked("identification", "at frequency"), f"{rounded(frequency_hz[peak], 5)} Hz"),
         (
             marked("identification", "median coherence"),
             fixed(np.median(measured.lines.coherence), 4),
@@ -237,9 +238,8 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
             FilledTemplate(
                 marked(
                     "identification",
-                    "The input excites {n} lines alone, up to {highest:.4g} Hz ({wanted} are "
-                    "wanted): "
-                    "nothing is known above; record a multisine or a chirp.",
+                    "The input excites only {n} lines, up to {highest:.4g} Hz ({wanted} lines "
+                    "are needed). Record a multisine or a chirp to see higher frequencies.",
                 ),
                 n=len(frequency_hz),
                 highest=frequency_hz[-1],
@@ -252,9 +252,8 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
             FilledTemplate(
                 marked(
                     "identification",
-                    "Coherence is below {bound:g} on {n} of {lines} lines: noise, distortion, "
-                    "another "
-                    "axis or leakage; look at the interval there.",
+                    "The coherence is below {bound:g} on {n} of {lines} lines: noise, "
+                    "distortion, another axis or leakage. The interval is wide there.",
                 ),
                 bound=_COHERENT,
                 n=poor,
@@ -269,8 +268,8 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
                     marked(
                         "identification",
                         "The resonance is {width:.3g} Hz wide, less than {lines} lines of "
-                        "{resolution:.3g} Hz: it looks flatter than it is; average less or "
-                        "record longer.",
+                        "{resolution:.3g} Hz: it appears flatter than it is. Average less or record"
+                        " longer.",
                     ),
                     width=width_hz,
                     lines=_NARROW,
@@ -282,9 +281,8 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
                 FilledTemplate(
                     marked(
                         "identification",
-                        "One mode misses the peak by {misfit:.0f} % (bound {bound:.0f} %): there "
-                        "may be "
-                        "two; damping is rough.",
+                        "A single mode misses the peak by {misfit:.0f} % (bound {bound:.0f} %): "
+                        "there may be two modes, and the damping is inaccurate.",
                     ),
                     misfit=100 * resonance.misfit,
                     bound=100 * _MISFIT,

@@ -97,7 +97,7 @@ def _notices(rows: tuple[Compared, ...], date: str | None, kept: int) -> list[st
         return [
             marked(
                 "identification",
-                "No card of this axis is kept yet: keep this one to compare with it later.",
+                "There is no card of this axis yet. Store this one to compare with it later.",
             )
         ]
     changed = [row.now.name for row in rows if row.changed]

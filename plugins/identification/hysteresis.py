@@ -38,9 +38,8 @@ def loop_findings(question: Question) -> Findings:
             FilledTemplate(
                 marked(
                     "identification",
-                    "Measured are the cycles of the first {n} of {rows} rows, which turn {turns} "
-                    "times: "
-                    "the input is noise or very long.",
+                    "The figures use the first {n} of {rows} rows, with {turns} reversals: the "
+                    "input is noise, or very long.",
                 ),
                 n=rows,
                 rows=len(driven),
@@ -61,7 +60,7 @@ def loop_findings(question: Question) -> Findings:
             FilledTemplate(
                 marked(
                     "identification",
-                    "Drawn are the first {n} of {rows} rows; the figures are not cut there.",
+                    "The plot shows the first {n} of {rows} rows; the figures use all rows.",
                 ),
                 n=_MOST_DRAWN,
                 rows=len(x),
@@ -123,7 +122,7 @@ def _pictures(
     pictures = []
     for title, curves in (
         (str(question.answer), drawn),
-        (marked("identification", "off a straight line"), off),
+        (marked("identification", "deviation from a straight line"), off),
     ):
         size = max(float(np.abs(v).max(initial=0.0)) for _, _, _, v, _ in curves)
         up = scale_of(question.unit(question.answer), size)
@@ -165,7 +164,7 @@ def _sheet(
     stroke = figure(marked("identification", "stroke"), over, lambda each: each.stroke)
     width = figure(marked("identification", "largest width"), over, lambda each: each.width_max)
     middle = figure(
-        marked("identification", "width at the middle"), over, lambda each: each.width_mid
+        marked("identification", "width at mid-range"), over, lambda each: each.width_mid
     )
     across, up = span.scale, stroke.scale
     both = f"{up.symbol}²" if across == up else f"{across.symbol}·{up.symbol}"
@@ -181,7 +180,9 @@ def _sheet(
             [each.width_percent for each in beside],
         ),
         middle._replace(scale=width.scale),
-        figure(marked("identification", "play across"), under, lambda each: each.input_width_mid),
+        figure(
+            marked("identification", "backlash width"), under, lambda each: each.input_width_mid
+        ),
         Figure(
             marked("identification", "area"),
             area,
@@ -203,7 +204,7 @@ def _exponent(found: tuple[Loop, ...]) -> str:
     try:
         return f"p = {rounded(amplitude_exponent(found), 3)}"
     except ExcitationError:
-        return marked("identification", "too alike")
+        return marked("identification", "too similar")
 
 
 def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
@@ -216,8 +217,8 @@ def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
             FilledTemplate(
                 marked(
                     "identification",
-                    "A cycle has {rows:.0f} rows, fewer than {least}: the loop is that of lag and "
-                    "resonance; drive slower cycles.",
+                    "A cycle has {rows:.0f} rows, fewer than {least}: lag and resonance cause "
+                    "the loop. Drive slower cycles.",
                 ),
                 rows=rows,
                 least=_SLOW,
@@ -229,13 +230,12 @@ def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
             FilledTemplate(
                 marked(
                     "identification",
-                    "Width below 0: the output leads, or the {lag} sample of lag that is taken "
-                    "out for a "
-                    "held command is more than the axis has; drive slower cycles.",
+                    "The width is negative: the output leads, or the axis lags less than the "
+                    "{lag} sample subtracted for a stepwise command. Drive slower cycles.",
                 ),
                 lag=lag,
             )
             if lag
-            else marked("identification", "Width below 0: the output leads the input.")
+            else marked("identification", "The width is negative: the output leads the input.")
         )
     return doubts

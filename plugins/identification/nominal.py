@@ -6,7 +6,7 @@ from rotemina.sim.identification.signals import Signals, siso
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 
-ABSENT = marked("identification", "No nominal model beside it: {reason}")
+ABSENT = marked("identification", "The nominal model is not shown: {reason}")
 
 
 def nominal_signals(question: Question) -> Signals:

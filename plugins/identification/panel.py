@@ -40,7 +40,7 @@ from rotemina.sim.records.record import Record
 
 EMPTY = marked(
     "identification",
-    "Excite an axis, play a trajectory, or open a record, to see what it says about the machine.",
+    "Excite an axis, play a trajectory or open a record to identify the machine.",
 )
 RECORDS = marked("identification", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
 CHARTS = 3
@@ -193,7 +193,7 @@ class IdentificationPanel(Panel):
             if self._name:
                 axis = self.controls.axis.currentText()
                 text = translate(
-                    "identification", "{record}: axis {axis} has no pair of an input and an output."
+                    "identification", "{record}: axis {axis} lacks an input or an output."
                 )
                 self._say([text.format(record=self._name, axis=axis)])
             return
@@ -287,14 +287,14 @@ class IdentificationPanel(Panel):
             return
         self.workbench.work(
             "health card",
-            translate("identification", "Keeping the health card …"),
+            translate("identification", "Storing the health card …"),
             lambda: keep_card(findings.question),
             lambda _: self._kept(findings.question),
         )
 
     def _kept(self, question: Question) -> None:
         """Look again: what was kept is the last card now."""
-        text = translate("identification", "Kept the health card of {axis}")
+        text = translate("identification", "Stored the health card of {axis}")
         self.workbench.notify(Level.GOOD, text.format(axis=question.axis))
         self._known.pop(View.HEALTH, None)
         if question is self._question and self.controls.shown is View.HEALTH:
@@ -344,5 +344,5 @@ def _scrolled(section: QWidget) -> QScrollArea:
 def _notices() -> QPlainTextEdit:
     notices = QPlainTextEdit()
     notices.setReadOnly(True)
-    notices.setAccessibleName(translate("identification", "What the record cannot tell"))
+    notices.setAccessibleName(translate("identification", "Limits of this record"))
     return notices

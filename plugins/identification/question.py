@@ -78,7 +78,8 @@ class Question:
         if self.drive == self.answer:
             raise IdentificationError(
                 translate(
-                    "identification", "{axis}: input and output are both {tap}; choose two taps"
+                    "identification",
+                    "{axis}: input and output are both {tap}; choose two different signals",
                 ).format(axis=self.axis, tap=self.drive)
             )
         for tap in (self.drive, self.answer):

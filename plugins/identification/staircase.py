@@ -127,7 +127,9 @@ def _figures(
 
     figures = [
         figure(
-            marked("identification", "at"), lambda _: Scale("s", 1.0), lambda each: each.start_s
+            marked("identification", "at frequency"),
+            lambda _: Scale("s", 1.0),
+            lambda each: each.start_s,
         ),
         figure(
             marked("identification", "size of the step"),
@@ -236,7 +238,7 @@ def _closest(
         FilledTemplate(
             marked("identification", "largest step, at {time:.4g} s [1]"), time=step.start_s
         ),
-        marked("identification", "since the step [ms]"),
+        marked("identification", "time since the step [ms]"),
         tuple(curves),
     )
 
@@ -249,8 +251,8 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
                 marked(
                     "identification",
                     "The input takes up to {ramp:.3g} ms from level to level, as fast as its "
-                    "limits "
-                    "allow: times count from where that begins, the model's too.",
+                    "limits allow. All times count from the start of that ramp, for the model "
+                    "too.",
                 ),
                 ramp=1e3 * ramp_s,
             )
@@ -265,8 +267,8 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
                 FilledTemplate(
                     marked(
                         "identification",
-                        "{name}: {n} of {steps} steps do not show it; they still move, or noise "
-                        "exceeds the band, at the end of their hold.",
+                        "{name}: {n} of {steps} steps give no value; at the end of the hold the "
+                        "axis still moves, or noise exceeds the band.",
                     ),
                     name=name,
                     n=missing,
@@ -279,8 +281,8 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
             FilledTemplate(
                 marked(
                     "identification",
-                    "{n} of {steps} steps are smaller than 10 times the noise about their level: "
-                    "overshoot and times are those of the noise; record larger steps.",
+                    "{n} of {steps} steps are smaller than 10 times the noise, which determines"
+                    " overshoot and times. Record larger steps.",
                 ),
                 n=faint,
                 steps=len(found),

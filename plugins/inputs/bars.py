@@ -32,8 +32,8 @@ class AxisBar(QWidget):
             plain_tip(
                 translate(
                     "inputs",
-                    "{name}: thin what the device says, thick the calibrated deflection, both "
-                    "−100 % to 100 %; shaded the dead zone",
+                    "{name}: raw value of the device (thin) and calibrated deflection (thick), "
+                    "−100 % to 100 %; the dead zone is shaded",
                 ).format(name=name)
             )
         )
@@ -114,7 +114,9 @@ class Lamps(QWidget):
             self._lit = lit
             held = ", ".join(control_name(name) for name in names if name in lit)
             self.setAccessibleDescription(
-                translate("inputs", "Down: {held}").format(held=held or translate("inputs", "none"))
+                translate("inputs", "Pressed: {held}").format(
+                    held=held or translate("inputs", "none")
+                )
             )
         self.update()
 
@@ -179,7 +181,7 @@ class Curve(QWidget):
         self.setAccessibleName(translate("inputs", "Response curve"))
         self.setToolTip(
             translate(
-                "inputs", "Across what the device says, upwards the deflection that comes of it"
+                "inputs", "Horizontal: raw value of the device; vertical: the resulting deflection"
             )
         )
 

@@ -90,7 +90,7 @@ class Calibrating:
         """
         if not wanted:
             raise CalibrationError(
-                translate("inputs", "no axis is chosen: choose those that are to be measured")
+                translate("inputs", "no axis is chosen: choose the axes to measure")
             )
         sides = [axis for axis in one_sided if axis in wanted]
         self._run = CalibrationRun(self.device.axes, wanted, sides, last)

@@ -39,16 +39,16 @@ class CalibrationSection(Section):
         self.curve = Curve(workbench.theme)
         self.column.addWidget(self.curve)
         self._make_fields()
-        self.keep = button(translate("inputs", "Keep"), self._keep)
+        self.keep = button(translate("inputs", "Apply"), self._keep)
         self.keep.setProperty("primary", True)
         self.discard = button(translate("inputs", "Discard"), self._discard)
         self.defaults = button(translate("inputs", "Defaults"), self._forget)
-        self.defaults.setToolTip(translate("inputs", "This axis as one that was never calibrated"))
+        self.defaults.setToolTip(translate("inputs", "Reset this axis to the uncalibrated state"))
         self.add_row(self.keep, self.discard, self.defaults, equal=False)
 
     def _make_fields(self) -> None:
         about = translate(
-            "inputs", "Half the width of the range about the centre that counts as centred, raw"
+            "inputs", "Half width of the range around the centre that counts as centred, raw value"
         )
         self.dead_zone = NumberField(translate("inputs", "Dead zone"), "", about, 0.001, 0.5)
         self.expo = NumberField(
@@ -61,13 +61,13 @@ class CalibrationSection(Section):
         self.travel = NumberField(
             translate("inputs", "Travel"),
             "mm",
-            translate("inputs", "Way of the grip from rest to an end"),
+            translate("inputs", "Distance of the grip from rest to either end"),
             0.1,
             1000.0,
             optional=True,
         )
         self.inverted = QCheckBox(translate("inputs", "Inverted"))
-        self.inverted.setToolTip(translate("inputs", "The deflection has the other sign"))
+        self.inverted.setToolTip(translate("inputs", "Reverse the sign of the deflection"))
         form = QFormLayout()
         form.setContentsMargins(0, 0, 0, 0)
         form.setVerticalSpacing(4)
@@ -108,12 +108,12 @@ class CalibrationSection(Section):
         allow(
             self.keep,
             unchanged,
-            translate("inputs", "Use this calibration from now on, and keep it for the device"),
+            translate("inputs", "Use this calibration from now on and store it for the device"),
         )
         allow(
             self.discard,
             unchanged,
-            translate("inputs", "Go back to the calibration that is in use"),
+            translate("inputs", "Restore the calibration in use"),
         )
         raw = next((a.raw for a in device.axes if a.control == self.axis.currentData()), None)
         self.curve.show_curve(self._shown, raw)
@@ -132,7 +132,7 @@ class CalibrationSection(Section):
         if lost:
             self._workbench.notify(
                 Level.WARNING,
-                translate("inputs", "The changed calibration of {names} was not kept.").format(
+                translate("inputs", "The changed calibration of {names} was not stored.").format(
                     names=translate("inputs", " and ").join(lost)
                 ),
                 about=self,
@@ -169,11 +169,13 @@ class CalibrationSection(Section):
             widget.setVisible(not none)
         if none:
             self.summary.setText(
-                translate("inputs", "It has no axes: there is nothing to calibrate.")
+                translate("inputs", "The device has no axes: there is nothing to calibrate.")
             )
             return
         one = self._shown
-        self.summary.setText(translate("inputs", "Says {one}.").format(one=summary(one)))
+        self.summary.setText(
+            translate("inputs", "The device reports {one}.").format(one=summary(one))
+        )
         self.dead_zone.reset(one.dead_zone)
         self.expo.reset(one.expo)
         self.travel.reset(None if one.travel_m is None else _MM * one.travel_m)
@@ -206,7 +208,7 @@ class CalibrationSection(Section):
             now.kept = now.draft
             self._workbench.notify(
                 Level.GOOD,
-                translate("inputs", "The calibration of {name} is kept.").format(
+                translate("inputs", "The calibration of {name} is stored.").format(
                     name=device_name(identity)
                 ),
             )

@@ -27,10 +27,11 @@ class DeviceList(Section):
         super().__init__(translate("inputs", "Devices"))
         self.none = self.add_text()
         show_text(
-            self.none, translate("inputs", "None yet. Plug one in; it is found within a second.")
+            self.none,
+            translate("inputs", "No device. A device that is plugged in appears within a second."),
         )
         self.list = QListWidget()
-        self.list.setAccessibleName(translate("inputs", "Input devices that are plugged in"))
+        self.list.setAccessibleName(translate("inputs", "Connected input devices"))
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.currentItemChanged.connect(lambda *_: self._pick())

@@ -96,8 +96,8 @@ class Edited:
             raise ProfileError(
                 translate(
                     "inputs",
-                    "{action}: {percent:g} % of the deflection cannot be a threshold; it must be "
-                    "{least:g} to 100 % one way or the other",
+                    "{action}: the threshold of {percent:g} % of the deflection must be "
+                    "{least:g} to 100 % in either direction",
                 ).format(action=action, percent=100 * at, least=100 * LEAST_AT)
             )
 
@@ -134,8 +134,8 @@ class Edited:
             raise ProfileError(
                 translate(
                     "inputs",
-                    "profile {profile!r} would be left without any device; map another one "
-                    "first, or choose another profile",
+                    "profile {profile!r} would have no device; map another device first, or "
+                    "choose another profile",
                 ).format(profile=self._profile.name)
             )
         return replace(self._profile, devices=kept)

@@ -39,7 +39,7 @@ class AxisRow(QFrame):
             translate("inputs", "Axis {name}: raw, calibrated").format(name=name)
         )
         self.numbers.setToolTip(
-            translate("inputs", "What the device says, −1 to 1, and the calibrated deflection")
+            translate("inputs", "Raw value of the device, −1 to 1, and calibrated deflection")
         )
         self.about = ElidedLabel()
         self.about.setProperty("quiet", True)
@@ -107,7 +107,8 @@ class LiveSection(Section):
 def _said(view: DeviceView, age_s: float | None) -> str:
     if age_s is not None:
         return translate(
-            "inputs", "Old: the devices were read {age_s:.1f} s ago. Nothing is steered by them."
+            "inputs",
+            "Outdated: the devices were last read {age_s:.1f} s ago. They do not control any axis.",
         ).format(age_s=age_s)
     if view.problem is not None:
         problem = spoken(view.problem)
@@ -115,5 +116,5 @@ def _said(view: DeviceView, age_s: float | None) -> str:
     return (
         ""
         if view.device.axes or view.device.buttons
-        else translate("inputs", "It has neither axes nor buttons.")
+        else translate("inputs", "The device has neither axes nor buttons.")
     )

@@ -61,14 +61,16 @@ class Row(QObject):
         text = self._controls(edited)
         self.control.setChecked(finding is not None)
         self.control.setText(
-            translate("inputs", "move it now …") if finding is not None else text or NOBODY
+            translate("inputs", "move it …") if finding is not None else text or NOBODY
         )
-        tip = finding or translate("inputs", "Press this, then move the control that is to do it")
+        tip = finding or translate(
+            "inputs", "Press this field, then move the control for this action"
+        )
         self.control.setToolTip(plain_tip(self.name, text, tip))
         allow(
             self.clear,
-            None if text else translate("inputs", "nothing does it"),
-            translate("inputs", "{name}: by nothing").format(name=self.name),
+            None if text else translate("inputs", "not mapped"),
+            translate("inputs", "{name}: not mapped").format(name=self.name),
         )
 
     def _controls(self, edited: Edited) -> str:
@@ -93,9 +95,7 @@ class TargetRow(Row):
         self.inverted.setAccessibleName(
             translate("inputs", "Inverted: {name}").format(name=self.name)
         )
-        self.inverted.setToolTip(
-            translate("inputs", "Inverted: the other way than its calibration says")
-        )
+        self.inverted.setToolTip(translate("inputs", "Inverted: opposite to the calibration"))
         self.inverted.clicked.connect(lambda on: self.changed.emit(on))
         self._place_extra(grid, self.inverted)
 

@@ -23,11 +23,11 @@ from rotemina.plugins.inputs.profiles import ProfileChoice
 from rotemina.plugins.inputs.words import ACTIONS, axis_targets, device_name, way_of
 from rotemina.sim.errors import InputError
 
-HINT = marked("inputs", "Press a field, then move the control that is to do it.")
+HINT = marked("inputs", "Press a field, then move the control for its action.")
 _SEATS = {
     marked("inputs", "Trainer"): OperatorRole.TRAINER,
     marked("inputs", "Trainee"): OperatorRole.TRAINEE,
-    marked("inputs", "Does nothing"): None,
+    marked("inputs", "No action"): None,
 }
 
 
@@ -105,12 +105,12 @@ class MappingSection(Section):
         alone = (
             None
             if len(seats) > 1
-            else translate("inputs", "all devices of the profile are at one seat")
+            else translate("inputs", "all devices of the profile belong to one seat")
         )
         allow(
             self.exchange,
             alone,
-            translate("inputs", "The trainer's devices become the trainee's, and theirs his"),
+            translate("inputs", "Exchange the devices of trainer and trainee"),
         )
         for row in self._rows:
             row.show_edited(edited, self.message.text() if row is self._row else None)

@@ -14,10 +14,12 @@ from rotemina.plugins.inputs.calibrating import Calibrating, Step
 
 _TEXTS = {
     Step.EDIT: marked(
-        "inputs", "Choose the axes to measure. Tick those that rest at an end: triggers, pedals."
+        "inputs",
+        "Choose the axes to measure. Tick the ones that rest at an end, such as "
+        "triggers and pedals.",
     ),
-    Step.REST: marked("inputs", "1 of 2: let go of the device, and leave it alone."),
-    Step.SWEEP: marked("inputs", "2 of 2: move each axis to all its ends, some times."),
+    Step.REST: marked("inputs", "1 of 2: release the device and do not touch it."),
+    Step.SWEEP: marked("inputs", "2 of 2: move each axis several times to both ends."),
 }
 
 
@@ -73,11 +75,7 @@ class Measuring(QWidget):
 
     def _show_problems(self, now: Calibrating) -> None:
         problems = now.missing if now.step is Step.SWEEP else now.problems
-        lead = (
-            ""
-            if now.step is Step.SWEEP or not problems
-            else translate("inputs", "Left as they were:\n")
-        )
+        lead = "" if now.step is Step.SWEEP or not problems else translate("inputs", "Unchanged:\n")
         show_text(
             self.problems, lead + "\n".join(map(spoken, problems.values())) if problems else ""
         )
@@ -87,28 +85,28 @@ class Measuring(QWidget):
             why = (
                 None
                 if any(box.isChecked() for box in self.wanted.values())
-                else translate("inputs", "none is ticked")
+                else translate("inputs", "no axis is ticked")
             )
             self.next.setText(translate("inputs", "Measure …"))
             allow(self.next, why, translate("inputs", "Measure rest and ends of the ticked axes"))
         elif now.step is Step.REST:
             left_s = now.rest_left_s(now_s)
             self.next.setText(
-                translate("inputs", "It rests: next")
+                translate("inputs", "At rest: next")
                 if left_s == 0.0
                 else translate("inputs", "{left_s:.1f} s …").format(left_s=left_s)
             )
             allow(
                 self.next,
-                None if left_s == 0.0 else translate("inputs", "its noise is measured"),
-                translate("inputs", "Go on to the ends"),
+                None if left_s == 0.0 else translate("inputs", "measuring the noise"),
+                translate("inputs", "Continue with the ends"),
             )
         else:
             good = len(now.ranges) and not now.missing
             self.next.setText(
                 translate("inputs", "Done") if good else translate("inputs", "Done, without these")
             )
-            allow(self.next, None, translate("inputs", "Take over what was measured well"))
+            allow(self.next, None, translate("inputs", "Use the successful measurements"))
 
     def _next(self) -> None:
         now, device = self._now, self._device

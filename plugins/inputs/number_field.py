@@ -46,7 +46,7 @@ class NumberField(QLineEdit):
             .rstrip()
         )
         self._about = f"{about}: {self._bounds}" + (
-            translate("inputs", ", or nothing") if optional else ""
+            translate("inputs", ", or empty") if optional else ""
         )
         self._value: float | None = None
         self._wrong = ""
@@ -81,12 +81,12 @@ class NumberField(QLineEdit):
         elif number is None:
             self._mark(
                 translate(
-                    "inputs", "{text!r} is no number; type one with a decimal point, {bounds}"
+                    "inputs", "{text!r} is not a number; enter one with a decimal point, {bounds}"
                 ).format(text=text, bounds=self._bounds)
             )
         elif not self._low <= number <= self._high:
             self._mark(
-                translate("inputs", "{value} is refused: must be {bounds}").format(
+                translate("inputs", "{value} is outside {bounds}").format(
                     value=f"{text} {self._unit}".rstrip(), bounds=self._bounds
                 )
             )

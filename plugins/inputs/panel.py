@@ -78,11 +78,11 @@ class InputsPanel(Panel):
         self.set_up = QPushButton(translate("inputs", "Set up …"))
         self.set_up.setCheckable(True)
         self.set_up.setToolTip(
-            translate("inputs", "Map and calibrate; meanwhile nothing is sent but stops")
+            translate("inputs", "Map and calibrate; meanwhile only stops are sent")
         )
         self.set_up.toggled.connect(self._toggle)
         self.tabs = QTabBar()
-        self.tabs.setAccessibleName(translate("inputs", "What is set up"))
+        self.tabs.setAccessibleName(translate("inputs", "Section of the set-up"))
         self.tabs.setDrawBase(False)
         for page in Page:
             self.tabs.addTab(translate("inputs", page))

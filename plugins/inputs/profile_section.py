@@ -28,21 +28,21 @@ class ProfileSection(Section):
         self.again = QToolButton()
         self.again.setText("⟳")
         self.again.setAccessibleName(translate("inputs", "Refresh the profiles"))
-        self.again.setToolTip(translate("inputs", "Refresh the folder of profiles"))
+        self.again.setToolTip(translate("inputs", "Read the folder of profiles again"))
         self.add_row(self.choice, self.again, equal=False)
         self.state = self.add_text()
         self.name = QLineEdit()
-        self.name.setAccessibleName(translate("inputs", "Name to keep the profile under"))
+        self.name.setAccessibleName(translate("inputs", "Name of the profile"))
         self.name.setToolTip(
             translate("inputs", "Letters, digits, blanks and ( ) . , + - _; at most 60")
         )
         self.name.setMaxLength(60)
         self.save = button(translate("inputs", "Save"), self._ask_save)
         self.save.setToolTip(
-            translate("inputs", "Keep the profile under this name, and use it from now on")
+            translate("inputs", "Save the profile under this name and use it from now on")
         )
         self.discard = button(translate("inputs", "Discard"), self._discard)
-        self.discard.setToolTip(translate("inputs", "Go back to the profile as it was chosen"))
+        self.discard.setToolTip(translate("inputs", "Discard the changes of the profile"))
         self.keeping = QWidget()
         row = QHBoxLayout(self.keeping)
         row.setContentsMargins(0, 0, 0, 0)
@@ -68,7 +68,7 @@ class ProfileSection(Section):
         allow(
             self.choice,
             translate("inputs", _FIRST) if profiles.changed else None,
-            translate("inputs", "What the controls do"),
+            translate("inputs", "Functions of the controls"),
         )
         show_text(self.state, _state(view, profiles))
         self.keeping.setVisible(view.setting_up)
@@ -84,12 +84,10 @@ class ProfileSection(Section):
         allow(
             self.save,
             nothing,
-            translate("inputs", "Keep the profile under this name, and use it from now on"),
+            translate("inputs", "Save the profile under this name and use it from now on"),
         )
         unchanged = None if profiles.changed else translate("inputs", "nothing was changed")
-        allow(
-            self.discard, unchanged, translate("inputs", "Go back to the profile as it was chosen")
-        )
+        allow(self.discard, unchanged, translate("inputs", "Discard the changes of the profile"))
 
     def _suggest(self) -> None:
         """Write a name, unless somebody has written one."""
@@ -120,7 +118,7 @@ class ProfileSection(Section):
     def _ask_save(self) -> None:
         name = self.name.text().strip()
         if name != self.profiles.chosen and self.profiles.exists(name):
-            asked = translate("inputs", "There is a profile {name!r} already. Overwrite it?")
+            asked = translate("inputs", "Profile {name!r} already exists. Overwrite it?")
             self.question.ask(asked.format(name=name), translate("inputs", "Overwrite"), self._save)
         else:
             self._save()
@@ -132,7 +130,7 @@ class ProfileSection(Section):
             self._suggested = name
             self._workbench.notify(
                 Level.GOOD,
-                translate("inputs", "Input devices: profile {name!r} is kept.").format(name=name),
+                translate("inputs", "Input devices: profile {name!r} is saved.").format(name=name),
             )
 
     def _discard(self) -> None:
@@ -147,7 +145,8 @@ def _state(view: DevicesView, profiles: ProfileChoice) -> str:
             else translate("inputs", "set up, and save it")
         )
         return translate(
-            "inputs", "Changed, and not kept: {where}, or it is lost when the program ends."
+            "inputs",
+            "Changed, but not saved: {where}, or the change is lost when the program ends.",
         ).format(where=where)
     if profiles.chosen == AUTOMATIC and view.profile is not None:
         return translate("inputs", "In use: {name}").format(name=spoken(view.profile.name))

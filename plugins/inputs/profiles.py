@@ -137,7 +137,7 @@ class ProfileChoice:
         profile = self._devices.profile
         if profile is None:
             raise ProfileError(
-                translate("inputs", "there is no profile to keep: map a control first")
+                translate("inputs", "there is no profile to save: map a control first")
             )
         named = _named(profile, name)
         path = self._devices.keep(named)
@@ -169,7 +169,7 @@ class ProfileChoice:
             if listed.profile is None:
                 raise ProfileError(
                     listed.problem
-                    or translate("inputs", "{file}: it cannot be read").format(file=listed.path)
+                    or translate("inputs", "{file}: cannot be read").format(file=listed.path)
                 )
             self._devices.use(listed.profile)
         self.chosen, self.changed = name, False

@@ -16,7 +16,7 @@ from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.drivers.inputs.hub import InputHub
 from rotemina.sim.quantities import fixed
 
-NOTHING_SENT = marked("inputs", "Nothing is sent to the robot while you set up, but stops.")
+NOTHING_SENT = marked("inputs", "During set-up only stops are sent to the robot.")
 ACTIONS = {
     Action.STOP: marked("inputs", "Stop"),
     Action.EMERGENCY_STOP: marked("inputs", "Stop and lock"),
@@ -33,21 +33,21 @@ ACTIONS = {
     Action.TAKE_OVER: marked("inputs", "Take over"),
 }
 ACTION_TIPS = {
-    Action.STOP: marked("inputs", "Stop all axes; works from every device, at any time"),
+    Action.STOP: marked("inputs", "Stop all axes; works from every device at any time"),
     Action.EMERGENCY_STOP: marked(
-        "inputs", "Stop all axes, and latch; works from every device, at any time"
+        "inputs", "Stop all axes and lock; works from every device at any time"
     ),
-    Action.DEAD_MAN: marked("inputs", "The stick acts only while this is held"),
-    Action.CLUTCH: marked("inputs", "The stick moves, and the robot does not, while this is held"),
-    Action.FINE: marked("inputs", "A tenth of the scale while this is held"),
-    Action.COARSE: marked("inputs", "Ten times the scale while this is held"),
-    Action.STAGE: marked("inputs", "Micro, nano, and on to the next mode of steering"),
-    Action.LAW: marked("inputs", "The next scaling law"),
-    Action.STEP_PRESET: marked("inputs", "The next scale"),
-    Action.RECENTRE: marked("inputs", "The piezos back to their middle"),
-    Action.PENETRATION: marked("inputs", "Start the automatic penetration, or stop it"),
+    Action.DEAD_MAN: marked("inputs", "The stick acts only while this is pressed"),
+    Action.CLUTCH: marked("inputs", "While this is pressed, the stick moves without the robot"),
+    Action.FINE: marked("inputs", "A tenth of the scale while this is pressed"),
+    Action.COARSE: marked("inputs", "Ten times the scale while this is pressed"),
+    Action.STAGE: marked("inputs", "Next control mode: micro, nano and so on"),
+    Action.LAW: marked("inputs", "Next scaling law"),
+    Action.STEP_PRESET: marked("inputs", "Next scale preset"),
+    Action.RECENTRE: marked("inputs", "Move the piezos back to mid-range"),
+    Action.PENETRATION: marked("inputs", "Start or stop the automatic penetration"),
     Action.TOOL: marked("inputs", "Tool on or off"),
-    Action.TAKE_OVER: marked("inputs", "Of two seats: this one drives now"),
+    Action.TAKE_OVER: marked("inputs", "This seat takes over control"),
 }
 _WAYS = {
     "x": marked("inputs", "to the right (+x)"),
@@ -125,17 +125,15 @@ def target_tip(target: str) -> str:
     """Return what that means for the robot."""
     if target in DEGREES_OF_FREEDOM:
         axes = translate("inputs", " or ").join(label(axis) for axis in DEGREES_OF_FREEDOM[target])
-        return translate("inputs", "Moves {axes}, by the mode of steering").format(axes=axes)
-    return translate("inputs", "Moves {target} directly, whatever the mode").format(
-        target=label(target)
-    )
+        return translate("inputs", "Moves {axes}, depending on the control mode").format(axes=axes)
+    return translate("inputs", "Moves {target} directly in any mode").format(target=label(target))
 
 
 def way_of(target: str) -> str:
     """Return which way a stick is to be moved for an axis to grow."""
     if target in _WAYS:
         return translate("inputs", _WAYS[target])
-    return translate("inputs", "the way in which {target} is to grow").format(target=label(target))
+    return translate("inputs", "the direction of increasing {target}").format(target=label(target))
 
 
 def entries(view: DevicesView, hub: InputHub) -> tuple[Entry, ...]:
@@ -181,7 +179,7 @@ def udev_rule(key: str) -> str | None:
 def headline(view: DevicesView, wrong: int) -> str:
     """Return who drives, and how much is ``wrong``."""
     if view.setting_up:
-        return translate("inputs", "Being set up: nothing drives.")
+        return translate("inputs", "Set-up: no device controls the robot.")
     problems = {0: "", 1: translate("inputs", "One problem, see below.")}.get(
         wrong, translate("inputs", "{wrong} problems, see below.").format(wrong=wrong)
     )
@@ -190,15 +188,15 @@ def headline(view: DevicesView, wrong: int) -> str:
 
 def _drivers(view: DevicesView) -> str:
     if not view.devices:
-        return translate("inputs", "No input device is plugged in.")
+        return translate("inputs", "No input device is connected.")
     driving = [one for one in view.devices if one.drives]
     names = translate("inputs", " and ").join(device_name(one.device.identity) for one in driving)
     two = len({one.seat for one in view.devices if one.seat is not None}) > 1
     seat = f" ({_seat(view.driving)})" if two else ""
     return (
-        translate("inputs", "{names} may drive{seat}.").format(names=names, seat=seat)
+        translate("inputs", "{names} may control the robot{seat}.").format(names=names, seat=seat)
         if names
-        else translate("inputs", "No device of the driving seat is there.")
+        else translate("inputs", "No device of the controlling seat is connected.")
     )
 
 
@@ -228,15 +226,15 @@ def _standing(one: DeviceView, view: DevicesView) -> str:
         return translate("inputs", "{seat}, being set up").format(seat=_seat(one.seat))
     if not one.drives:
         return (
-            translate("inputs", "trainee, looks on")
+            translate("inputs", "trainee, watching")
             if one.seat is OperatorRole.TRAINEE
             else translate("inputs", "trainer, may take over")
         )
     waiting = [axis.control for axis in one.axes if axis.drives and axis.reason is not None]
     return (
-        translate("inputs", "{seat}, waits for {waiting}").format(
+        translate("inputs", "{seat}, waiting for {waiting}").format(
             seat=_seat(one.seat), waiting=", ".join(waiting)
         )
         if waiting
-        else translate("inputs", "{seat}, drives").format(seat=_seat(one.seat))
+        else translate("inputs", "{seat}, in control").format(seat=_seat(one.seat))
     )

@@ -104,12 +104,12 @@ class ResultView(QFrame):
         for text, tip, panel in (
             (
                 translate("job", "Compare"),
-                translate("job", "Model and real of this run, axis by axis"),
+                translate("job", "Compare model and machine in this run, axis by axis"),
                 "comparison",
             ),
             (
                 translate("job", "Diagnose"),
-                translate("job", "Which effects explain the gap"),
+                translate("job", "Find the effects that explain the gap"),
                 "gap",
             ),
         ):
@@ -172,19 +172,22 @@ class JobPanel(Panel):
         self.playback = Card(translate("job", "Trajectory"))
         self.load = self.playback.add_button(
             translate("job", "Load …"),
-            translate("job", "Choose a trajectory file; a dry run tries it first"),
+            translate("job", "Choose a trajectory file; a dry run checks it first"),
             lambda: self.main_window.ask_trajectory(),
         )
         self.end = self.playback.add_button(
             translate("job", "End"),
-            translate("job", "Stop, and begin anew next"),
+            translate("job", "Stop; the next playback starts from the beginning"),
             bench.end_playback,
         )
         self.play = self.playback.add_button("", "", bench.toggle_playback)
         self.play.setProperty("primary", True)
 
     def _make_others(self) -> None:
-        stop, held = translate("job", "Stop"), translate("job", "All axes stop and hold (Esc)")
+        stop, held = (
+            translate("job", "Stop"),
+            translate("job", "Stop all axes and hold their positions (Esc)"),
+        )
         show = translate("job", "Show"), translate("job", "Bring its panel to the front")
         self.penetration = Card(translate("job", "Penetration"))
         self.penetration.add_button(*show, lambda: self._bring_up("penetration"))
@@ -195,7 +198,7 @@ class JobPanel(Panel):
         self.recording.add_button(*show, lambda: self._bring_up("recorder"))
         self.end_recording = self.recording.add_button(
             translate("job", "End recording"),
-            translate("job", "Put what was recorded into one file; motion goes on"),
+            translate("job", "Save the recording in one file; motion continues"),
             self._end_recording,
         )
 
@@ -228,7 +231,9 @@ class JobPanel(Panel):
         allow(
             self.play,
             None if playing else against_playing(bench, state),
-            translate("job", "Play, pause, go on (Ctrl+P); the axes first go to the first row"),
+            translate(
+                "job", "Play, pause or resume (Ctrl+P); the axes first move to the first row"
+            ),
         )
 
     def _end_recording(self) -> None:
@@ -240,7 +245,7 @@ class JobPanel(Panel):
 
         def done() -> None:
             self.end_recording.setEnabled(True)
-            text = translate("job", "Recorded {path}").format(path=path)
+            text = translate("job", "Saved the recording {path}").format(path=path)
             self.workbench.notify(Level.GOOD, text)
 
         self.workbench.finish_recording(done, lambda: self.end_recording.setEnabled(True))

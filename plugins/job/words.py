@@ -38,7 +38,7 @@ def playback(state: PlaybackState, name: str) -> Running:
     if not name:
         return Running(translate("job", "No trajectory is loaded"))
     if state.phase is PlaybackPhase.IDLE:
-        return Running(name, translate("job", "is loaded"))
+        return Running(name, translate("job", "loaded"))
     row = translate("job", "row {row} of {rows}").format(row=max(state.row, 0) + 1, rows=state.rows)
     if state.phase is PlaybackPhase.PAUSED:
         row = translate("job", "paused, {row}").format(row=row)
@@ -67,4 +67,4 @@ def motion(state: SessionState) -> Running | None:
         return None
     if PLAYBACK in state.owners.values():
         return None
-    return Running(driven(state) or translate("job", "The axes move"))
+    return Running(driven(state) or translate("job", "The axes are moving"))

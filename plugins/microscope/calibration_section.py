@@ -24,10 +24,10 @@ from rotemina.plugins.microscope.words import (
 
 _GUIDE = marked(
     "microscope",
-    "1. Bring the tip into the middle of the picture and into focus.\n"
-    "2. Choose the objective under Camera: it has a calibration of its own.\n"
-    "3. Calibrate the micro stage, then the nano stage: the tip makes small moves around its place "
-    "and comes back.",
+    "1. Bring the tip to the middle of the picture and into focus.\n2. Choose "
+    "the objective under Camera: each objective has its own calibration.\n3. "
+    "Calibrate the micro stage, then the nano stage: the tip makes small moves "
+    "around its position and returns.",
 )
 
 
@@ -44,8 +44,8 @@ class CalibrationSection(Section):
             plain_tip(
                 translate(
                     "microscope",
-                    "Without a pipette in sight, where stage and specimen move together: the "
-                    "picture itself is followed",
+                    "For use without a visible pipette, if stage and specimen move together: "
+                    "track the picture itself",
                 )
             )
         )
@@ -69,13 +69,18 @@ class CalibrationSection(Section):
         allow(
             self.micro,
             why,
-            translate("microscope", "Move x and y by 40 µm about where they are, and look"),
+            translate(
+                "microscope",
+                "Move x and y by 40 µm around their position and evaluate the pictures",
+            ),
         )
         allow(
             self.nano,
             why,
             translate(
-                "microscope", "Move the tip by 15 µm with the piezos about where it is, and look"
+                "microscope",
+                "Move the tip by 15 µm with the piezos around its position and evaluate the"
+                " pictures",
             ),
         )
         running = status.activity is Activity.CALIBRATION
@@ -84,9 +89,7 @@ class CalibrationSection(Section):
         allow(
             self.abort,
             None,
-            translate(
-                "microscope", "Stop the machine where it is, and keep what was calibrated before"
-            ),
+            translate("microscope", "Stop the machine in place and keep the previous calibration"),
         )
         self._show_status(status.calibrating)
         show_text(self.known, "\n".join(_known(status)))
@@ -113,9 +116,9 @@ def _known(status: MicroscopeStatus) -> list[str]:
     if calibration is None:
         return (
             [
-                translate("microscope", "Nothing is kept for objective {objective!r}.").format(
-                    objective=status.objective
-                )
+                translate(
+                    "microscope", "Objective {objective!r} has no stored calibration."
+                ).format(objective=status.objective)
             ]
             if status.objective
             else []

@@ -78,7 +78,7 @@ def pixel_types(can: CameraDescription) -> tuple[PixelType, ...]:
 def bounds_text(bounds: tuple[float, float] | None, scale: float, unit: str) -> str:
     """Return what may be typed, in words."""
     if bounds is None:
-        return translate("microscope", "this camera cannot set it")
+        return translate("microscope", "this camera has no such setting")
     return (
         translate("microscope", "{low:g} to {high:g} {unit}")
         .format(low=scale * bounds[0], high=scale * bounds[1], unit=unit)
@@ -96,7 +96,7 @@ def _number(name: str, text: str, unit: str) -> float | None:
     number = parsed(text)
     if number is None:
         raise CameraSettingError(
-            translate("microscope", "{name}: {text!r} is no number; write one, {unit}").format(
+            translate("microscope", "{name}: {text!r} is not a number; enter one in {unit}").format(
                 name=name, text=text.strip(), unit=unit or "1"
             )
         )
@@ -112,8 +112,8 @@ def _region(text: str) -> Region | None:
         raise CameraSettingError(
             translate(
                 "microscope",
-                "region: {text!r}: write {whole}, or four whole numbers: first column, first "
-                "row, width and height, px",
+                "region: {text!r} is not valid; enter {whole}, or four integers: first "
+                "column, first row, width and height, px",
             ).format(text=text.strip(), whole=translate("microscope", WHOLE))
         )
     return Region(*map(int, parts))

@@ -44,15 +44,15 @@ class CameraSection(Section):
             plain_tip(
                 translate(
                     "microscope",
-                    "A camera that is not listed: its source, a colon, and a file, folder, stream "
-                    "or number, such as opencv:film.avi or sequence:/data/pictures",
+                    "Camera outside the list: source, colon, and a file, folder, stream or "
+                    "number, such as opencv:film.avi or sequence:/data/pictures",
                 )
             )
         )
         self.open = button(
             translate("microscope", "Open"),
             self._open,
-            translate("microscope", "Open this camera; the one that is open is closed"),
+            translate("microscope", "Open this camera and close the present one"),
         )
         self.open.setProperty("primary", True)
         self.close_button = button(
@@ -64,7 +64,7 @@ class CameraSection(Section):
             translate("microscope", "Objective"),
             translate(
                 "microscope",
-                "The objective in use: each has a calibration of its own; write a new name",
+                "Objective in use; each has its own calibration. Enter a name to add one",
             ),
             letters=6,
         )
@@ -92,15 +92,11 @@ class CameraSection(Section):
         if not edit.hasFocus() and edit.text() != status.objective:
             edit.setText(status.objective)
         nothing = not listed and not self.address.text().strip()
-        why = (
-            translate("microscope", "no camera is listed, and no address is written")
-            if nothing
-            else None
-        )
+        why = translate("microscope", "no camera is selected or entered") if nothing else None
         allow(
             self.open,
             why,
-            translate("microscope", "Open this camera; the one that is open is closed"),
+            translate("microscope", "Open this camera and close the present one"),
         )
         closed = (
             translate("microscope", "no camera is open") if status.feed.state in _OPEN else None
@@ -142,7 +138,7 @@ class SettingsSection(Section):
         )
         self.repeat = QCheckBox(translate("microscope", "Loop at the end"))
         self.repeat.setToolTip(
-            plain_tip(translate("microscope", "Of a file or a sequence of pictures"))
+            plain_tip(translate("microscope", "Repeat a file or a sequence of pictures"))
         )
         for text, field in (
             (translate("microscope", "Exposure [ms]"), self.exposure),
@@ -155,9 +151,9 @@ class SettingsSection(Section):
             field.setAccessibleName(text)
             field.setToolTip(
                 plain_tip(
-                    translate(
-                        "microscope", "{text}; its limits are the camera's, which is not open"
-                    ).format(text=text)
+                    translate("microscope", "{text}; open the camera to see its limits").format(
+                        text=text
+                    )
                 )
             )
             field.setMinimumWidth(60)
@@ -172,7 +168,7 @@ class SettingsSection(Section):
         self.cut = button(
             translate("microscope", "Use visible region"),
             self._cut,
-            translate("microscope", "Read out only what is in sight now"),
+            translate("microscope", "Read out only the visible region"),
         )
         self.add_row(self.apply, self.cut)
         self.shoot = button(
@@ -198,17 +194,19 @@ class SettingsSection(Section):
             translate("microscope", "Apply these settings; refusals appear below"),
         )
         no_frame = why or (
-            translate("microscope", "there is no picture yet") if feed.frame is None else None
+            translate("microscope", "there is no picture") if feed.frame is None else None
         )
         allow(
             self.cut,
             no_frame,
-            translate("microscope", "Read out only what is in sight now: smaller pictures, faster"),
+            translate(
+                "microscope", "Read out only the visible region: smaller pictures at a higher rate"
+            ),
         )
         waits = why or (
             None
             if feed.settings.trigger is Trigger.SOFTWARE
-            else translate("microscope", "it runs freely")
+            else translate("microscope", "the camera is free-running")
         )
         allow(self.shoot, waits, translate("microscope", "Trigger the camera once"))
         show_text(self.problem, feed.problem)

@@ -102,7 +102,7 @@ def against_aiming(status: MicroscopeStatus) -> str | None:
         )
     if status.calibration is None:
         return status.calibration_problem or translate(
-            "microscope", "this camera and objective are not calibrated yet"
+            "microscope", "this camera and objective are not calibrated"
         )
     return None
 
@@ -113,7 +113,7 @@ def against_clicking(status: MicroscopeStatus, state: SessionState) -> str | Non
     if why is None and status.tip.state is not TipState.TRACKED:
         why = translate(
             "microscope",
-            "the tip is not tracked; click it with Tip, or switch tracking on under Vision",
+            "the tip is not tracked; click it with Tip, or turn on tracking under Vision",
         )
     return why
 
@@ -125,7 +125,7 @@ def against_moving(status: MicroscopeStatus, state: SessionState) -> str | None:
             state=spoken(status.feed.state)
         )
     if status.activity is not Activity.NONE:
-        return translate("microscope", "{activity} is under way").format(
+        return translate("microscope", "{activity} is running").format(
             activity=spoken(status.activity)
         )
     if state.locked is not None:

@@ -35,7 +35,7 @@ class HistogramView(QWidget):
             translate("microscope", "Histogram with the levels of black and white")
         )
         self.setToolTip(
-            translate("microscope", "Drag a handle: the number that becomes black, or white")
+            translate("microscope", "Drag a handle to set the black or the white level")
         )
 
     def show_counts(self, counts: np.ndarray, span: tuple[float, float]) -> None:

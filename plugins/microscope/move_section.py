@@ -35,13 +35,13 @@ class MoveSection(Section):
         self._guide.setText(
             translate(
                 "microscope",
-                "Move, above the picture, lets a click or a drag send the tip there. Esc, or any "
-                "stop, ends that.",
+                "With Move, above the picture, a click or a drag sends the tip there. Esc "
+                "or any stop ends this mode.",
             )
         )
         self.stage = SteadyChoice(
             translate("microscope", "Stage that a click moves"),
-            translate("microscope", "The stage that a click moves; nano where it reaches"),
+            translate("microscope", "Stage that a click moves; nano within its range"),
             letters=6,
         )
         for text, value in STAGES:
@@ -64,14 +64,14 @@ class MoveSection(Section):
         allow(
             self.back,
             busy,
-            translate("microscope", "Return to where the machine rested before its latest move"),
+            translate("microscope", "Return to the position before the latest move"),
         )
         idle = (
-            translate("microscope", "nothing is under way")
+            translate("microscope", "no move is running")
             if status.activity is Activity.NONE
             else None
         )
-        allow(self.halt, idle, translate("microscope", "Stop the machine where it is"))
+        allow(self.halt, idle, translate("microscope", "Stop the machine in place"))
         lines = (ghost_text(status), visit_text(status.visiting), spoken(status.stopped))
         show_text(self.said, "\n".join(line for line in lines if line))
 
@@ -108,9 +108,7 @@ class TargetSection(Section):
         none = (
             None
             if texts
-            else translate(
-                "microscope", "no target is marked; mark some with Mark, above the picture"
-            )
+            else translate("microscope", "no target is marked; use Mark above the picture")
         )
         why = none or against_clicking(status, state)
         if why is None and all(one.visit is not None for one in status.targets):
@@ -118,10 +116,12 @@ class TargetSection(Section):
         allow(
             self.next,
             why,
-            translate("microscope", "Send the tip to the first target that was not visited"),
+            translate("microscope", "Send the tip to the first unvisited target"),
         )
         chosen = (
-            None if self.list.currentRow() >= 0 else translate("microscope", "no target is chosen")
+            None
+            if self.list.currentRow() >= 0
+            else translate("microscope", "no target is selected")
         )
         visiting = status.activity is Activity.TARGETS
         under_way = (
@@ -130,7 +130,7 @@ class TargetSection(Section):
         allow(
             self.remove,
             none or chosen or under_way,
-            translate("microscope", "Delete the chosen target"),
+            translate("microscope", "Delete the selected target"),
         )
         allow(self.clear, none or under_way, translate("microscope", "Delete all targets"))
 

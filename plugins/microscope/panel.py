@@ -42,7 +42,7 @@ TOOLS = (
     marked("microscope", "Calibrate"),
     marked("microscope", "Move"),
     marked("microscope", "Vision"),
-    marked("microscope", "Keep"),
+    marked("microscope", "Save"),
     marked("microscope", "– no tools –"),
 )
 _WIDTH = 250  # of the tools, px
@@ -57,12 +57,12 @@ class Question(QFrame):
         self.text = QLabel()
         self.text.setTextFormat(Qt.TextFormat.PlainText)
         self.text.setWordWrap(True)
-        self.yes = button(yes, lambda: answer(True), translate("microscope", "Make the move"))
+        self.yes = button(yes, lambda: answer(True), translate("microscope", "Move the tip"))
         self.yes.setProperty("primary", True)
         self.no = button(
             translate("microscope", "Cancel"),
             lambda: answer(False),
-            translate("microscope", "Make no move"),
+            translate("microscope", "Do not move"),
         )
         for one in (self.yes, self.no):
             one.setFocusPolicy(Qt.FocusPolicy.NoFocus)

@@ -86,7 +86,7 @@ class PictureSection(Section):
             translate("microscope", "gamma {gamma:.2f}").format(gamma=contrast.gamma)
         )
         tip = translate(
-            "microscope", "{low:g} to {high:g}; 1: as light is; less brightens what is dark"
+            "microscope", "{low:g} to {high:g}; 1: linear; smaller values brighten dark regions"
         )
         self.gamma.setToolTip(plain_tip(tip.format(low=GAMMA[0], high=GAMMA[1])))
 

@@ -163,9 +163,7 @@ class PointerTools(QObject):
         """Tell whether the machine may move by this picture, and say why not."""
         why = against_clicking(self._microscope.status, self._workbench.session.snapshot())
         if why is not None:
-            self._workbench.refused.emit(
-                translate("microscope", "nothing is moved: {why}").format(why=why)
-            )
+            self._workbench.refused.emit(translate("microscope", "no move: {why}").format(why=why))
         return why is None
 
     def _forget(self) -> None:

@@ -50,7 +50,7 @@ def write_pictures(
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise MicroscopeError(
-            translate("microscope", "{folder}: the folder cannot be made ({reason})").format(
+            translate("microscope", "{folder}: the folder cannot be created ({reason})").format(
                 folder=folder, reason=error.strerror or error
             )
         ) from error
@@ -172,7 +172,7 @@ def summary(path: Path, status: VideoStatus) -> str:
         path=path, pictures=status.pictures, seconds=status.lasts_s
     )
     return (
-        translate("microscope", "{text}, {dropped} left out").format(
+        translate("microscope", "{text}, {dropped} dropped").format(
             text=text, dropped=status.dropped
         )
         if status.dropped
@@ -186,7 +186,7 @@ def progress(status: VideoStatus) -> str:
         "microscope", "{pictures} pictures, {seconds:.0f} s, {megabytes:.0f} MB"
     ).format(pictures=status.pictures, seconds=status.lasts_s, megabytes=status.bytes_written / 1e6)
     return (
-        translate("microscope", "{text}, {dropped} left out").format(
+        translate("microscope", "{text}, {dropped} dropped").format(
             text=text, dropped=status.dropped
         )
         if status.dropped

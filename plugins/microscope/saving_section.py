@@ -35,7 +35,7 @@ class SavingSection(Section):
     _told = Signal(str)
 
     def __init__(self, workbench: Workbench, microscope: Microscope, view: PictureView) -> None:
-        super().__init__(translate("microscope", "Keep"))
+        super().__init__(translate("microscope", "Save"))
         self._workbench, self._view = workbench, view
         data = workbench.operation.data
         self._pictures = data / "pictures"
@@ -50,7 +50,7 @@ class SavingSection(Section):
             plain_tip(
                 translate(
                     "microscope",
-                    "Begin and end a video with the session's recording (panel Recorder)",
+                    "Start and end a video with the recording of the session (panel Recorder)",
                 )
             )
         )
@@ -60,7 +60,9 @@ class SavingSection(Section):
         self.column.addWidget(self.follows)
         self._where = self.add_text()
         self._where.setText(
-            translate("microscope", "Files go to pictures and videos in {data}.").format(data=data)
+            translate("microscope", "Files are saved to pictures and videos in {data}.").format(
+                data=data
+            )
         )
         self._status, self._state = MicroscopeStatus(), workbench.session.snapshot()
         workbench.closing.connect(self._close)
@@ -87,7 +89,7 @@ class SavingSection(Section):
         allow(
             self.snapshot,
             none,
-            translate("microscope", "Keep this picture: its numbers as TIFF, what is seen as PNG"),
+            translate("microscope", "Save this picture: raw values as TIFF, the view as PNG"),
         )
         on = video is not None
         self.record.setText(

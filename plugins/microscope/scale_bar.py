@@ -31,7 +31,7 @@ def scale_bar(pixel_m: float | None, source: ScaleSource, zoom: float, width: fl
     length_m = _round_down(room * pixel_m)
     unit, name = next((one for one in _UNITS if length_m >= 0.9999 * one[0]), _UNITS[-1])
     remark = (
-        translate("microscope", "by the robot file") if source is ScaleSource.ROBOT_FILE else ""
+        translate("microscope", "from the robot file") if source is ScaleSource.ROBOT_FILE else ""
     )
     return Bar(length_m / pixel_m * zoom, f"{rounded(length_m / unit)} {name}", remark)
 

@@ -37,16 +37,16 @@ class StackSection(Section):
         self._status, self._state = MicroscopeStatus(), workbench.session.snapshot()
         self._taken: StackStatus | None = None  # whose file was begun
         self._folder = workbench.operation.data / "pictures"
-        self.place = SteadyChoice(translate("microscope", "What moves the focus"), letters=6)
+        self.place = SteadyChoice(translate("microscope", "Drive that moves the focus"), letters=6)
         self.place.activated.connect(lambda _: self._suggest())
         self.first, self.last, self.step = (
             _field(
                 translate("microscope", "first, µm"),
-                translate("microscope", "First place, µm, within its range"),
+                translate("microscope", "First position, µm, within the range of the drive"),
             ),
             _field(
                 translate("microscope", "last, µm"),
-                translate("microscope", "Last place, µm, within its range"),
+                translate("microscope", "Last position, µm, within the range of the drive"),
             ),
             _field(
                 translate("microscope", "step, µm"),
@@ -88,13 +88,13 @@ class StackSection(Section):
             None
             if names
             else translate(
-                "microscope", "nothing can be focused with: open a camera, connect the machine"
+                "microscope", "no focus drive is available: open a camera or connect the machine"
             )
         )
         allow(
             self.take,
             none or against_moving(status, state),
-            translate("microscope", "Take a picture at each place, and go back"),
+            translate("microscope", "Take a picture at each position and return"),
         )
         show_text(self.said, _text(status.stacking))
 
@@ -137,7 +137,7 @@ def _write(path: Path, stack: StackStatus, about: Circumstances) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise MicroscopeError(
-            translate("microscope", "{folder}: the folder cannot be made ({reason})").format(
+            translate("microscope", "{folder}: the folder cannot be created ({reason})").format(
                 folder=path.parent, reason=error.strerror or error
             )
         ) from error
@@ -148,7 +148,7 @@ def _metres(field: QLineEdit) -> float:
     number = parsed(field.text())
     if number is None:
         raise MicroscopeError(
-            translate("microscope", "{name}: {text!r} is no number; write one in µm").format(
+            translate("microscope", "{name}: {text!r} is not a number; enter one in µm").format(
                 name=field.accessibleName(), text=field.text().strip()
             )
         )

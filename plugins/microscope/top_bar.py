@@ -13,11 +13,11 @@ from rotemina.sim.quantities import fixed
 TOOLS = {
     PointerTool.MOVE: (
         marked("microscope", "Move"),
-        marked("microscope", "Click or drag: the tip goes there. Esc, or any stop, ends this"),
+        marked("microscope", "Click or drag: the tip moves there. Esc or any stop ends this mode"),
     ),
     PointerTool.MARK: (
         marked("microscope", "Mark"),
-        marked("microscope", "Click: mark a target to be visited; nothing moves"),
+        marked("microscope", "Click: mark a target for a visit; nothing moves"),
     ),
     PointerTool.MEASURE: (
         marked("microscope", "Measure"),

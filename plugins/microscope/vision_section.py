@@ -36,7 +36,8 @@ class TipSection(Section):
             plain_tip(
                 translate(
                     "microscope",
-                    "Find the pipette's tip in every picture; Tip, above, shows where it is",
+                    "Find the pipette tip in every picture; to help the search, click it with "
+                    "Tip, above",
                 )
             )
         )
@@ -44,13 +45,11 @@ class TipSection(Section):
         self.background = button(
             translate("microscope", "Take background"),
             lambda: workbench.ask(microscope.take_background),
-            translate("microscope", "Save the background, with the tip out of the way"),
+            translate("microscope", "Save the background without the tip in the picture"),
         )
         self.drift = QCheckBox(translate("microscope", "watch the drift"))
         self.drift.setToolTip(
-            plain_tip(
-                translate("microscope", "By how much the background has moved since it was taken")
-            )
+            plain_tip(translate("microscope", "Displacement of the background since it was taken"))
         )
         self.drift.clicked.connect(lambda on: workbench.ask(lambda: microscope.watch_drift(on)))
         self.column.addWidget(self.track)
@@ -66,7 +65,7 @@ class TipSection(Section):
             self.track.setChecked(on)
         looked, passed = status.frames_processed, status.frames_skipped
         figures = (
-            translate("microscope", "\n{looked} pictures looked at, {passed} passed over").format(
+            translate("microscope", "\n{looked} pictures evaluated, {passed} skipped").format(
                 looked=looked, passed=passed
             )
             if on
@@ -88,8 +87,8 @@ class TipSection(Section):
             none,
             translate(
                 "microscope",
-                "Keep what lies beneath, with the tip out of the way, so that a cell "
-                "misleads nobody; {about}",
+                "Save the background without the tip, so that cells do not disturb the "
+                "tracking; {about}",
             ).format(about=about),
         )
         if self.drift.isChecked() != status.drift.watched:
@@ -104,11 +103,11 @@ class CellSection(Section):
         super().__init__(translate("microscope", "Cell"))
         self._guide = self.add_text()
         self._guide.setText(
-            translate("microscope", "Cell, above the picture, outlines the cell that is clicked.")
+            translate("microscope", "With Cell, above the picture, a click outlines a cell.")
         )
         self.said = self.add_text()
         self.forget = button(
-            translate("microscope", "Forget the cell"),
+            translate("microscope", "Remove cell"),
             lambda: workbench.ask(microscope.forget_cell),
             translate("microscope", "Remove the outline"),
         )
@@ -130,12 +129,14 @@ class FocusSection(Section):
         super().__init__(translate("microscope", "Focus"))
         self._workbench, self._microscope = workbench, microscope
         self._status = MicroscopeStatus()
-        self.place = SteadyChoice(translate("microscope", "What is focused with"), letters=6)
+        self.place = SteadyChoice(translate("microscope", "Drive for focusing"), letters=6)
         self.reach = QLineEdit(rounded(1e6 * _PRESET_M))
-        self.reach.setAccessibleName(translate("microscope", "How far to search each way, µm"))
+        self.reach.setAccessibleName(translate("microscope", "Search distance each way, µm"))
         self.reach.setToolTip(
             plain_tip(
-                translate("microscope", "How far to search each way from where it is, above 0 µm")
+                translate(
+                    "microscope", "Search distance each way from the present position, above 0 µm"
+                )
             )
         )
         self.search = button(
@@ -174,7 +175,7 @@ class FocusSection(Section):
             None
             if names
             else translate(
-                "microscope", "nothing can be focused with: open a camera, connect the machine"
+                "microscope", "no focus drive is available: open a camera or connect the machine"
             )
         )
         why = none or against_moving(status, state)
@@ -185,7 +186,7 @@ class FocusSection(Section):
         busy = (
             None
             if status.activity is Activity.NONE
-            else translate("microscope", "{activity} is under way").format(
+            else translate("microscope", "{activity} is running").format(
                 activity=spoken(status.activity)
             )
         )
@@ -201,7 +202,7 @@ class FocusSection(Section):
         chosen = next((one for one in self._status.focus_axes if one.name == name), None)
 
         def begin() -> None:
-            reach_m = _micrometres(translate("microscope", "how far to search"), self.reach.text())
+            reach_m = _micrometres(translate("microscope", "search distance"), self.reach.text())
             if chosen is None or chosen.position is None:
                 self._microscope.autofocus(name)
                 return
@@ -225,7 +226,7 @@ def _micrometres(name: str, text: str) -> float:
     number = parsed(text)
     if number is None:
         raise MicroscopeError(
-            translate("microscope", "{name}: {text!r} is no number; write one in µm").format(
+            translate("microscope", "{name}: {text!r} is not a number; enter one in µm").format(
                 name=name, text=text.strip()
             )
         )

@@ -24,8 +24,8 @@ from rotemina.sim.vision.calibration import Geometry, StageFit
 
 ENDED = (Phase.DONE, Phase.FAILED)
 _PHASES = {
-    Phase.LOOKING: marked("microscope", "moves a little, and looks"),
-    Phase.RETURNING: marked("microscope", "goes back to where it began"),
+    Phase.LOOKING: marked("microscope", "makes small moves"),
+    Phase.RETURNING: marked("microscope", "returns to the start"),
     Phase.DONE: marked("microscope", "calibrated"),
     Phase.FAILED: marked("microscope", "failed"),
 }
@@ -36,7 +36,7 @@ def stage_text(name: str, stage: StageCalibration | None) -> str:
     if stage is None:
         return translate("microscope", "{name}: not calibrated").format(name=spoken(name))
     found, when = stage.map.geometry, stage.date[:16].replace("T", " ")
-    return translate("microscope", "{name}: {found}, residual {residual:.2f} px, of {when}").format(
+    return translate("microscope", "{name}: {found}, residual {residual:.2f} px, {when}").format(
         name=spoken(name), found=geometry_text(found), residual=stage.residual_px, when=when
     )
 
@@ -64,7 +64,7 @@ def calibration_text(status: CalibrationStatus | None) -> str:
     """Return how the latest calibration goes on, or went."""
     if status is None:
         return ""
-    text = translate("microscope", "{phase}: look {done} of {moves}").format(
+    text = translate("microscope", "{phase}: picture {done} of {moves}").format(
         phase=translate("microscope", _PHASES[status.phase]), done=status.done, moves=status.moves
     )
     if status.phase in ENDED:
@@ -81,7 +81,7 @@ def residual_lines(fit: StageFit | None) -> list[str]:
     sizes = np.linalg.norm(fit.residuals, axis=1)
     return [
         translate("microscope", "move {number}: {size:.2f} px").format(number=number, size=size)
-        + ("" if kept else translate("microscope", ", left out"))
+        + ("" if kept else translate("microscope", ", omitted"))
         for number, (size, kept) in enumerate(zip(sizes, fit.kept, strict=True), start=1)
     ]
 
@@ -189,7 +189,7 @@ def focus_text(status: FocusStatus | None) -> str:
     if status.search is Search.FAILED:
         return translate("microscope", "Failed: {reason}").format(reason=spoken(status.reason))
     if status.peak is None:
-        return translate("microscope", "{places} places looked at").format(
+        return translate("microscope", "{places} positions evaluated").format(
             places=len(status.places)
         )
     peak = status.peak

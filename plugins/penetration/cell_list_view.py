@@ -91,38 +91,46 @@ class CellListView(QWidget):
                 self._fill()
             self._armed = None
         busy = (
-            translate("penetration", "a penetration is armed or runs")
+            translate("penetration", "a penetration is armed or running")
             if status.phase in FIXED
             else None
         )
         locked = spoken(state.locked) if state.locked else None
-        moves = None if self._workbench.session.at_rest else translate("penetration", "it moves")
+        moves = (
+            None
+            if self._workbench.session.at_rest
+            else translate("penetration", "the machine is moving")
+        )
         still = busy or locked or moves
         none = None if self.list.cells else translate("penetration", "the list is empty")
-        at = None if self.list.current is not None else translate("penetration", "go to a cell")
+        at = (
+            None
+            if self.list.current is not None
+            else translate("penetration", "go to a cell first")
+        )
         more = (
             None
             if self.list.following() is not None
-            else translate("penetration", "no other cell waits")
+            else translate("penetration", "no other cell is waiting")
         )
         allow(
             self.add,
-            None if state.position_known else translate("penetration", "its place is not known"),
-            translate("penetration", "Add a cell where the machine is now, the tip above it"),
+            None if state.position_known else translate("penetration", "its position is unknown"),
+            translate("penetration", "Add a cell at the present position, with the tip above it"),
         )
         allow(
             self.next,
             still or none or more,
-            translate("penetration", "Go to the next cell that waits: up, across, down"),
+            translate("penetration", "Go to the next waiting cell: up, across, down"),
         )
-        allow(self.skip, busy or at, translate("penetration", "Leave this cell out"))
+        allow(self.skip, busy or at, translate("penetration", "Skip this cell"))
         allow(
             self.penetrate,
             busy or at or why_not,
-            translate("penetration", "Arm for this cell; Start, above, then moves"),
+            translate("penetration", "Arm for this cell; motion begins only with Start, above"),
         )
-        allow(self.remove, busy or none, translate("penetration", "Remove the marked cell"))
-        allow(self.export, none, translate("penetration", "Write the list as CSV"))
+        allow(self.remove, busy or none, translate("penetration", "Remove the selected cell"))
+        allow(self.export, none, translate("penetration", "Export the list as CSV"))
 
     def export_to(self, path: Path) -> None:
         """Write the list."""

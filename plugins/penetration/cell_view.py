@@ -19,13 +19,13 @@ from rotemina.sim.robot.model import AxisEffect, Robot
 
 REAL_MACHINE = marked(
     "penetration",
-    "Cells for demonstrations belong to the simulator. On a real machine put a real one under the "
-    "tip.",
+    "Demonstration cells exist only in the simulator. On a real machine put a "
+    "real cell under the tip.",
 )
 _ABOUT = marked(
     "penetration",
-    "An elastic membrane, the effect “contact”; the other effects stay. It does not break: take it "
-    "away during the thrust to let it give way.",
+    "Elastic membrane (effect “contact”); other effects stay. The membrane does"
+    " not break: remove it during the thrust to simulate a rupture.",
 )
 
 
@@ -66,8 +66,8 @@ def with_cell(
         raise PenetrationError(
             translate(
                 "penetration",
-                "a cell at {at} of {axis}: must be {least} to {most}; move the axis away "
-                "from its end first",
+                "a cell at {at} of {axis} must be within {least} to {most}; move the axis "
+                "away from its end first",
             ).format(
                 at=way_text(at),
                 axis=label(axis),
@@ -121,18 +121,20 @@ class CellView(QWidget):
         self._known: object = ()
         self.where, self.about = plain_text(wrap=True), plain_text(wrap=True)
         self.where.setProperty("quiet", False)
-        about = translate("penetration", "From where the axis stands, above 0 µm")
+        about = translate(
+            "penetration", "Distance from the present position of the axis, above 0 µm"
+        )
         self.ahead = _field(
-            rounded(1e6 * AHEAD), translate("penetration", "Way to the cell, µm"), about
+            rounded(1e6 * AHEAD), translate("penetration", "Distance to the cell, µm"), about
         )
         self.stiffness = _field(
             rounded(STIFFNESS),
             translate("penetration", "Stiffness of the cell"),
-            translate("penetration", "Over that of the axis itself, up to 30"),
+            translate("penetration", "Relative to the stiffness of the axis, up to 30"),
         )
         self.put, self.take = (
-            QPushButton(translate("penetration", "Put a cell there")),
-            QPushButton(translate("penetration", "Take it away")),
+            QPushButton(translate("penetration", "Place cell")),
+            QPushButton(translate("penetration", "Remove")),
         )
         self.put.clicked.connect(lambda _: self._put())
         self.take.clicked.connect(lambda _: self._take())
@@ -145,7 +147,7 @@ class CellView(QWidget):
         grid.addWidget(QLabel("µm"), 0, 2)
         grid.addWidget(QLabel(translate("penetration", "Stiffness")), 1, 0)
         grid.addWidget(self.stiffness, 1, 1)
-        grid.addWidget(QLabel(translate("penetration", "× the axis'")), 1, 2)
+        grid.addWidget(QLabel(translate("penetration", "× axis")), 1, 2)
         grid.addWidget(self.put, 0, 3)
         grid.addWidget(self.take, 1, 3)
         column = QVBoxLayout(self)
@@ -171,12 +173,15 @@ class CellView(QWidget):
         allow(
             self.put,
             why,
-            translate("penetration", "Put a cell ahead of where the axis is now, or move it there"),
+            translate(
+                "penetration",
+                "Place a cell ahead of the present position of the axis, or move it there",
+            ),
         )
         has = effects is not None and without_cell(effects, axis) != effects
         allow(
             self.take,
-            None if has else translate("penetration", "there is none"),
+            None if has else translate("penetration", "there is no cell"),
             translate("penetration", "Remove the simulated cell"),
         )
 
@@ -184,7 +189,7 @@ class CellView(QWidget):
         session, p = self._workbench.session, self._parameters
 
         def put() -> None:
-            ahead = _value(self.ahead, translate("penetration", "way to the cell")) / 1e6
+            ahead = _value(self.ahead, translate("penetration", "distance to the cell")) / 1e6
             stiffness = _value(self.stiffness, translate("penetration", "stiffness"))
             # Where the tip is, not where it was sent: hysteresis and creep part the two.
             tip = session.snapshot().measured[p.axis] - session.robot.axes[p.axis].offset
@@ -211,7 +216,7 @@ def _value(field: QLineEdit, name: str) -> float:
     if number is None or not good:
         raise TypedError(
             translate(
-                "penetration", "{name}: {text!r}; type a number above 0, with a decimal point"
+                "penetration", "{name}: {text!r}; enter a number above 0 with a decimal point"
             ).format(name=name, text=text)
         )
     return number

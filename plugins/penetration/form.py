@@ -46,7 +46,7 @@ _SHAPINGS = {
     Shaping.INVERSE: marked("penetration", "inverse model"),
 }
 _TABLE_TIP = (
-    marked("penetration", "The thrust as points, a line each: time share, depth share."),
+    marked("penetration", "Points of the thrust, one per line: time share, depth share."),
     marked("penetration", "From 0, 0 to 1, 1; 2 to 200 points."),
 )
 
@@ -73,7 +73,7 @@ class ParameterForm(QScrollArea):
             QPushButton(translate("penetration", "Load …")),
             QPushButton(translate("penetration", "Save …")),
         )
-        self.save.setToolTip(translate("penetration", "Write these parameters into a TOML file"))
+        self.save.setToolTip(translate("penetration", "Save these parameters to a TOML file"))
         self.fields = {key: NumberField(one, self) for key, one in QUANTITIES.items()}
         self._make_choices(robot)
         self._make_more()
@@ -116,7 +116,7 @@ class ParameterForm(QScrollArea):
         allow(
             self.load,
             why_not,
-            translate("penetration", "Take parameters from a TOML file in place of these"),
+            translate("penetration", "Replace these parameters by those of a TOML file"),
         )
 
     # --- parts ------------------------------------------------------------------------------------
@@ -143,7 +143,7 @@ class ParameterForm(QScrollArea):
     def _make_choices(self, robot: Robot) -> None:
         axis = SteadyChoice(
             translate("penetration", "Axis of the penetration"),
-            translate("penetration", "The axis that goes into the cell"),
+            translate("penetration", "Axis that penetrates the cell"),
             letters=8,
         )
         for name in robot.axes:
@@ -152,21 +152,22 @@ class ParameterForm(QScrollArea):
         direction = SteadyChoice(
             translate("penetration", "Direction"),
             translate(
-                "penetration", "Where the cell is along the axis; down: towards smaller positions"
+                "penetration",
+                "Direction of the cell along the axis; down: towards smaller positions",
             ),
             letters=8,
         )
         shape = SteadyChoice(
             translate("penetration", "Shape of the thrust"),
-            translate("penetration", "Its profile of speed"),
+            translate("penetration", "Speed profile of the thrust"),
             letters=8,
         )
         shaping = SteadyChoice(
             translate("penetration", "Input shaping"),
             translate(
                 "penetration",
-                "Against the axis' resonance, as of the robot file. ZV, ZVD, ZVDD: impulses, each "
-                "slower and surer; inverse model: follows best",
+                "Suppresses the resonance of the axis in the robot file. ZV, ZVD, ZVDD: "
+                "impulses, increasingly slow and robust; inverse model: best tracking",
             ),
             letters=8,
         )
@@ -194,9 +195,13 @@ class ParameterForm(QScrollArea):
         self.more = QToolButton()
         self.more.setText(translate("penetration", "More ▸"))
         self.more.setCheckable(True)
-        self.more.setAccessibleName(translate("penetration", "More of the contact detection"))
+        self.more.setAccessibleName(
+            translate("penetration", "More settings of the contact detection")
+        )
         self.more.setToolTip(
-            translate("penetration", "How the contact is told from noise, hysteresis and creep")
+            translate(
+                "penetration", "Settings that distinguish contact from noise, hysteresis and creep"
+            )
         )
         self._detection = QWidget()
         self._detection.hide()

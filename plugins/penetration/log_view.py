@@ -36,9 +36,9 @@ class LogView(QWidget):
         self.table.itemSelectionChanged.connect(self._show_chosen)
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
-        self.text.setAccessibleName(translate("penetration", "All of the chosen run"))
-        self.text.setToolTip(translate("penetration", "All that was logged of the chosen run"))
-        self.text.setPlaceholderText(translate("penetration", "Choose a run to see all of it."))
+        self.text.setAccessibleName(translate("penetration", "Details of the selected run"))
+        self.text.setToolTip(translate("penetration", "Log of the selected run"))
+        self.text.setPlaceholderText(translate("penetration", "Select a run to see its details."))
         self.text.setMinimumWidth(160)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
@@ -75,7 +75,7 @@ class LogView(QWidget):
         count, ours = len(self.list.runs), self.list.of_this_start
         self.file.show_text(
             translate(
-                "penetration", "{count} shown, {ours} of this start. Log file: {path}"
+                "penetration", "{count} runs, {ours} since the program start. Log file: {path}"
             ).format(count=count, ours=ours, path=self._path)
         )
 

@@ -56,7 +56,7 @@ class PenetrationPanel(Panel):
         self.message = QLabel()
         self.message.setWordWrap(True)
         self.message.setTextFormat(Qt.TextFormat.PlainText)
-        self.message.setAccessibleName(translate("penetration", "What the penetration does"))
+        self.message.setAccessibleName(translate("penetration", "State of the penetration"))
         self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
         self._plan()
         self.readouts, self.preview = Readouts(workbench), ThrustPreview(workbench.theme)
@@ -142,7 +142,7 @@ class PenetrationPanel(Panel):
                 self.workbench.notify(
                     Level.WARNING,
                     translate(
-                        "penetration", "{name} is not taken: a penetration is armed or runs."
+                        "penetration", "{name} is not applied: a penetration is armed or running."
                     ).format(name=path.name),
                     about=self,
                 )
@@ -163,9 +163,7 @@ class PenetrationPanel(Panel):
         if self.form.complaint:
             self.workbench.notify(
                 Level.ERROR,
-                translate("penetration", "Nothing is saved: {reason}").format(
-                    reason=self.form.complaint
-                ),
+                translate("penetration", "Not saved: {reason}").format(reason=self.form.complaint),
                 about=self,
             )
             return
@@ -231,7 +229,7 @@ class PenetrationPanel(Panel):
         self._draw(status)
         fixed = None
         if status.phase in FIXED:
-            fixed = translate("penetration", "it is armed or runs; disarm it first")
+            fixed = translate("penetration", "the penetration is armed or running; disarm it first")
         self.form.allow(fixed)
         self.log.take_latest(status.run)
         if status.problem != self._problem:
@@ -298,7 +296,7 @@ class PenetrationPanel(Panel):
             if problems:
                 self.workbench.notify(
                     Level.WARNING,
-                    translate("penetration", "{n} lines of the log are none: {first}").format(
+                    translate("penetration", "{n} lines of the log cannot be read: {first}").format(
                         n=len(problems), first=problems[0]
                     ),
                     about=self,

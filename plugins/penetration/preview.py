@@ -20,7 +20,7 @@ from rotemina.plugins.penetration.plan_preview import (
 
 POSITION, SPEED = "position", "speed"
 _ROLES = {
-    marked("penetration", "wanted"): "text",
+    marked("penetration", "desired"): "text",
     marked("penetration", "commanded"): "command",
     marked("penetration", "measured"): "real",
 }
@@ -46,14 +46,14 @@ class ThrustPreview(QWidget):
             plain_tip(
                 translate(
                     "penetration",
-                    "Wanted: the planned motion of the tip. Commanded: the output of the device. "
-                    "Measured: the latest run, its constant delay removed.",
+                    "Desired: planned motion of the tip. Commanded: output of the device. "
+                    "Measured: latest run, constant delay removed.",
                 )
             )
         )
         self.shown = SteadyChoice(
-            translate("penetration", "What the plot shows"),
-            translate("penetration", "Way into the cell, or speed"),
+            translate("penetration", "Quantity of the plot"),
+            translate("penetration", "Distance into the cell, or speed"),
             letters=8,
         )
         self.shown.addItem(translate("penetration", "Position [µm]"), POSITION)

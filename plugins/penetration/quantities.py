@@ -98,7 +98,7 @@ class Quantity:
             raise TypedError(
                 translate(
                     "penetration",
-                    "{title}: {text!r} is no number; type one{unit}, with a decimal point",
+                    "{title}: {text!r} is not a number; enter one{unit} with a decimal point",
                 ).format(title=self.shown_title, text=text, unit=unit)
             )
         value, bound = number / self.per_si, BOUNDS[self.key]
@@ -107,9 +107,7 @@ class Quantity:
                 value = end  # typed as it is shown: rounding must not put it beyond
         if not bound.least <= value <= bound.most:
             raise TypedError(
-                translate(
-                    "penetration", "{title}: {value} is refused: must be {least} to {most}"
-                ).format(
+                translate("penetration", "{title}: {value} must be {least} to {most}").format(
                     title=self.shown_title,
                     value=f"{text} {self.unit}".rstrip(),
                     least=self.number(bound.least),
@@ -139,7 +137,8 @@ QUANTITIES = {
             _UM,
             Group.APPROACH,
             marked(
-                "penetration", "Without a contact by then the tip goes back, and the run has failed"
+                "penetration",
+                "Without contact within this distance the run fails and the tip retracts",
             ),
         ),
         Quantity(
@@ -148,7 +147,10 @@ QUANTITIES = {
             "1/h",
             1.0,
             Group.CONTACT,
-            marked("penetration", "Of the detector, on noise alone; fewer make it slower"),
+            marked(
+                "penetration",
+                "Rate of false alarms from noise; fewer alarms make the detection slower",
+            ),
         ),
         Quantity(
             "drift",
@@ -158,8 +160,8 @@ QUANTITIES = {
             Group.CONTACT,
             marked(
                 "penetration",
-                "Slope of measured − model that hysteresis, creep and gain may cause; less finds "
-                "softer membranes",
+                "Slope of measured − model that hysteresis, creep and gain may cause; a "
+                "smaller value detects softer membranes",
             ),
         ),
         Quantity(
@@ -168,7 +170,7 @@ QUANTITIES = {
             "µm",
             _UM,
             Group.CONTACT,
-            marked("penetration", "Way over which that slope may change by as much"),
+            marked("penetration", "Distance over which that slope may change by the same amount"),
         ),
         Quantity(
             "contact_pause_s",
@@ -184,9 +186,7 @@ QUANTITIES = {
             "µm",
             _UM,
             Group.THRUST,
-            marked(
-                "penetration", "Of the thrust, from where the approach came to rest on the membrane"
-            ),
+            marked("penetration", "Depth of the thrust, from the position of rest on the membrane"),
         ),
         Quantity(
             "duration_s",
@@ -194,7 +194,7 @@ QUANTITIES = {
             "ms",
             _MS,
             Group.THRUST,
-            marked("penetration", "Of the thrust, shaping included"),
+            marked("penetration", "Duration of the thrust, with shaping"),
         ),
         Quantity(
             "ramp",
@@ -204,7 +204,7 @@ QUANTITIES = {
             Group.THRUST,
             marked(
                 "penetration",
-                "Of an S-curve: share of the time to speed up, and again to slow down",
+                "S-curve: share of the time for acceleration, and the same for deceleration",
             ),
         ),
         Quantity(
@@ -213,7 +213,7 @@ QUANTITIES = {
             "ms",
             _MS,
             Group.HOLD,
-            marked("penetration", "At depth, before the tool is switched on"),
+            marked("penetration", "Time at depth before the tool is switched on"),
         ),
         Quantity(
             "inject_s",
@@ -221,7 +221,7 @@ QUANTITIES = {
             "ms",
             _MS,
             Group.HOLD,
-            marked("penetration", "With the tool on; 0: the tool stays off"),
+            marked("penetration", "Time with the tool on; 0: the tool stays off"),
         ),
         Quantity(
             "hold_after_s",
@@ -229,7 +229,7 @@ QUANTITIES = {
             "ms",
             _MS,
             Group.HOLD,
-            marked("penetration", "At depth, after the tool was switched off"),
+            marked("penetration", "Time at depth after the tool is switched off"),
         ),
         Quantity(
             "retract_speed",
@@ -247,7 +247,8 @@ QUANTITIES = {
             Group.LIMITS,
             marked(
                 "penetration",
-                "How far the measured depth may miss the asked one; else the run has failed",
+                "Permitted deviation of the measured from the requested depth; above it, "
+                "the run fails",
             ),
         ),
         Quantity(
@@ -258,8 +259,8 @@ QUANTITIES = {
             Group.LIMITS,
             marked(
                 "penetration",
-                "Greatest deviation of the axis from its set-point; beyond it, the tip retracts "
-                "at once",
+                "Maximum deviation of the axis from its set-point; above it, the tip "
+                "retracts at once",
             ),
         ),
         Quantity(
@@ -268,7 +269,7 @@ QUANTITIES = {
             "s",
             1.0,
             Group.LIMITS,
-            marked("penetration", "After this time it disarms automatically"),
+            marked("penetration", "Time after which the penetration disarms automatically"),
         ),
     )
 }

@@ -25,24 +25,25 @@ from rotemina.sim.quantities import fixed
 _PLAN = {
     marked("penetration", "Average speed"): marked("penetration", "Depth over duration"),
     marked("penetration", "Peak speed"): marked(
-        "penetration", "Greatest instantaneous speed of the thrust"
+        "penetration", "Maximum instantaneous speed of the thrust"
     ),
     marked("penetration", "End depth"): marked(
-        "penetration", "Where the thrust is commanded to end, from where the approach came to rest"
+        "penetration", "Commanded end of the thrust, from the position of rest on the membrane"
     ),
-    marked("penetration", "Room needed"): marked(
+    marked("penetration", "Travel needed"): marked(
         "penetration", "Approach, halt and thrust together"
     ),
-    marked("penetration", "Room left"): marked(
-        "penetration", "From where the axis stands to the end of its range, in the cell's direction"
+    marked("penetration", "Travel available"): marked(
+        "penetration", "Travel from the present position to the end of the range, towards the cell"
     ),
 }
 _RUN = {
     marked("penetration", "Way"): marked(
-        "penetration", "How far the axis is commanded from where the run began"
+        "penetration", "Commanded distance from the start of the run"
     ),
     marked("penetration", "Deviation"): marked(
-        "penetration", "Change of measured − model since the run began, against the motion"
+        "penetration",
+        "Change of measured − model since the start of the run, opposite to the motion",
     ),
 }
 
@@ -108,7 +109,7 @@ class Readouts(QWidget):
             plain_tip(
                 translate("penetration", "Deviation of the axis from its set-point."),
                 translate(
-                    "penetration", "Beyond {most:.4g} µm the run has failed, and the tip goes back."
+                    "penetration", "Above {most:.4g} µm the run fails and the tip retracts."
                 ).format(most=1e6 * most),
             )
         )
@@ -125,11 +126,11 @@ class Readouts(QWidget):
         why = None
         if on is None:
             self.tool.setText(translate("penetration", "No tool"))
-            why = translate("penetration", "{driver} has no tool that could be switched").format(
+            why = translate("penetration", "{driver} has no switchable tool").format(
                 driver=self._workbench.session.driver.name
             )
         elif not on and status.phase in UNDER_WAY:
-            why = translate("penetration", "the penetration switches it by itself while it runs")
+            why = translate("penetration", "the running penetration controls the tool")
         elif not on:
             why = state.locked
         tip = (

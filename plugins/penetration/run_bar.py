@@ -99,7 +99,9 @@ class RunBar(QWidget):
         self._shown = phase = status.phase
         self.arm.setText(translate("penetration", arm_word(phase)))
         against = (
-            translate("penetration", "it is in {phase}; stop it first").format(phase=spoken(phase))
+            translate("penetration", "the penetration is running ({phase}); stop it first").format(
+                phase=spoken(phase)
+            )
             if phase in UNDER_WAY
             else None
         )
@@ -125,8 +127,7 @@ class RunBar(QWidget):
                 state.locked or in_motion(state),
                 translate(
                     "penetration",
-                    "Move Z nano back as far as the penetration needs; Z makes up for it, and the "
-                    "tip stays",
+                    "Move Z nano back as far as needed; Z compensates, so the tip stays in place",
                 ),
             )
 

@@ -25,20 +25,20 @@ COLUMNS = (
     marked("penetration", "Reason"),
 )
 COLUMN_TIPS = (
-    marked("penetration", "When the run was started"),
+    marked("penetration", "Start time of the run"),
     marked(
         "penetration",
-        "Done, aborted by the button, failed, or held by a stop; the tip is retracted unless held",
+        "Done, aborted by the button, failed, or held by a stop; the tip retracts unless held",
     ),
     marked(
         "penetration",
-        "Height of the tip where the contact was told; where the axis was, without a tip",
+        "Height of the tip at the detected contact; without a tip, position of the axis",
     ),
-    marked("penetration", "How far the axis went in the thrust, by its own sensor"),
+    marked("penetration", "Travel of the axis in the thrust, by its own sensor"),
     marked("penetration", "Average speed of the thrust, measured"),
-    marked("penetration", "Greatest speed of the thrust, measured over five samples"),
-    marked("penetration", "Greatest distance from the profile, a constant delay taken off"),
-    marked("penetration", "Why it ended as it did"),
+    marked("penetration", "Maximum speed of the thrust, measured over five samples"),
+    marked("penetration", "Maximum distance from the profile, without a constant delay"),
+    marked("penetration", "Reason for the verdict"),
 )
 
 
@@ -109,20 +109,20 @@ def in_full(run: PenetrationRun) -> str:
 
 def _found(run: PenetrationRun) -> list[str]:
     rows: list[tuple[str, str | None]] = [
-        (translate("penetration", "began at"), _way(run.start)),
+        (translate("penetration", "started at"), _way(run.start)),
         (translate("penetration", "contact at"), _way(run.contact)),
         (translate("penetration", "contact, as measured"), _way(run.contact_measured)),
         (
             translate("penetration", "contact, height of the tip"),
             None if run.contact_height is None else _height(run),
         ),
-        (translate("penetration", "contact told after"), _ms(run.contact_delay_s)),
+        (translate("penetration", "contact detected after"), _ms(run.contact_delay_s)),
         (translate("penetration", "in contact from the start"), _yes(run.contact_from_start)),
         (translate("penetration", "noise, rms"), _nm(run.noise_rms)),
         (translate("penetration", "detector's threshold"), _plain(run.threshold)),
         (translate("penetration", "planned average speed"), _speed(run.planned_average_speed)),
         (translate("penetration", "planned peak speed"), _speed(run.planned_peak_speed)),
-        (translate("penetration", "cubics miss the profile by"), _nm(run.fit_error)),
+        (translate("penetration", "deviation of the cubics from the profile"), _nm(run.fit_error)),
     ]
     if run.thrust is not None:
         thrust = run.thrust
@@ -131,13 +131,13 @@ def _found(run: PenetrationRun) -> list[str]:
             (translate("penetration", "average speed"), _speed(thrust.average_speed)),
             (translate("penetration", "peak speed"), _speed(thrust.peak_speed)),
             (translate("penetration", "error against the profile"), _way(thrust.error)),
-            (translate("penetration", "delay taken off"), _ms(thrust.delay_s)),
+            (translate("penetration", "delay removed"), _ms(thrust.delay_s)),
             (translate("penetration", "samples"), f"{fixed(thrust.rate_hz, 0)} Hz"),
         ]
     rows += [
         (translate("penetration", "deviation, peak"), _way(run.peak_deviation)),
         (translate("penetration", "deviation, at the end"), _way(run.final_deviation)),
-        (translate("penetration", "membrane gave way"), _yes(run.gave_way)),
+        (translate("penetration", "membrane ruptured"), _yes(run.gave_way)),
     ]
     return [f"{name}: {text}" for name, text in rows if text is not None]
 

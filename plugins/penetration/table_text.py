@@ -34,7 +34,7 @@ def read_table(text: str) -> Table:
         raise TypedError(
             translate(
                 "penetration",
-                "table: {n} points; must be 2 to {most}, a line each, from 0, 0 to 1, 1",
+                "table: {n} points; must be 2 to {most}, one per line, from 0, 0 to 1, 1",
             ).format(n=len(points), most=MOST_POINTS)
         )
     for number, ((at, _), (later, _)) in enumerate(pairwise(points), 2):
@@ -57,7 +57,7 @@ def _point(number: int, line: str) -> tuple[float, float]:
         raise TypedError(
             translate(
                 "penetration",
-                "table, line {number}: {line!r}; type a time share, a comma and a depth "
+                "table, line {number}: {line!r}; enter a time share, a comma and a depth "
                 "share, such as 0.3, 0.1",
             ).format(number=number, line=line[:40])
         )

@@ -27,32 +27,32 @@ _DOING = {
     Phase.CONTACT: marked(
         "penetration", "Contact. The tip rests on the membrane; the thrust follows."
     ),
-    Phase.THRUST: marked("penetration", "The device runs the thrust by itself."),
+    Phase.THRUST: marked("penetration", "The device executes the thrust."),
     Phase.HOLD: marked("penetration", "The tip holds at its depth."),
     Phase.INJECT: marked("penetration", "The tool is on."),
     Phase.HOLD_AFTER: marked("penetration", "The tool is off; the tip holds at its depth."),
-    Phase.RETRACT: marked("penetration", "The tip goes back to where it began."),
+    Phase.RETRACT: marked("penetration", "The tip returns to its start."),
 }
 # What the buttons do, in English here: translated where it is shown.
 _BUTTON_TIPS = {
     marked("penetration", "Hold"): marked(
-        "penetration", "Stop the retraction; the tip stays where it is"
+        "penetration", "Stop the retraction; the tip stays in place"
     ),
     marked("penetration", "Retract"): marked(
-        "penetration", "Bring the tip back to where the run began"
+        "penetration", "Return the tip to the start of the run"
     ),
     marked("penetration", "Stop and retract"): marked(
-        "penetration", "Halt, switch the tool off, and bring the tip back along its axis"
+        "penetration", "Stop, switch the tool off, and retract the tip along its axis"
     ),
-    marked("penetration", "Start"): marked("penetration", "Begin to approach the cell"),
+    marked("penetration", "Start"): marked("penetration", "Start the approach to the cell"),
 }
 _ARM_TIPS = {
     marked("penetration", "Arm"): marked(
-        "penetration", "Check everything and reserve every axis; nothing moves until Start"
+        "penetration", "Check all conditions and reserve all axes; nothing moves before Start"
     ),
     marked("penetration", "Disarm"): marked("penetration", "Release the axes; nothing has moved"),
     marked("penetration", "Free the axes"): marked(
-        "penetration", "Leave the tip where it is, and let the axes be moved by hand"
+        "penetration", "Leave the tip in place and release the axes for manual motion"
     ),
 }
 
@@ -85,7 +85,9 @@ def against_button(status: PenetrationStatus, state: SessionState) -> str | None
     if status.phase is Phase.HELD:
         return state.locked
     return (
-        None if status.phase in FIXED else translate("penetration", "it is not armed; arm it first")
+        None
+        if status.phase in FIXED
+        else translate("penetration", "the penetration is not armed; arm it first")
     )
 
 
@@ -147,16 +149,16 @@ def message(status: PenetrationStatus, why_not: str | None) -> str:
     if phase is Phase.HELD:
         return translate(
             "penetration",
-            "Held: {reason}. The tip stays where it is; press Retract to bring it back, "
-            "or Free the axes to move it by hand.",
+            "Held: {reason}. The tip stays in place; press Retract to return it, or "
+            "Free the axes to move it manually.",
         ).format(reason=spoken(status.reason))
     if phase is Phase.ARMED:
         return translate(
-            "penetration", "Armed: every axis is reserved. Press Start; nothing moves before."
+            "penetration", "Armed: all axes are reserved. Nothing moves until you press Start."
         )
     came = _came_of(status)
     may = (
-        translate("penetration", "Ready to be armed.")
+        translate("penetration", "Ready to arm.")
         if why_not is None
         else translate("penetration", "Cannot be armed now: {why_not}").format(
             why_not=_stopped(spoken(why_not))
@@ -178,14 +180,15 @@ def _came_of(status: PenetrationStatus) -> str:
     if run.verdict is Verdict.DONE and run.thrust is not None:
         thrust = run.thrust
         return translate(
-            "penetration", "Done: {depth} deep, {speed} at most, {error} off its profile."
+            "penetration",
+            "Done: depth {depth}, maximum speed {speed}, error {error} from the profile.",
         ).format(
             depth=way_text(thrust.depth),
             speed=speed_text(thrust.peak_speed),
             error=way_text(thrust.error),
         )
     verdict = spoken(run.verdict)
-    return translate("penetration", "{verdict}: {reason} The tip is back.").format(
+    return translate("penetration", "{verdict}: {reason} The tip is retracted.").format(
         verdict=verdict[:1].upper() + verdict[1:], reason=_stopped(spoken(run.reason))
     )
 

@@ -35,7 +35,7 @@ _STOPS = 16
 _BAR_ROOM = 92  # on the right, for the bar and its numbers
 TIP = marked(
     "plate",
-    "Drag to turn, wheel to zoom, double click to see it as at first; arrow keys, + and − too",
+    "Drag to rotate, use the wheel to zoom, double-click to reset; also arrow keys, + and −",
 )
 
 

@@ -20,7 +20,7 @@ from rotemina.sim.quantities import fixed
 
 _STEPS = 500
 _SCALES = 200  # per cent
-STATIC = marked("plate", "Hub moved")
+STATIC = marked("plate", "Moved hub")
 
 
 class Controls(QWidget):
@@ -37,13 +37,13 @@ class Controls(QWidget):
         super().__init__()
         self._ranges = np.zeros((3, 2))
         self.what = QComboBox()
-        self.what.setAccessibleName(translate("plate", "What is shown"))
+        self.what.setAccessibleName(translate("plate", "View"))
         self.what.setToolTip(
             translate("plate", "The plate with its hub moved, or one of its modes")
         )
         self.colour = QComboBox()
         self.colour.setAccessibleName(translate("plate", "Colours"))
-        self.colour.setToolTip(translate("plate", "What the colours mean"))
+        self.colour.setToolTip(translate("plate", "Quantity of the colours"))
         for quantity in QUANTITIES:
             self.colour.addItem(translate("plate", quantity.title))
         self.sliders = tuple(

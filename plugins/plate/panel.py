@@ -41,7 +41,7 @@ from rotemina.sim.whole_files import replaced
 FRAME_MS = 33
 _WIDTH = 330  # of the choices at least, px
 SWING_S = 2.0  # a mode is shown slowly, whatever its frequency
-_UNSOLVED = marked("plate", "there is no solved plate yet")
+_UNSOLVED = marked("plate", "no plate is solved yet")
 
 
 class PlatePanel(Panel):
@@ -68,7 +68,7 @@ class PlatePanel(Panel):
     def _make_parts(self) -> None:
         self.mesh = QComboBox()
         self.mesh.setAccessibleName(translate("plate", "Mesh"))
-        self.mesh.setToolTip(translate("plate", "A finer mesh is truer and takes longer"))
+        self.mesh.setToolTip(translate("plate", "A finer mesh is more accurate and takes longer"))
         for title, divisions in MESHES:
             self.mesh.addItem(translate("plate", title), divisions)
         self.mesh.setCurrentIndex(1)
@@ -78,9 +78,9 @@ class PlatePanel(Panel):
         )
         self.start.setProperty("primary", True)
         self.start.setToolTip(
-            translate("plate", "Compute the plate that the robot file describes; motion goes on")
+            translate("plate", "Compute the plate of the robot file; motion continues")
         )
-        self.stop.setToolTip(translate("plate", "Cancel the computation; motion goes on"))
+        self.stop.setToolTip(translate("plate", "Cancel the computation; motion continues"))
         self.vtu, self.png = (
             QPushButton(translate("plate", "Save VTU …")),
             QPushButton(translate("plate", "Save PNG …")),
@@ -90,7 +90,7 @@ class PlatePanel(Panel):
             text.setTextFormat(Qt.TextFormat.PlainText)
             text.setWordWrap(True)
         self.doing.setProperty("quiet", True)
-        self.pose_text.setAccessibleName(translate("plate", "At this pose"))
+        self.pose_text.setAccessibleName(translate("plate", "In this pose"))
         self.plate_text.setAccessibleName(translate("plate", "The plate as a whole"))
 
     def _lay_out(self) -> None:
@@ -179,9 +179,11 @@ class PlatePanel(Panel):
         allow(
             self.vtu,
             why_not,
-            translate("plate", "Mesh, displacement, stress and modes for ParaView and the like"),
+            translate(
+                "plate", "Mesh, displacement, stress and modes for ParaView and similar programs"
+            ),
         )
-        allow(self.png, why_not, translate("plate", "The picture as it is shown"))
+        allow(self.png, why_not, translate("plate", "The displayed picture"))
         self.controls.setEnabled(self.solved is not None)
         if self.solved is None:
             self.canvas.show_picture(None, translate("plate", EMPTY))

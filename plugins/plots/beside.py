@@ -43,15 +43,15 @@ class RunBeside(QComboBox):
         for choice, text in (
             (_ALONE, translate("plots", "No other run")),
             (_KEPT, translate("plots", "Keep this run")),
-            (_IN_HAND, translate("plots", "Run in hand")),
+            (_IN_HAND, translate("plots", "Latest run")),
             (_RECORD, translate("plots", "Record …")),
         ):
             self.addItem(text, choice)
         self.setAccessibleName(translate("plots", "Another run beside the present one"))
         self.setToolTip(
             plain_tip(
-                translate("plots", "Keep this run: what is shown now stays beside what comes."),
-                translate("plots", "Run in hand: the record that was opened or played last."),
+                translate("plots", "Keep this run: displays it next to the following one."),
+                translate("plots", "Latest run: the record that was opened or played last."),
                 translate("plots", "Record …: one of the library."),
             )
         )
@@ -63,7 +63,7 @@ class RunBeside(QComboBox):
         if self.other is None:
             self._workbench.notify(
                 Level.WARNING,
-                translate("plots", "There is no other run to align: choose one."),
+                translate("plots", "There is no second run to align: choose one."),
                 about=self._panel,
             )
             return
@@ -112,7 +112,7 @@ class RunBeside(QComboBox):
         if run is None:
             self._workbench.notify(
                 Level.WARNING,
-                translate("plots", "There is no run in hand: open or play one."),
+                translate("plots", "There is no latest run: open or play one."),
                 about=self._panel,
             )
             self._show_choice()
@@ -143,7 +143,7 @@ def _ask_run(panel: Panel, use: Callable[[OtherRun], None]) -> None:
         )
 
     def nothing_there() -> None:
-        text = translate("plots", "The library has no records yet: play or record something.")
+        text = translate("plots", "The library has no records: play or record a motion first.")
         bench.notify(Level.WARNING, text, about=panel)
 
     title = translate("plots", "Record beside the present run")

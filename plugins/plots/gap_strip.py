@@ -153,9 +153,9 @@ class GapStrip(QWidget):
         )
         return [
             translate(
-                "plots", "Gap of the {n} s before, while something moves; the scale is logarithmic"
+                "plots", "Gap of the last {n} s, while an axis moves; logarithmic scale"
             ).format(n=rounded(SHORT_S, 2)),
             translate("plots", "Band: noise floor of the sensor, {floor}").format(floor=floor),
-            translate("plots", "Amber: more than noise makes, {noise}").format(noise=noise_text),
+            translate("plots", "Amber: above the noise, {noise}").format(noise=noise_text),
             translate("plots", "Red: beyond the following bound, {bound}").format(bound=bound_text),
         ]

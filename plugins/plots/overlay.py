@@ -59,7 +59,7 @@ class OtherRun:
         """
         if len(window) == 0:
             raise NothingShownError(
-                translate("plots", "plots: no samples are shown, so there is no run to keep")
+                translate("plots", "plots: there are no samples, so no run to keep")
             )
         return cls(name, window.device_time_s, window.command, window.measured)
 

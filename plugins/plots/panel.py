@@ -178,11 +178,11 @@ class PlotsPanel(Panel):
 
     def _header(self) -> QHBoxLayout:
         self.shown = _choice(
-            translate("plots", "What the plots show"),
+            translate("plots", "Contents of the plots"),
             ((key, translate("plots", text)) for key, text in VIEWS.items()),
         )
         self.span = _choice(
-            translate("plots", "How far back the plots show"), ((s, f"{s} s") for s in SPANS_S)
+            translate("plots", "Time span of the plots"), ((s, f"{s} s") for s in SPANS_S)
         )
         for box in (self.shown, self.span):
             box.setSizeAdjustPolicy(box.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
@@ -196,20 +196,18 @@ class PlotsPanel(Panel):
         self.cursors = QPushButton(translate("plots", "Cursors"))
         self.cursors.setCheckable(True)
         self.cursors.setToolTip(
-            translate("plots", "Two lines to be dragged; what they read stands above each plot")
+            translate("plots", "Two lines to drag; their values appear above each plot")
         )
         self.cursors.toggled.connect(lambda _: self._show_cursors())
         self.pause = QPushButton(translate("plots", "Pause"))
         self.pause.setCheckable(True)
         self.pause.setToolTip(
-            translate("plots", "Freeze the plots; motion, recording and replay go on")
+            translate("plots", "Freeze the plots; motion, recording and replay continue")
         )
         self.pause.toggled.connect(self._hold)
         self.more = QPushButton(translate("plots", "More"))
         self.more.setMenu(self._menu())
-        self.more.setToolTip(
-            translate("plots", "Further views, alignment, and files of what is shown")
-        )
+        self.more.setToolTip(translate("plots", "Alignment, and files of the plots"))
         self._legend = Legend(self.workbench.theme)
         self.age = QLabel()
         self.age.setProperty("tone", "warning")

@@ -78,9 +78,7 @@ def as_record(window: LiveWindow, robot: Robot) -> Record:
         If nothing is.
     """
     if len(window) == 0:
-        raise NothingShownError(
-            translate("plots", "plots: no samples are shown, so there is nothing to save")
-        )
+        raise NothingShownError(translate("plots", "plots: there are no samples to save"))
     time_s = window.device_time_s - window.device_time_s[0]
     signals: dict[tuple[str, Tap], FloatArray] = {}
     for column, axis in enumerate(window.axes):

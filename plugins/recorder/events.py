@@ -22,7 +22,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 
-COLUMNS = (marked("recorder", "Time"), marked("recorder", "What"), marked("recorder", "Text"))
+COLUMNS = (marked("recorder", "Time"), marked("recorder", "Event"), marked("recorder", "Text"))
 Index = QModelIndex | QPersistentModelIndex
 _NONE = QModelIndex()
 _AFTER_S = 1e-6
@@ -105,9 +105,9 @@ class EventsView(QWidget):
         self.table = _table(self.model)
         self.table.clicked.connect(lambda index: self.jump(index.row()))
         self.table.activated.connect(lambda index: self.jump(index.row()))
-        self.details = QCheckBox(translate("recorder", "with states and log lines"))
+        self.details = QCheckBox(translate("recorder", "with states and log"))
         self.details.setToolTip(
-            translate("recorder", "Show these too, beside what the operator did and was told")
+            translate("recorder", "Also show states and log lines, not only actions and messages")
         )
         self.details.toggled.connect(self._choose)
         self.title = QLabel(translate("recorder", _EMPTY))
@@ -147,9 +147,9 @@ class EventsView(QWidget):
         else:
             name = self._replaying.paced.replay.recording.path.name
             self.title.setText(
-                translate("recorder", "{name}: {n} of {all} events; click to jump").format(
-                    name=name, n=len(chosen), all=len(self._all)
-                )
+                translate(
+                    "recorder", "{name}: {n} of {all} events; click one to jump there"
+                ).format(name=name, n=len(chosen), all=len(self._all))
             )
 
     def _follow(self) -> None:
@@ -167,7 +167,7 @@ class EventsView(QWidget):
 def _table(model: EventsModel) -> QTableView:
     table = QTableView()
     table.setModel(model)
-    table.setAccessibleName(translate("recorder", "Events of the recording that is shown"))
+    table.setAccessibleName(translate("recorder", "Events of the displayed recording"))
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
     table.setTabKeyNavigation(False)

@@ -40,7 +40,7 @@ class RecorderPanel(Panel):
         self.recordings = RecordsView(workbench, self.unfinished)
         self.events = EventsView(workbench)
         self.tabs, self.views = tabbed(
-            translate("recorder", "What is shown"),
+            translate("recorder", "View"),
             {
                 translate("recorder", "Records"): self.recordings,
                 translate("recorder", "Events"): self.events,
@@ -87,7 +87,7 @@ class RecorderPanel(Panel):
                 Level.WARNING,
                 translate(
                     "recorder",
-                    "Recordings that were cut off: {names}. Recover them in the panel {title}.",
+                    "Interrupted recordings: {names}. Recover them in the panel {title}.",
                 ).format(names=listed(names), title=translate("panels", self.title)),
                 about=self,
             )

@@ -57,8 +57,8 @@ def scarce(free: int | None, written: int) -> str | None:
         return None
     return translate(
         "recorder",
-        "Only {free} are free, and ending the recording takes "
-        "{size}: make room. Motion goes on in any case.",
+        "Only {free} are free, but ending the recording needs {size}. Free disk "
+        "space; the motion continues in any case.",
     ).format(free=size_text(free), size=size_text(written))
 
 
@@ -85,7 +85,7 @@ class LabelFields(QWidget):
             field.setAccessibleName(name)
             field.setMaxLength(MOST_LETTERS)
             field.setToolTip(
-                translate("recorder", "Stands in every playback and recording from now on")
+                translate("recorder", "Stored with every playback and recording from now on")
             )
             field.editingFinished.connect(self._use)
             grid.addWidget(title, row, 0)
@@ -145,7 +145,9 @@ class RecordingSection(QWidget):
         self.note.setPlaceholderText(translate("recorder", "remark"))
         self.note.setAccessibleName(translate("recorder", "Remark for the recording"))
         self.note.setToolTip(
-            translate("recorder", "Written into the recording with the time of Enter")
+            translate(
+                "recorder", "Enter writes the remark into the recording with the present time"
+            )
         )
         self.note.setEnabled(False)  # until something is recorded
         self.note.returnPressed.connect(self.remark)
@@ -154,7 +156,7 @@ class RecordingSection(QWidget):
         self.keep.clicked.connect(self.remark)
         self.at_start = QCheckBox(translate("recorder", "Record from program start"))
         self.at_start.setToolTip(
-            translate("recorder", "Begin a recording by itself when the program is started")
+            translate("recorder", "Start a recording whenever the program starts")
         )
         with QSignalBlocker(self.at_start):
             self.at_start.setChecked(self._wanted)
@@ -163,7 +165,9 @@ class RecordingSection(QWidget):
         self.folder.setReadOnly(True)
         self.folder.setCursorPosition(0)
         self.folder.setAccessibleName(translate("recorder", "Folder of recordings"))
-        self.folder.setToolTip(translate("recorder", "The folder of recordings, to be copied"))
+        self.folder.setToolTip(
+            translate("recorder", "Folder of the recordings; select the text to copy it")
+        )
 
     def _lay_out(self) -> None:
         top = QHBoxLayout()
@@ -247,25 +251,27 @@ class RecordingSection(QWidget):
             )
         )
         tip = (
-            translate("recorder", "End it and keep it in one file")
+            translate("recorder", "End the recording and save it in one file")
             if running
-            else translate("recorder", "Record everything from now on")
+            else translate("recorder", "Record all signals and events from now on")
         )
         allow(
             self.record,
-            translate("recorder", "wait until that is done") if self._doing else None,
+            translate("recorder", "wait for the running work") if self._doing else None,
             tip,
         )
         why_not = None if running else translate("recorder", "nothing is being recorded")
         allow(
             self.note,
             why_not,
-            translate("recorder", "Enter puts it into the recording, at this time"),
+            translate(
+                "recorder", "Enter writes the remark into the recording with the present time"
+            ),
         )
         allow(
             self.keep,
             why_not,
-            translate("recorder", "Add the remark to the recording at this time"),
+            translate("recorder", "Write the remark into the recording with the present time"),
         )
         if recorder is None:
             self._show("–", "–", "–", room_text(self._free, 0, 0.0), None)
@@ -282,19 +288,20 @@ class RecordingSection(QWidget):
             scarce(self._free, written)
             if failure is None
             else translate(
-                "recorder", "Nothing is recorded now: {failure}. Make room; motion goes on."
+                "recorder",
+                "The recording has failed: {failure}. Free disk space; the motion continues.",
             ).format(failure=failure),
         )
 
     # --- inside -----------------------------------------------------------------------------------
 
     def _begin(self) -> None:
-        self._doing = translate("recorder", "Beginning …")
+        self._doing = translate("recorder", "Starting …")
         preferences = self._workbench.settings.values
         told = {key: each for key, each in preferences.items() if not key.startswith(_SCREEN)}
         self._workbench.work(
             "recording",
-            translate("recorder", "Beginning to record …"),
+            translate("recorder", "Starting the recording …"),
             lambda: self._operation.start_recording(told),
             lambda _: self._settle(),
             self._settle,
@@ -308,7 +315,7 @@ class RecordingSection(QWidget):
         size = size_text(recorder.writer.bytes_written)
         self._workbench.work(
             "recording",
-            translate("recorder", "Ending the recording: {size} are put together …").format(
+            translate("recorder", "Ending the recording: {size} are being merged …").format(
                 size=size
             ),
             self._operation.stop_recording,
@@ -318,7 +325,7 @@ class RecordingSection(QWidget):
 
     def _kept(self, path: Path) -> None:
         self._workbench.notify(
-            Level.GOOD, translate("recorder", "Recorded {path}").format(path=path)
+            Level.GOOD, translate("recorder", "Saved the recording {path}").format(path=path)
         )
         self._settle()
 

@@ -34,7 +34,7 @@ from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record
 
 _NONE = marked("recorder", "choose one record in the table")
-_NO_STRETCH = marked("recorder", "it is a record already; only a recording is exported")
+_NO_STRETCH = marked("recorder", "it is already a record; only recordings can be exported")
 
 
 class RecordsView(QWidget):
@@ -197,33 +197,37 @@ class RecordsView(QWidget):
             translate("recorder", "Replay") if replayed else translate("recorder", "Compare")
         )
         tip = (
-            translate("recorder", "Show the recording in place of the machine")
+            translate("recorder", "Display the recording instead of the machine")
             if replayed
             else translate("recorder", "Compare the record with the model in use")
         )
         allow(self.open, why_not, tip)
         whole = why_not or (None if replayed else translate("recorder", _NO_STRETCH))
         tip = translate(
-            "recorder", "Write the stretch as an ASCII record, to be compared and diagnosed"
+            "recorder", "Export the section as an ASCII record for comparison and diagnosis"
         )
         allow(self.to_record, whole, tip)
         tip = translate(
             "recorder",
-            "Take the commands of the stretch in hand, to be played on the machine; every axis "
-            "must stand at both ends",
+            "Use the commands of the section as a trajectory; every axis must be at "
+            "rest at both ends",
         )
         allow(self.to_trajectory, why_not, tip)
         here = (
             None
             if self._shown_s() is not None
-            else translate("recorder", "this recording is not shown")
+            else translate("recorder", "this recording is not displayed")
         )
         allow(
             self.begin_here,
             here,
-            translate("recorder", "Let the stretch begin where the replay is"),
+            translate("recorder", "Start the section at the present time of the replay"),
         )
-        allow(self.end_here, here, translate("recorder", "Let the stretch end where the replay is"))
+        allow(
+            self.end_here,
+            here,
+            translate("recorder", "End the section at the present time of the replay"),
+        )
         self.rename.setEnabled(chosen is not None)
         self.annotate.setEnabled(chosen is not None)
         self.find.setEnabled(chosen is not None and chosen.missing)
@@ -304,8 +308,8 @@ class RecordsView(QWidget):
             )
         text = translate(
             "recorder",
-            "Delete {names}? This deletes {size} on the disk for good. Files in other folders "
-            "stay; they only leave the list.",
+            "Delete {names}? This permanently deletes {size} from the disk. Files in "
+            "other folders stay; only their entries are removed.",
         ).format(names=names, size=size_text(sum(one.size for one in own)))
         delete = self._workbench.library.delete
         self.question.ask(text, translate("recorder", "Delete"), lambda: delete(chosen))
@@ -318,12 +322,12 @@ def _field(end: str) -> QLineEdit:
     room = field.fontMetrics().horizontalAdvance(what)
     field.setFixedWidth(max(60, room + 28))  # the frame and the cursor
     field.setAccessibleName(
-        translate("recorder", "{end} of the stretch in seconds").format(
+        translate("recorder", "{end} of the section in seconds").format(
             end=what[:1].upper() + what[1:]
         )
     )
     field.setToolTip(
-        translate("recorder", "Seconds from the begin of the recording; empty: its {end}").format(
+        translate("recorder", "Seconds from the start of the recording; empty: its {end}").format(
             end=what
         )
     )

@@ -33,7 +33,7 @@ class UnfinishedBox(QFrame):
         self.text.setTextFormat(Qt.TextFormat.PlainText)
         self.recover = QPushButton(translate("recorder", "Recover"))
         self.recover.setToolTip(
-            translate("recorder", "Make finished recordings of all that was recorded of them")
+            translate("recorder", "Complete interrupted recordings with the data on the disk")
         )
         self.recover.clicked.connect(self._recover)
         row = QHBoxLayout(self)

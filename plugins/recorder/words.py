@@ -8,7 +8,7 @@ from rotemina.plugins.recorder.unfinished_files import Unfinished
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import parsed
 
-BEGIN, END = marked("recorder", "begin"), marked("recorder", "end")
+BEGIN, END = marked("recorder", "start"), marked("recorder", "end")
 
 
 class SpanError(InputError):
@@ -22,13 +22,11 @@ def unfinished_text(unfinished: Sequence[Unfinished]) -> str:
     if waiting:
         lines.append(
             translate(
-                "recorder", "Not ended, as the program or its computer was cut off: {names}."
+                "recorder", "Interrupted because the program or the computer stopped: {names}."
             ).format(names=listed(waiting))
         )
     lines += [
-        translate("recorder", "{name} is being recorded by another program.").format(
-            name=one.path.name
-        )
+        translate("recorder", "Another program is recording {name}.").format(name=one.path.name)
         for one in unfinished
         if one.busy
     ]
@@ -60,7 +58,7 @@ def span(begin: str, end: str, duration_s: float) -> tuple[float, float]:
         raise SpanError(
             translate(
                 "recorder",
-                "from {begin:g} s to {end:g} s: the end must be later than the begin",
+                "from {begin:g} s to {end:g} s: the end must be later than the start",
             ).format(begin=begin_s, end=end_s)
         )
     if begin_s >= duration_s:
@@ -81,8 +79,8 @@ def _seconds(text: str, otherwise: float, what: str) -> float:
         raise SpanError(
             translate(
                 "recorder",
-                "{text!r} is no {what}: type seconds from the begin of the recording, "
-                "0 or more, with a decimal point, or nothing",
+                "{what}: {text!r} is not valid. Enter seconds from the start of the "
+                "recording, 0 or more, with a decimal point, or leave the field empty.",
             ).format(text=text, what=translate("recorder", what))
         )
     return number

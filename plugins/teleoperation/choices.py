@@ -68,13 +68,13 @@ class ChoiceSection(Section):
         )
         self.preset = SteadyChoice(
             translate("teleoperation", "Step preset"),
-            translate("teleoperation", "Factor on way, speed and force of every coordinate"),
+            translate("teleoperation", "Factor on distance, speed and force of every coordinate"),
         )
         for factor in STEP_PRESETS:
             self.preset.addItem(f"× {rounded(factor, 6)}", factor)
         self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
         self.factor = plain_text()
-        self.factor.setAccessibleName(translate("teleoperation", "Factor that acts now"))
+        self.factor.setAccessibleName(translate("teleoperation", "Present factor"))
         self.clutch = plain_text(lines=2)
         self.column.addWidget(self.modes)
         self.column.addWidget(heading(translate("teleoperation", "Scaling")))

@@ -91,16 +91,16 @@ class CoordinateRow(QFrame):
         )
         self.law = plain_text(lines=1)
         self.law.setAccessibleName(translate("teleoperation", "{name} scaling").format(name=name))
-        self.felt_title = QLabel(translate("teleoperation", "Felt"))
+        self.felt_title = QLabel(translate("teleoperation", "Force"))
         self.felt_title.setProperty("quiet", True)
         self.felt = CentreBar(workbench, "warning")
         self.felt.setAccessibleName(
-            translate("teleoperation", "{name} felt contact force").format(name=name)
+            translate("teleoperation", "{name} contact force at the stick").format(name=name)
         )
         self.felt.setToolTip(
             translate(
                 "teleoperation",
-                "How hard a contact pushes back, −100 % to 100 % of the stick's force",
+                "Force of a contact at the stick, −100 % to 100 % of its maximum",
             )
         )
         grid = QGridLayout(self)
@@ -143,7 +143,7 @@ class CoordinateSection(Section):
         self.none.setText(
             translate(
                 "teleoperation",
-                "Shown as soon as the axes' positions are known and a device is there.",
+                "Available when the positions of the axes are known and a device is connected.",
             )
         )
         self.column.addWidget(self.none)

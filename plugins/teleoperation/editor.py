@@ -69,12 +69,12 @@ class ScaleEditor(Section):
         why = (
             None
             if self._coordinates
-            else translate("teleoperation", "the axes' positions are not known yet")
+            else translate("teleoperation", "the positions of the axes are unknown")
         )
         for edit in (*self.fields.values(), self.choice):
             edit.setEnabled(why is None)
         kept = self._mode in self._steered.scales.modes
-        why = why or (None if kept else translate("teleoperation", "they are the presets"))
+        why = why or (None if kept else translate("teleoperation", "all scales have their presets"))
         allow(
             self.presets,
             why,

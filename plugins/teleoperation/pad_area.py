@@ -46,8 +46,8 @@ _TIP = (
     ),
     marked(
         "teleoperation",
-        "With the keyboard on it: arrows x and y, page up and down z, shift coarse, ctrl fine, "
-        "space clutch.",
+        "Keyboard, when the pad has the focus: arrows x and y, page up and down z, "
+        "shift coarse, ctrl fine, space clutch.",
     ),
 )
 

@@ -27,7 +27,7 @@ class PadSection(Section):
         self.area = PadArea(workbench, self._stick)
         self.most = SteadyChoice(
             translate("teleoperation", "Deflection of the pad in percent"),
-            translate("teleoperation", "Deflection at the ends of the pad, and of its keys"),
+            translate("teleoperation", "Deflection at the ends of the pad and for its keys"),
         )
         for share in SHARES:
             self.most.addItem(
@@ -68,13 +68,11 @@ class PadSection(Section):
             self.take_over,
             translate(
                 "teleoperation",
-                "the pad drives; the other device gets the drive back by being moved",
+                "the pad is in control; moving the other device returns control to it",
             )
             if drives
             else None,
-            translate(
-                "teleoperation", "Let the pad drive, as long as the other device is left alone"
-            ),
+            translate("teleoperation", "Control with the pad until the other device is moved"),
         )
 
     def _use_most(self, _: int) -> None:

@@ -26,7 +26,7 @@ def position_text(scale: float, unit: str, what: str, stick_travel_m: float) -> 
 
 def way_text(scale: float, unit: str) -> str:
     """Return ``"full stick = 2 µm"``, for a way (m or rad) or a speed at full deflection."""
-    return translate("teleoperation", "full stick = {way}").format(way=exact(scale, unit))
+    return translate("teleoperation", "full deflection = {way}").format(way=exact(scale, unit))
 
 
 def rate_text(scale: float, unit: str) -> str:
@@ -38,13 +38,13 @@ def felt_text(felt: FeltDynamics, unit: str, factor: float = 1.0) -> str:
     """Return where full deflection leads, and how soon; ``factor`` is the law's scale."""
     after_s = f"{rounded(felt.time_constant_s, 3)} s"
     if felt.terminal_speed is not None:
-        glide = translate("teleoperation", "full stick ends at {speed}, time constant {after}")
+        glide = translate("teleoperation", "full deflection: {speed}, time constant {after}")
         speed = exact(factor * felt.terminal_speed, f"{unit}/s")
         return glide.format(speed=speed, after=after_s)
     swing = translate(
         "teleoperation",
-        "full stick ends {travel} away: {hz:.3g} Hz, damping ratio {damping:.3g}, time constant "
-        "{after}",
+        "full deflection: {travel}, {hz:.3g} Hz, damping ratio {damping:.3g}, time "
+        "constant {after}",
     )
     return swing.format(
         travel=exact(factor * (felt.travel or 0.0), unit),

@@ -26,7 +26,7 @@ class ReserveSection(Section):
         self.bar = QProgressBar()
         self.bar.setRange(0, 100)
         self.bar.setTextVisible(False)
-        self.bar.setAccessibleName(translate("teleoperation", "Piezo range left in percent"))
+        self.bar.setAccessibleName(translate("teleoperation", "Remaining piezo range in percent"))
         self.bar.setToolTip(
             translate(
                 "teleoperation", "100 %: the piezo is in the middle of its range; 0 %: at an end"
@@ -38,14 +38,14 @@ class ReserveSection(Section):
             translate("teleoperation", "Tilt of the tool since the mode began")
         )
         self.tilt.setToolTip(
-            translate("teleoperation", "By how much the mode has turned the tool since it began")
+            translate("teleoperation", "Rotation of the tool since the mode began")
         )
         grid = QGridLayout()
         grid.setHorizontalSpacing(12)
         grid.setColumnStretch(1, 1)
         for row, (title, widget) in enumerate(
             (
-                (translate("teleoperation", "Left"), self.left),
+                (translate("teleoperation", "Remaining"), self.left),
                 (translate("teleoperation", "Tilt"), self.tilt),
             )
         ):
@@ -79,7 +79,7 @@ class ReserveSection(Section):
         self.left.setText(wording.reserve_text(state))
         self.tilt.setText(wording.tilt_shown(state))
         why = against_recentring(machine)
-        stays = translate("teleoperation", "to mid-range while the tables keep the tip where it is")
+        stays = translate("teleoperation", "to mid-range while the tables hold the tip in place")
         allow(self.one, why, translate("teleoperation", "Bring zn {stays}").format(stays=stays))
         allow(
             self.all,

@@ -48,15 +48,15 @@ class ScaleField(NamedTuple):
 FIELDS = (
     ScaleField(
         "way",
-        marked("teleoperation", "Way at full stick"),
+        marked("teleoperation", "Distance at full stick"),
         "way",
-        marked("teleoperation", "Position; and impedance on a spring"),
+        marked("teleoperation", "Position, and impedance with a spring"),
     ),
     ScaleField(
         "speed",
         marked("teleoperation", "Speed at full stick"),
         "speed",
-        marked("teleoperation", "Rate; and impedance without a spring"),
+        marked("teleoperation", "Rate, and impedance without a spring"),
     ),
     ScaleField(
         "time_constant_s",
@@ -64,7 +64,7 @@ FIELDS = (
         "s",
         marked(
             "teleoperation",
-            "Impedance without a spring: in which the virtual mass gets to its speed",
+            "Impedance without a spring: time in which the virtual mass reaches its speed",
         ),
     ),
     ScaleField(
@@ -73,14 +73,14 @@ FIELDS = (
         "Hz",
         marked(
             "teleoperation",
-            "Impedance: how fast the virtual mass swings; 0 is no spring, and it glides",
+            "Impedance: frequency of the virtual mass; 0: no spring, the mass glides",
         ),
     ),
     ScaleField(
         "damping_ratio",
         marked("teleoperation", "Damping ratio"),
         "",
-        marked("teleoperation", "Impedance on a spring: below 1 it overshoots, above 1 it creeps"),
+        marked("teleoperation", "Impedance with a spring: overshoots below 1, creeps above 1"),
     ),
     ScaleField(
         "contact_gain",
@@ -88,7 +88,7 @@ FIELDS = (
         "%",
         marked(
             "teleoperation",
-            "Impedance: how much of the greatest safe force a contact pushes back; 0 is none",
+            "Impedance: contact force relative to the largest safe force; 0: none",
         ),
     ),
 )
@@ -164,7 +164,7 @@ def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale
         raise ScalingError(
             translate(
                 "teleoperation",
-                "{title}: {text!r} is no number; type one{unit} with a decimal point",
+                "{title}: {text!r} is not a number; enter one{unit} with a decimal point",
             ).format(title=title, text=text, unit=unit_text)
         )
     value = number / unit.factor
@@ -203,7 +203,7 @@ def _check_reach(typed: str, name: str, value: float, coordinate: Coordinate) ->
     if name == "way" and value > bounds.high - bounds.low:
         most = exact(bounds.high - bounds.low, unit)
         raise ScalingError(
-            translate("teleoperation", "{typed}: must be at most {most}, its range").format(
+            translate("teleoperation", "{typed}: must be at most the range of {most}").format(
                 typed=typed, most=most
             )
         )
@@ -211,7 +211,7 @@ def _check_reach(typed: str, name: str, value: float, coordinate: Coordinate) ->
         most = exact(bounds.max_speed, f"{unit}/s")
         raise ScalingError(
             translate(
-                "teleoperation", "{typed}: must be at most {most}, its greatest speed"
+                "teleoperation", "{typed}: must be at most the maximum speed of {most}"
             ).format(typed=typed, most=most)
         )
 

@@ -26,7 +26,7 @@ from rotemina.sim.robot.model import Robot
 
 PAD_SOURCE = "keys"
 
-WAITING = marked("teleoperation", "bring the stick to the middle first")
+WAITING = marked("teleoperation", "centre the stick first")
 _LITTLE = 0.2  # of the range
 _TILT_DIGITS = 9  # of rad: what is less is rounding, and no tilt
 _TIP_SCALE = scale_in("mm", decimals=5)
@@ -42,32 +42,32 @@ class Choice(NamedTuple):
 _MODES = {
     "micro": Choice(
         marked("teleoperation", "Micro"),
-        marked("teleoperation", "The stick moves the tables: millimetres, in steps of 0.1 µm."),
+        marked("teleoperation", "The stick moves the tables over millimetres in steps of 0.1 µm."),
     ),
     "nano": Choice(
         marked("teleoperation", "Nano"),
-        marked("teleoperation", "The stick moves the piezos: two tilts, and micrometres along z."),
+        marked(
+            "teleoperation", "The stick moves the piezos: two tilts and some micrometres along z."
+        ),
     ),
     "hybrid": Choice(
         marked("teleoperation", "Hybrid z"),
         marked(
             "teleoperation",
-            "The stick moves the tip: along z the piezo takes what fits and the table the rest.",
+            "The stick moves the tip; along z the piezo moves within its range, the "
+            "table does the rest.",
         ),
     ),
     "fine": Choice(
         marked("teleoperation", "Fine x/y"),
         marked(
             "teleoperation",
-            "The stick moves the tip by piezos alone: x and y by tilting the tool, which costs its "
-            "orientation.",
+            "The stick moves the tip only by piezos: x and y by tilting the tool.",
         ),
     ),
     "pivot": Choice(
         marked("teleoperation", "Pivot"),
-        marked(
-            "teleoperation", "The stick tilts the tool while the tables hold its tip where it is."
-        ),
+        marked("teleoperation", "The stick tilts the tool while the tables hold its tip in place."),
     ),
     ALL_AXES: Choice(
         marked("teleoperation", "All axes"),
@@ -90,8 +90,7 @@ _LAWS = {
         marked("teleoperation", "Impedance"),
         marked(
             "teleoperation",
-            "The stick pushes a virtual mass, which glides or is on a spring; a contact pushes "
-            "back.",
+            "The stick pushes a virtual mass with or without a spring; a contact pushes back.",
         ),
     ),
 }
@@ -135,7 +134,7 @@ def driver_text(view: DevicesView) -> str:
     """Return what drives, by name."""
     names = [device_name(one.device) for one in drivers(view)]
     return translate("teleoperation", " and ").join(names) or translate(
-        "teleoperation", "No device drives"
+        "teleoperation", "No device in control"
     )
 
 
@@ -145,7 +144,9 @@ def trust_text(view: DevicesView) -> str:
     if not found:
         return next(
             map(spoken, view.problems),
-            translate("teleoperation", "Plug one in, or choose a profile for what is there."),
+            translate(
+                "teleoperation", "Plug in a device, or choose a profile for a connected one."
+            ),
         )
     reasons: dict[str, list[str]] = {}
     for device in found:
@@ -170,11 +171,11 @@ def standing(view: DevicesView, state: TeleoperationState, *, stale: bool) -> tu
     if stale:
         return translate("teleoperation", "no answer"), Tone.DANGER
     if state.driving:
-        return translate("teleoperation", "driving"), Tone.BUSY
+        return translate("teleoperation", "in control"), Tone.BUSY
     if view.setting_up:
         return translate("teleoperation", "setting up"), Tone.WARNING
     if state.reason is not None:
-        return translate("teleoperation", "held"), Tone.WARNING
+        return translate("teleoperation", "blocked"), Tone.WARNING
     if any(one.waiting for one in state.coordinates):
         return translate("teleoperation", "waiting"), Tone.WARNING
     return translate("teleoperation", "ready"), Tone.GOOD
@@ -185,31 +186,30 @@ def reason_text(state: TeleoperationState, *, stale: bool) -> str:
     if stale:
         return translate(
             "teleoperation",
-            "The loop of the input devices does not answer: stop the machine and restart the "
-            "program.",
+            "The input devices do not respond: stop the machine and restart the program.",
         )
     if state.reason is not None:
-        return translate("teleoperation", "Nothing moves: {reason}.").format(
+        return translate("teleoperation", "No motion: {reason}.").format(
             reason=spoken(state.reason)
         )
-    return "" if state.driving else translate("teleoperation", "Moves when the stick does.")
+    return "" if state.driving else translate("teleoperation", "Moves with the stick.")
 
 
 def against_pad(view: DevicesView) -> str | None:
     """Why the pad on the screen moves nothing, whatever the machine does; None if it may."""
     pad = pad_of(view)
     if pad is None:
-        return translate("teleoperation", "the input devices are just being opened")
+        return translate("teleoperation", "the input devices are being opened")
     if view.setting_up:
         return translate("teleoperation", "input devices are being set up")
     if pad.problem is not None:
         return spoken(pad.problem)
     if pad.seat is None:
-        return translate("teleoperation", "the profile has nothing for the pad")
+        return translate("teleoperation", "the profile does not map the pad")
     if not pad.drives:
-        return translate("teleoperation", "{driver} drives; take over to use the pad").format(
-            driver=driver_text(view)
-        )
+        return translate(
+            "teleoperation", "{driver} is in control; take over to use the pad"
+        ).format(driver=driver_text(view))
     return None
 
 
@@ -241,12 +241,12 @@ def factor_text(factor: float, held: Collection[Action]) -> str:
 def clutch_text(law: LawKind, held: Collection[Action]) -> str:
     """Return what the clutch does, or does just now."""
     if Action.CLUTCH in held:
-        return translate("teleoperation", "Clutch held: the stick moves, the robot does not.")
+        return translate("teleoperation", "Clutch pressed: the stick moves without the robot.")
     if law is LawKind.RATE:
-        return translate("teleoperation", "Release the stick to let the robot rest where it is.")
+        return translate("teleoperation", "Release the stick to stop the robot in place.")
     return translate(
         "teleoperation",
-        "Hold the clutch (space on the pad) to bring the stick back without the robot.",
+        "Press the clutch (space on the pad) to return the stick without the robot.",
     )
 
 

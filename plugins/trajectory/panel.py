@@ -43,12 +43,12 @@ from rotemina.sim.trajectory.parts import MOST_TIMES, part
 
 EMPTY = marked(
     "trajectory",
-    "No trajectory is loaded. Load one to see what it asks of each axis before it is played.",
+    "No trajectory is loaded. Load one to see its demands on each axis before playing it.",
 )
 BOUND_TIP = marked(
     "trajectory",
-    "The playback pauses when readings are farther from the model than this for 20 ms; "
-    "double-click to change it, empty it for no bound",
+    "The playback pauses when readings differ from the model by more than this "
+    "for 20 ms; double-click to change it, empty: no bound",
 )
 
 
@@ -65,7 +65,8 @@ class TrajectoryPanel(Panel):
         self.load = QPushButton(translate("trajectory", "Load …"))
         self.load.setToolTip(
             translate(
-                "trajectory", "Load a trajectory from a text file and try it on the model (Ctrl+T)"
+                "trajectory",
+                "Load a trajectory from a text file and check it on the model (Ctrl+T)",
             )
         )
         self.load.clicked.connect(lambda: self.main_window.ask_trajectory())
@@ -76,9 +77,7 @@ class TrajectoryPanel(Panel):
         self.resample.setEnabled(False)
         self.resample.clicked.connect(self._resample)
         self.teach = QPushButton(translate("trajectory", "Teach"))
-        self.teach.setToolTip(
-            translate("trajectory", "Make a trajectory of points where the machine has been")
-        )
+        self.teach.setToolTip(translate("trajectory", "Make a trajectory from taught points"))
         self.teach.setCheckable(True)
         self.teach.toggled.connect(self._show_points)
         self.points = TeachView(workbench)
@@ -175,7 +174,7 @@ class TrajectoryPanel(Panel):
             self.verdict.setText(
                 translate(
                     "trajectory",
-                    "Dry run: inside all limits of the axes and of the tip.",
+                    "Dry run: within all limits of the axes and of the tip.",
                 )
             )
         else:
@@ -197,7 +196,7 @@ class TrajectoryPanel(Panel):
         self.begin.setDecimals(3)
         self.begin.setPrefix(translate("trajectory", "from "))
         self.begin.setSuffix(" s")
-        self.begin.setAccessibleName(translate("trajectory", "Begin of the playback in seconds"))
+        self.begin.setAccessibleName(translate("trajectory", "Start of the playback in seconds"))
         self._bound_begin(0.0)
         self.times.setDecimals(0)
         self.times.setRange(1, MOST_TIMES)
@@ -206,7 +205,7 @@ class TrajectoryPanel(Panel):
         self.times.setToolTip(
             translate(
                 "trajectory",
-                "How often it is played, 1 to {most}: it must end where it begins",
+                "Number of passes, 1 to {most}; the trajectory must end where it starts",
             ).format(most=MOST_TIMES)
         )
         for field in (self.begin, self.times):
@@ -221,7 +220,7 @@ class TrajectoryPanel(Panel):
         self.begin.setRange(0.0, last_s)
         self.begin.setToolTip(
             translate(
-                "trajectory", "Where the first pass begins, 0 to {last:.7g} s: before its last row"
+                "trajectory", "Start of the first pass, 0 to {last:.7g} s, before the last row"
             ).format(last=last_s)
         )
 

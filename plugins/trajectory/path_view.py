@@ -48,11 +48,11 @@ class PathView(QWidget):
             plain_tip(
                 translate(
                     "trajectory",
-                    "The tip's path from above and from the side; dashed: the way to its first "
-                    "row. Red is forbidden: floor, objective, radius. The frame is what the axes "
-                    "can reach.",
+                    "Path of the tip from above and from the side; dashed: approach to the "
+                    "first row; red: forbidden by floor, objective or radius; frame: reach of "
+                    "the axes.",
                 ),
-                translate("trajectory", "Click to see all of the reach, or the path alone."),
+                translate("trajectory", "Click to switch between the whole reach and the path."),
             )
         )
 

@@ -22,7 +22,7 @@ PAUSE_MS = 250
 METHODS = {
     marked("trajectory", "hold – as a device does between rows"): "hold",
     marked("trajectory", "linear – straight lines between rows"): "linear",
-    marked("trajectory", "cubic – smooth, may swing beyond the rows"): "cubic",
+    marked("trajectory", "cubic – smooth, may overshoot the rows"): "cubic",
 }
 
 

@@ -78,8 +78,8 @@ def read_bound(text: str, si_unit: str) -> float | None:
         raise InputError(
             translate(
                 "trajectory",
-                "{text!r} is no bound: type a number above 0 in {unit}, with a decimal "
-                "point, or nothing",
+                "{text!r} is not a bound: enter a number above 0 in {unit} with a decimal "
+                "point, or leave it empty",
             ).format(text=text, unit=symbol(unit))
         )
     return float(from_unit(number, unit))
@@ -93,7 +93,7 @@ def _rate(value: float, bound: float | None, si_unit: str, per: str) -> Cell:
     scale = scale_of(f"{si_unit}{per}", max(value, bound or 0.0))
     text = scale.text(value)
     if bound is None:
-        return Cell(text, translate("trajectory", "no bound is declared in the robot file"))
+        return Cell(text, translate("trajectory", "the robot file states no bound"))
     share = f"{fixed(100.0 * value / bound, 0)} %"
     of_bound = translate("trajectory", "{share} of {bound}")
     return Cell(f"{text} · {share}", of_bound.format(share=share, bound=scale.text(bound)))
@@ -108,6 +108,6 @@ def _error(axis: AxisFigures) -> Cell:
     return Cell(
         translate("trajectory", "{rms} rms").format(rms=rms),
         translate(
-            "trajectory", "the model expects up to {peak} between command and position"
+            "trajectory", "the model predicts up to {peak} between command and position"
         ).format(peak=peak),
     )

@@ -48,7 +48,7 @@ def taught(robot: Robot, points: Sequence[TaughtPoint], name: str) -> Record:
     """
     if len(points) < 2:
         raise ExcitationError(
-            message("trajectory", "{n} points: a trajectory needs two or more; take another").fill(
+            message("trajectory", "{n} points: a trajectory needs two or more; add another").fill(
                 n=len(points)
             )
         )
@@ -66,7 +66,7 @@ def taught(robot: Robot, points: Sequence[TaughtPoint], name: str) -> Record:
             raise ExcitationError(
                 message(
                     "trajectory",
-                    "the points take more than {hours} h; shorten pauses, or go faster",
+                    "the points take more than {hours} h; shorten pauses or increase speeds",
                 ).fill(hours=rounded(MOST_ROWS / RATE_HZ / 3600.0, 2))
             )
         columns = [quintic(a, b, rows) for a, b in zip(before, after, strict=True)]
@@ -84,13 +84,13 @@ def _check(robot: Robot, number: int, point: TaughtPoint) -> None:
         raise ExcitationError(
             message(
                 "trajectory",
-                "point {number}: a speed of {speed} %: must be above 0 and at most 100",
+                "point {number}: the speed of {speed} % must be above 0 and at most 100 %",
             ).fill(number=number, speed=rounded(100.0 * point.speed))
         )
     if not 0.0 <= point.pause_s <= LONGEST_PAUSE_S:
         raise ExcitationError(
             message(
-                "trajectory", "point {number}: a pause of {pause} s: must be 0 to {most} s"
+                "trajectory", "point {number}: the pause of {pause} s must be 0 to {most} s"
             ).fill(number=number, pause=rounded(point.pause_s), most=rounded(LONGEST_PAUSE_S))
         )
 

@@ -52,8 +52,8 @@ class TeachView(QWidget):
         header.setFixedHeight(23)
         self.table.verticalHeader().setDefaultSectionSize(21)
         self.table.itemChanged.connect(self._typed)
-        self.take = button(translate("trajectory", "Take point"), self._take)
-        self.again = button(translate("trajectory", "Take anew"), self._again)
+        self.take = button(translate("trajectory", "Add point"), self._take)
+        self.again = button(translate("trajectory", "Replace"), self._again)
         self.remove = button(translate("trajectory", "Remove"), self._remove)
         self.use = button(translate("trajectory", "Make trajectory"), self._use)
         buttons = QVBoxLayout()
@@ -67,26 +67,32 @@ class TeachView(QWidget):
 
     def refresh(self, state: SessionState) -> None:
         """Allow what can be done now."""
-        known = None if state.position_known else translate("trajectory", "its place is not known")
+        known = None if state.position_known else translate("trajectory", "the position is unknown")
         chosen = (
-            None if self.table.currentRow() >= 0 else translate("trajectory", "mark a point first")
+            None
+            if self.table.currentRow() >= 0
+            else translate("trajectory", "select a point first")
         )
-        few = None if len(self.points) > 1 else translate("trajectory", "take two points or more")
+        few = None if len(self.points) > 1 else translate("trajectory", "add two points or more")
         allow(
             self.take,
             known,
-            translate("trajectory", "Add where the machine is sent now, behind the marked point"),
+            translate(
+                "trajectory", "Add the present target of the machine after the selected point"
+            ),
         )
         allow(
             self.again,
             known or chosen,
-            translate("trajectory", "Put the marked point where the machine is sent now"),
+            translate(
+                "trajectory", "Replace the selected point by the present target of the machine"
+            ),
         )
-        allow(self.remove, chosen, translate("trajectory", "Remove the marked point"))
+        allow(self.remove, chosen, translate("trajectory", "Remove the selected point"))
         allow(
             self.use,
             few,
-            translate("trajectory", "Make a trajectory of the points; the dry run tries it"),
+            translate("trajectory", "Make a trajectory from the points and check it in a dry run"),
         )
 
     def _take(self) -> None:

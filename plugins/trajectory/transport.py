@@ -19,7 +19,7 @@ from rotemina.drivers.samples import DeviceState
 
 STEPS = (1, 10, 100, 1000)  # rows
 _EMPTY = marked("trajectory", "no trajectory is loaded")
-_FORBIDDEN = marked("trajectory", "the dry run does not allow it")
+_FORBIDDEN = marked("trajectory", "the dry run found an objection")
 
 
 def against_playing(workbench: Workbench, session: SessionState) -> str | None:
@@ -27,7 +27,7 @@ def against_playing(workbench: Workbench, session: SessionState) -> str | None:
     paused = workbench.playback.state.phase is PlaybackPhase.PAUSED
     missing = None if paused else _missing(workbench)
     if missing is None and session.locked is None and session.activity is not DeviceState.IDLE:
-        return translate("trajectory", "the axes still move")
+        return translate("trajectory", "the axes are still moving")
     return missing or session.locked
 
 
@@ -67,9 +67,7 @@ class Transport(QWidget):
         self.forward.clicked.connect(lambda: self._step(1))
         self.rows = QComboBox()
         self.rows.setAccessibleName(translate("trajectory", "Rows of a step"))
-        self.rows.setToolTip(
-            translate("trajectory", "How many rows of the trajectory a step goes, 1 to 1000")
-        )
+        self.rows.setToolTip(translate("trajectory", "Rows of the trajectory per step, 1 to 1000"))
         for rows in STEPS:
             self.rows.addItem(
                 translate("trajectory", "1 row")
@@ -88,9 +86,9 @@ class Transport(QWidget):
         self.speed.setToolTip(
             translate(
                 "trajectory",
-                "Pace of the playback, {slowest:g} to {fastest:g} times that of the "
-                "trajectory; a faster one is checked against all limits first. Changed in a "
-                "pause, it holds from there on",
+                "Speed of the playback, {slowest:g} to {fastest:g} times that of the "
+                "trajectory; a higher one is checked against all limits first. A change "
+                "during a pause applies from there on",
             ).format(slowest=SLOWEST, fastest=FASTEST)
         )
         self.progress = QProgressBar()
@@ -107,7 +105,7 @@ class Transport(QWidget):
         self.play.setText(play_word(state.phase))
         why = None if playing else against_playing(self._workbench, session)
         tip = translate(
-            "trajectory", "Play, pause or resume (Ctrl+P); the axes first go to the first row"
+            "trajectory", "Play, pause or resume (Ctrl+P); the axes first move to the first row"
         )
         allow(self.play, why, tip)
         allow(
@@ -122,7 +120,9 @@ class Transport(QWidget):
         )
         if paused and session.locked is None:
             still = None
-        tip = translate("trajectory", "Go to the next rows at the axes' own speed, and rest there")
+        tip = translate(
+            "trajectory", "Move to the next rows at the speed of the axes and stop there"
+        )
         allow(self.forward, still, tip)
         allow(
             self.back,

@@ -33,8 +33,8 @@ def why_not(environment: Mapping[str, str], user: int | None) -> str | None:
     if find_spec("PySide6.QtWebEngineWidgets") is None:
         return translate(
             "view3d",
-            "Qt WebEngine is not installed, which shows the view inside the window. Install it "
-            "with  pip install 'rotemina[view3d]'  or use the browser.",
+            "Qt WebEngine, which displays the view inside the window, is not installed."
+            " Install it with  pip install 'rotemina[view3d]'  or use the browser.",
         )
     if user == 0 and environment.get(_UNSAFE) != "1":
         return translate("view3d", "Qt WebEngine does not run for the user root. Use the browser.")

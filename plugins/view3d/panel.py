@@ -32,13 +32,13 @@ from rotemina.sim.kinematics.chain import ChainError
 from rotemina.sim.robot.model import Robot
 
 VIEWS = {
-    View.BELOW: (marked("view3d", "From below"), marked("view3d", "As the objective sees it")),
+    View.BELOW: (marked("view3d", "From below"), marked("view3d", "View of the objective")),
     View.FRONT: (marked("view3d", "Front"), marked("view3d", "Along +y, z up")),
     View.TOP: (marked("view3d", "Top"), marked("view3d", "Along −z")),
     View.ISO: (marked("view3d", "Iso"), marked("view3d", "The whole robot from the side")),
     View.CELL: (
         marked("view3d", "Cell"),
-        marked("view3d", "The cell and the tip beside it, 0.3 mm away, true to scale"),
+        marked("view3d", "The cell, with the tip 0.3 mm beside it, to scale"),
     ),
 }
 GHOSTS = {
@@ -49,15 +49,15 @@ GHOSTS = {
 FACTORS = (1, 10, 50, 100, 200)
 INTRODUCTION = marked(
     "view3d",
-    "The whole robot in three dimensions, where the model says it is and where the readings say "
-    "it is. It is drawn by this program alone; nothing leaves this computer.",
+    "The whole robot in three dimensions, as the model predicts it and as the "
+    "sensors read it. This program draws it; nothing leaves this computer.",
 )
 STARTING = marked("view3d", "Starting the 3-D view …")
-OWN_WINDOW = marked("view3d", "On this display the view stands in a window of its own.")
+OWN_WINDOW = marked("view3d", "On this display the view opens in a window of its own.")
 LOST = marked(
     "view3d",
-    "The view has ended ({why}). The rest of the program goes on; show it again, or use the "
-    "browser.",
+    "The view has ended ({why}); the rest of the program continues. Show the "
+    "view again, or use the browser.",
 )
 NO_BROWSER = marked(
     "view3d",
@@ -81,11 +81,10 @@ def written() -> Words:
         model=translate("view3d", "model"),
         real=translate("view3d", "real"),
         unknown=translate("view3d", "{ghost}: position unknown, not drawn"),
-        old=translate("view3d", "old: the last reading came in {age_s:.1f} s ago"),
+        old=translate("view3d", "outdated: the last reading is {age_s:.1f} s old"),
         enlarged=translate(
             "view3d",
-            "thx, thy, zn drawn {factor:g} × too large from mid-range; "
-            "the tip is not where it is drawn",
+            "thx, thy, zn enlarged {factor:g} × about mid-range; the tip is not drawn in its place",
         ),
         silent=translate("view3d", "The program does not answer: the drawing is out of date."),
         quiet=translate("view3d", "No news from the program: the drawing is out of date."),
@@ -259,7 +258,7 @@ class View3dPanel(Panel):
         elif self._unfit is None:
             lines += [unfit or "", trouble]
         self.words.setText("\n\n".join(line for line in lines if line))
-        here = translate("view3d", "it is open here") if self._view else None
+        here = translate("view3d", "it is already open here") if self._view else None
         allow(
             self.here,
             self._unfit or unfit or busy or here,
@@ -278,11 +277,11 @@ class View3dPanel(Panel):
         closed = None if served else translate("view3d", "open the view first")
         for view, button in self.views.items():
             allow(button, closed, translate("view3d", VIEWS[view][1]))
-        allow(self.ghosts, closed, translate("view3d", "Which robots are drawn"))
+        allow(self.ghosts, closed, translate("view3d", "Robots to draw"))
         allow(
             self.factor,
             closed,
-            translate("view3d", "Draw thx, thy and zn larger than they are, from mid-range"),
+            translate("view3d", "Enlarge the motion of thx, thy and zn about mid-range"),
         )
 
     def _make_widgets(self) -> None:
@@ -294,7 +293,7 @@ class View3dPanel(Panel):
         self.ghosts = QComboBox()
         for name in GHOSTS:
             self.ghosts.addItem(translate("view3d", name))
-        self.ghosts.setAccessibleName(translate("view3d", "Which robots are drawn"))
+        self.ghosts.setAccessibleName(translate("view3d", "Robots to draw"))
         drawn = tuple(GHOSTS.values())
         self.ghosts.currentIndexChanged.connect(
             lambda at: self._change(lambda scene: scene.choose(*drawn[at]))
@@ -302,7 +301,7 @@ class View3dPanel(Panel):
         self.factor = QComboBox()
         for factor in FACTORS:
             self.factor.addItem(factor_text(factor), factor)
-        self.factor.setAccessibleName(translate("view3d", "How much larger nano motion is drawn"))
+        self.factor.setAccessibleName(translate("view3d", "Magnification of nano motion"))
         self.factor.currentIndexChanged.connect(
             lambda at: self._change(lambda scene: scene.exaggerate(float(FACTORS[at])))
         )

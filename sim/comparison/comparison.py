@@ -118,8 +118,8 @@ def _require_motion(record: Record) -> None:
         raise InputError(
             message(
                 "engine",
-                "the record has {rows} rows, {most} of them in motion: it takes {least_moving} or "
-                "more to compare; was it cut off when it began? Play it once more",
+                "the record has {rows} rows, {most} of them in motion; a comparison needs "
+                "at least {least_moving}. Play the motion again",
             ).fill(rows=rows, most=most, least_moving=LEAST_MOVING)
         )
 

@@ -1,38 +1,44 @@
-"""The figures of a comparison in words: one line a tap, in units that read well."""
+"""The figures of a comparison as a table: one line per signal, in units that read well."""
 
 from rotemina.sim.comparison.comparison import Comparison, TapComparison
 from rotemina.sim.comparison.runs import RunComparison
-from rotemina.sim.quantities import NOTHING, amount, fixed, percent
+from rotemina.sim.messages import Wording, marked, message
+from rotemina.sim.quantities import NOTHING, Number, amount, fixed, percent
+from rotemina.sim.tables import aligned
 
-HEAD = ("tap", "rms", "peak", "of range", "rel. error", "delay", "noise floor", "re-fitted")
+HEAD = (
+    marked("engine", "signal"),
+    marked("engine", "rms"),
+    marked("engine", "peak"),
+    marked("engine", "of range"),
+    marked("engine", "rel. error"),
+    marked("engine", "delay"),
+    marked("engine", "noise floor"),
+    marked("engine", "re-fitted"),
+)
 
 
-def table(comparison: Comparison) -> str:
-    """Return the figures as aligned text, with a head line."""
-    rows = [HEAD, *(cells(tap) for tap in comparison.taps)]
-    widths = [max(len(row[column]) for row in rows) for column in range(len(HEAD))]
-    return "\n".join(
-        "  ".join(
-            cell.ljust(width) if column == 0 else cell.rjust(width)
-            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
+def table(comparison: Comparison, wording: Wording | None = None) -> str:
+    """Return the figures as aligned text, with a head line; in English unless told otherwise."""
+    wording = wording or Wording()
+    head = [wording.text("engine", text) for text in HEAD]
+    return aligned([head, *([wording.shown(c) for c in cells(tap)] for tap in comparison.taps)])
+
+
+def runs_table(runs: RunComparison, wording: Wording | None = None) -> str:
+    """Return the figures of two runs as :func:`table` does, with a line on the path of the tip."""
+    if runs.path_rms is None:
+        path = message("engine", "tip path: the joints of a tip were not all measured in both runs")
+    else:
+        path = message("engine", "tip path: {rms} rms, {peak} peak apart").fill(
+            rms=amount(runs.path_rms, "m"), peak=amount(runs.path_peak, "m")
         )
-        for row in rows
-    )
-
-
-def runs_table(runs: RunComparison) -> str:
-    """Return the figures of two runs as :func:`table` does, with a line on the tip's path."""
-    path = (
-        f"tip path: {amount(runs.path_rms, 'm')} rms, {amount(runs.path_peak, 'm')} peak apart"
-        if runs.path_rms is not None
-        else "tip path: not all joints of a tip were measured in both runs"
-    )
-    return f"{table(runs.comparison)}\n{path}"
+    return f"{table(runs.comparison, wording)}\n{(wording or Wording()).of(path)}"
 
 
 def cells(tap: TapComparison) -> tuple[str, ...]:
     """Return one text for each of :data:`HEAD`."""
-    delay = NOTHING if tap.delay_s is None else f"{fixed(1e3 * tap.delay_s, 3)} ms"
+    delay = NOTHING if tap.delay_s is None else Number(f"{fixed(1e3 * tap.delay_s, 3)} ms")
     return (
         f"{tap.axis}.{tap.tap}",
         amount(tap.rms, tap.unit),

@@ -69,8 +69,8 @@ def conditioning(robot: Robot, model: InverseModel, start: float) -> Record:
         raise CompensationError(
             message(
                 "engine",
-                "axis {axis}: no sweep between {low} and {high} is free of commands that the "
-                "machine cannot be told; move the axis to mid-range first",
+                "axis {axis}: every sweep between {low} and {high} needs commands outside "
+                "the limits of the machine; move the axis to mid-range first",
             ).fill(
                 axis=model.axis, low=exact(low, model.unit, size=high), high=exact(high, model.unit)
             )

@@ -191,8 +191,8 @@ def resting_at(model: InverseModel, sample_s: float, command: float) -> tuple[In
         raise CompensationError(
             message(
                 "engine",
-                "inverse of axis {axis}: the axis stands at command {command}; the inverse "
-                "reaches {low} to {high}: move the axis there first, or train it on a wider record",
+                "inverse of axis {axis}: the command is {command}, but the inverse covers "
+                "{low} to {high}: move the axis there first, or train with a wider record",
             ).fill(
                 axis=model.axis,
                 command=exact(command, model.unit, size=ends[1] + command),

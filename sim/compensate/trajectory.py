@@ -106,8 +106,8 @@ def _sent(
         raise CompensationError(
             message(
                 "engine",
-                "inverse of axis {axis}: row {row} of the trajectory asks for a command beyond "
-                "{low} to {high}, which is all the machine can be told; stay farther from the "
+                "inverse of axis {axis}: row {row} of the trajectory needs a command "
+                "outside {low} to {high}, the limits of the machine; stay farther from the "
                 "ends of the range",
             ).fill(
                 axis=model.axis,

@@ -1,12 +1,12 @@
 """Bandwidth of an amplifier: fast changes come late and small.
 
-The parameter is a time constant τ, not a bandwidth ``1/(2πτ)``: what it does begins in proportion
-to τ, and τ = 0 is an amplifier without lag, exactly. A fit needs no infinity for that.
+The parameter is a time constant τ, not a bandwidth ``1/(2πτ)``: the effect starts in proportion to
+τ, and τ = 0 is exactly an amplifier without lag. A fit needs no infinity for that.
 
 The mechanics get the mean of the output over each step, which is exact. Held, it has the right
-impulse, so a step of the input is answered to about ``(ωh)²/12`` of its height, with ω the axis'
-own rate and h the step, however short τ is. The inner step therefore depends on the axis alone,
-and the answer stays smooth in τ.
+impulse, so the answer to a step of the input is off by about ``(ωh)²/12`` of its height, with ω the
+axis' own rate and h the step, however short τ is. The inner step therefore depends only on the
+axis, and the answer stays smooth in τ.
 """
 
 from math import inf
@@ -78,8 +78,8 @@ def second_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  #
 def third_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``τ₁ u̇ + u = x``, then ``τ² ÿ + 2ζτ ẏ + y = u`` with τ₁ = r τ and ζ < 1.
 
-    While x is held, u nears it by ``g exp(−t/τ₁)``, and y follows ``x + G exp(−t/τ₁)`` with
-    ``G = g/(1 − 2ζ/r + 1/r²)``; what it is off by is a free oscillation, as in `second_order`.
+    While x is held, u approaches it by ``g exp(−t/τ₁)``, and y follows ``x + G exp(−t/τ₁)`` with
+    ``G = g/(1 − 2ζ/r + 1/r²)``; the difference is a free oscillation, as in `second_order`.
 
     p: τ, ζ, r; s: y, τ ẏ, u.
     """
@@ -155,7 +155,7 @@ AMPLIFIER_LAG = Effect(
             parameters=(
                 TIME_CONSTANT,
                 Parameter("damping_ratio", "ζ; 0.5 with r = 1: Butterworth", "", 0.05, 0.95, 0.5),
-                Parameter("ratio", "r, of both time constants", "", 0.05, 20.0, 1.0),
+                Parameter("ratio", "r, ratio of both time constants", "", 0.05, 20.0, 1.0),
             ),
             acts=Drive(step=third_order, states=3, timed=True),
             inner_step_s=inner_step,

@@ -51,19 +51,19 @@ def _spread(values: Values, facts: Facts) -> tuple[float, ...]:
 
 
 def fine_enough(_values: Values, facts: Facts) -> float:
-    """Return a step with which turning points are seen; a static axis turns at samples alone."""
+    """Return a step that resolves turning points; a static axis turns only at samples."""
     if facts.is_static:
         return inf
     return _INNER_SHARE / facts.frequency_hz if facts.frequency_hz > 0.0 else _FREE_STEP_S
 
 
-SOFTNESS = Parameter("softness", "0: rigid; 1: taken up from the start on", "", 0.0, 1.0, 0.5)
+SOFTNESS = Parameter("softness", "0: rigid; 1: absorbed from the start", "", 0.0, 1.0, 0.5)
 WIDTH = Parameter("width", "of the play", "q", 0.0, 0.2, 1e-4, per="span")
 
 BACKLASH = Effect(
     id="backlash",
     title="Backlash",
-    summary="A dead band at each reversal, as wide at any amplitude and speed.",
+    summary="A dead band at each reversal, equally wide at any amplitude and speed.",
     stage=Stage.MECHANICS,
     kinds=frozenset({"stepper", "force"}),
     identification=Identification(starts=sizes(width=(0.1, 0.5, 2.0))),

@@ -25,9 +25,11 @@ def bent(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compile
 def parameters() -> tuple[Parameter, ...]:
     """Return the stretch and the amplitudes, all as shares of the range."""
     return (
-        Parameter("begin", "of the stretch, from the low end of the range", "", 0.0, 1.0, 0.0),
-        Parameter("end", "of the stretch", "", 0.0, 1.0, 1.0),
-        Parameter(_SINES[0], "a₁, a bow", "", -0.2, 0.2, 0.005, linear=True),
+        Parameter(
+            "begin", "start of the section, from the low end of the range", "", 0.0, 1.0, 0.0
+        ),
+        Parameter("end", "end of the section", "", 0.0, 1.0, 1.0),
+        Parameter(_SINES[0], "a₁, curvature", "", -0.2, 0.2, 0.005, linear=True),
         *(
             Parameter(name, f"a{k}", "", -0.2, 0.2, 0.0, linear=True)
             for name, k in zip(_SINES[1:], "₂₃₄", strict=True)

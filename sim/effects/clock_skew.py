@@ -1,4 +1,4 @@
-"""A sensor that keeps a time of its own, faster or slower than the controller's."""
+"""A sensor whose clock runs faster or slower than the controller's."""
 
 from collections.abc import Iterator
 
@@ -54,7 +54,7 @@ CLOCK_SKEW = Effect(
             equation="y(t) = q(t − 10⁻⁶ r t), t from the start of the run",
             source="Allan, IEEE Trans. UFFC 34 (1987) 647–654",
             parameters=(
-                Parameter("skew", "r; more than 0: readings come later", "ppm", -1e4, 1e4, 100.0),
+                Parameter("skew", "r; above 0: readings come later", "ppm", -1e4, 1e4, 100.0),
             ),
             acts=Skew(rate=lambda values: 1e-6 * values["skew"]),
             traits=frozenset({Trait.LINEAR, Trait.MEMORYLESS, Trait.TRANSIENT, Trait.READING_ONLY}),

@@ -1,7 +1,7 @@
-"""Contact on one side: a stop, a dish, a cell membrane; nothing before it.
+"""One-sided contact: a stop, a dish or a cell membrane; no effect before it.
 
-The sign of the strength says on which side: positive for what is met on the way up, negative for
-what is met on the way down. So a fit goes smoothly through "no contact" from one to the other.
+The sign of the strength gives the side: positive for an obstacle met on the way up, negative for
+one met on the way down. A fit therefore passes smoothly through "no contact" from one to the other.
 """
 
 from collections.abc import Iterator
@@ -121,12 +121,23 @@ def _inner_step(values: Values, facts: Facts) -> float:
 
 
 _PLACE = Parameter(
-    "place", "where it is met, from the low end of the range", "q", 0.01, 0.99, 0.7, per="span"
+    "place",
+    "position of the contact, from the low end of the range",
+    "q",
+    0.01,
+    0.99,
+    0.7,
+    per="span",
 )
 _STIFFNESS = Parameter(
-    "stiffness", "over the axis' own; negative: met on the way down", "", -30.0, 30.0, 0.5
+    "stiffness",
+    "relative to the axis' own stiffness; negative: met on the way down",
+    "",
+    -30.0,
+    30.0,
+    0.5,
 )
-_DAMPING = Parameter("damping_ratio", "ζ, of the contact", "", 0.0, 2.0, 0.1)
+_DAMPING = Parameter("damping_ratio", "ζ, damping ratio of the contact", "", 0.0, 2.0, 0.1)
 _DISSIPATIVE = frozenset({Trait.MEMORYLESS, Trait.DISSIPATIVE})
 
 _PLACES = (0.4, 0.6, 0.8, 0.92)  # of the way to the end where something is met
@@ -159,9 +170,9 @@ def _places(view: View) -> Iterator[Values]:
 
 
 def _from_stop(fitted: Values) -> Values:
-    """Return place and stiffness of a contact whose crude form blocks a share of the motion.
+    """Return position and stiffness of a contact whose crude form blocks a share of the motion.
 
-    A spring k beside the axis' own K takes the share k/(k + K).
+    A spring k next to the axis' own K takes the share k/(k + K).
     """
     share = min(abs(fitted["blocked"]), _ALL_BUT)
     return {
@@ -171,9 +182,9 @@ def _from_stop(fitted: Values) -> Values:
 
 
 def _met_on_the_way(values: Values, facts: Facts, _bounds: Interval, extent: Extent) -> Interval:
-    """Return where a contact may be, from the low end of the range: a good part of the way is free.
+    """Return possible positions of a contact, from the low end: part of the travel is free.
 
-    What acts wherever the axis goes is no contact but another characteristic of it.
+    An effect that acts at all positions is not a contact but another characteristic.
     """
     least, most = extent.reach
     strength = values.get("stiffness", values.get("blocked", 1.0))
@@ -185,7 +196,7 @@ def _met_on_the_way(values: Values, facts: Facts, _bounds: Interval, extent: Ext
 CONTACT = Effect(
     id="contact",
     title="Contact",
-    summary="A stop or a membrane: acts beyond a position alone.",
+    summary="A stop or a membrane: acts only beyond a position.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
     identification=Identification(

@@ -1,4 +1,4 @@
-"""Creep of a piezo: after a move it goes on, by the same amount in each decade of time."""
+"""Creep of a piezo: motion continues after a move, by the same amount in each decade of time."""
 
 import numpy as np
 
@@ -30,8 +30,8 @@ _STATES = 3 * TERMS + 3
 def relaxations(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``y = x + Σ wᵢ (zᵢ − x₀)``, ``τᵢ żᵢ = x − zᵢ``, from rest at x₀.
 
-    p: τᵢ, then wᵢ. s: zᵢ, x₀, then the h and τ₀ before, and what was worked out for them: for each
-    term how far it moves of its way, and its mean.
+    p: τᵢ, then wᵢ. s: zᵢ, x₀, then the previous h and τ₀, and the values computed from them: for
+    each term the share of its distance that it moves in a step, and its mean.
     """
     if h > _LONG_S:
         s[_START] = x
@@ -59,8 +59,8 @@ def _terms(values: Values, _facts: Facts) -> tuple[float, ...]:
     """Place the terms evenly in the logarithm of their rate.
 
     ``ln(1 + t/t₀) = ∫ (1 − exp(−σt/t₀)) exp(−σ)/σ dσ``, by the trapezoidal rule in ln σ, which
-    converges exponentially. The slowest term stands for all slower ones too, which would run
-    evenly. Within 0.2 % of a decade up to 2·10⁵ t₀, and 2 % up to 10⁶ t₀.
+    converges exponentially. The slowest term also replaces all slower ones, which would move
+    linearly. Within 0.2 % of a decade up to 2·10⁵ t₀, and 2 % up to 10⁶ t₀.
     """
     rates = np.exp(_SPACING * (1.0 - np.arange(TERMS)))
     weights = _SPACING * np.exp(-rates)
@@ -72,7 +72,7 @@ def _terms(values: Values, _facts: Facts) -> tuple[float, ...]:
 CREEP = Effect(
     id="creep",
     title="Creep",
-    summary="Goes on after a move, in proportion to it and with its sign, by the log of time.",
+    summary="Motion continues after a move, proportional to it, with the logarithm of time.",
     stage=Stage.ACTUATOR,
     kinds=frozenset({"piezo"}),
     identification=Identification(starts=sizes(onset=(0.3, 3.0))),
@@ -83,8 +83,8 @@ CREEP = Effect(
             equation="y = x + γ Σ Δx log₁₀(1 + (t − tᵢ)/t₀), over the moves Δx at tᵢ of the run",
             source="Jung and Gweon, Review of Scientific Instruments 71 (2000) 1896–1900",
             parameters=(
-                Parameter("rate", "γ, of a move, per decade of time", "", 0.0, 0.1, 0.015),
-                Parameter("onset", "t₀, when the logarithm sets in", "s", 1e-3, 10.0, 0.1),
+                Parameter("rate", "γ, share of a move per decade of time", "", 0.0, 0.1, 0.015),
+                Parameter("onset", "t₀, start of the logarithm", "s", 1e-3, 10.0, 0.1),
             ),
             acts=Drive(step=relaxations, states=_STATES),
             prepare=_terms,

@@ -1,8 +1,8 @@
 """Cross coupling: the motion of another axis leaks into this one.
 
-``q_j`` is the position of ``from_axis`` itself, absolute, before any effect on it; so a static
-coupling also shifts the axis by what the other one rests at. The unit of k is this axis' unit over
-that of ``from_axis``.
+``q_j`` is the absolute position of ``from_axis`` before any effect on it, so a static coupling also
+shifts the axis by the other one's position of rest. The unit of k is this axis' unit over that of
+``from_axis``.
 """
 
 from collections.abc import Iterator
@@ -51,7 +51,7 @@ def _while_moving(values: Values, _facts: Facts) -> LinearPart:
     return LinearPart(a=a, b=b, output=np.array([-values["k"], 0.0]), share=values["k"])
 
 
-_K = Parameter("k", "motion here over motion there", "q/…", -100.0, 100.0, 0.02)
+_K = Parameter("k", "ratio of the motion here to the motion there", "q/…", -100.0, 100.0, 0.02)
 _FREQUENCY = Parameter("frequency", "of the mode", "Hz", 0.02, 50.0, 0.5, per="pace_hz")
 _DAMPING = Parameter("damping_ratio", "of the mode", "", 1e-4, 2.0, 0.05)
 _SOURCE = "Skogestad and Postlethwaite, Multivariable Feedback Control, 2nd ed. (2005), ch. 3"

@@ -43,7 +43,7 @@ _GRATINGS = (1.0, 0.2, 0.4, 0.5, 2.0)
 ENCODER_INTERPOLATION = Effect(
     id="encoder_interpolation",
     title="Encoder interpolation error",
-    summary="Periodic in position with the grating's period, on the reading alone.",
+    summary="Periodic in position with the period of the grating, only in the reading.",
     stage=Stage.SENSOR,
     kinds=frozenset({"stepper", "force"}),
     identification=Identification(
@@ -58,7 +58,7 @@ ENCODER_INTERPOLATION = Effect(
             equation="y = q + S₁ sin φ + C₁ cos φ + S₂ sin 2φ + C₂ cos 2φ, φ = 2π q/p",
             source="Heydemann, Applied Optics 20 (1981) 3382–3384",
             parameters=(
-                Parameter("period", "p, of the grating", "q", 1e-7, 1e-2, 20e-6),
+                Parameter("period", "p, period of the grating", "q", 1e-7, 1e-2, 20e-6),
                 _amplitude("sine", "S₁, with cosine: offsets of the two signals", 1e-7),
                 _amplitude("cosine", "C₁", 0.0),
                 _amplitude("second_sine", "S₂, with its cosine: unlike gains, phase off 90°", 5e-8),

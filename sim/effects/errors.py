@@ -8,4 +8,4 @@ class EffectError(InputError):
 
 
 class BrokenEffectError(EffectError):
-    """An effect whose own code fails: its step function does not compile, its numbers are none."""
+    """An effect whose own code fails: its step function does not compile, or returns no numbers."""

@@ -15,7 +15,7 @@ _NOISE_SHARE = 1e-5  # of the range, where no sensor is declared
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """Figures of one axis, SI; those that a robot file leaves out have a stand-in.
+    """Figures of one axis, SI, with substitutes for those that a robot file leaves out.
 
     Attributes
     ----------

@@ -52,10 +52,10 @@ def _appendage(values: Values, facts: Facts) -> LinearPart:
 
 
 def _parallel(values: Values, facts: Facts) -> LinearPart:
-    """Give the input a second way to the position, with a mode of its own.
+    """Give the input a second path to the position, with a mode of its own.
 
-    A free axis has no static motion to share: the mode is added to it, and r is its modal mass
-    over the axis' (``z̈ + 2ζω ż + ω² z = gain/M · u``).
+    A free axis has no static motion to share: the mode is added to it, and r is its modal mass over
+    the axis' (``z̈ + 2ζω ż + ω² z = gain/M · u``).
     """
     rate, loss = _oscillator(values)
     share = values["share"]
@@ -105,7 +105,7 @@ FLEXIBLE_MODE = Effect(
                 FREQUENCY,
                 DAMPING,
                 Parameter(
-                    "share", "r, of the static motion that goes this way", "", -2.0, 2.0, 0.05
+                    "share", "r, share of the static motion along this path", "", -2.0, 2.0, 0.05
                 ),
             ),
             acts=Part(part=_parallel),
@@ -118,7 +118,9 @@ FLEXIBLE_MODE = Effect(
             parameters=(
                 FREQUENCY,
                 DAMPING,
-                Parameter("mass_ratio", "μ, of its mass over the axis'", "", 0.0, 2.0, 0.05),
+                Parameter(
+                    "mass_ratio", "μ, ratio of its mass to the axis' mass", "", 0.0, 2.0, 0.05
+                ),
             ),
             acts=Part(part=_appendage),
             traits=_LINEAR,
@@ -130,7 +132,9 @@ FLEXIBLE_MODE = Effect(
             parameters=(
                 FREQUENCY,
                 DAMPING,
-                Parameter("share", "r, of the motion seen through the link", "", -2.0, 2.0, 0.3),
+                Parameter(
+                    "share", "r, share of the motion seen through the link", "", -2.0, 2.0, 0.3
+                ),
             ),
             acts=Part(part=_series),
             traits=_LINEAR,

@@ -67,7 +67,7 @@ class Trait(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """One number of a formulation.
+    """One parameter of a formulation.
 
     Attributes
     ----------
@@ -124,7 +124,7 @@ class Parameter:
 
 
 def _tokens(unit: str) -> list[str]:
-    """Split ``"N s/q"`` into words and what stands between them."""
+    """Split ``"N s/q"`` into words and separators."""
     tokens, word = [], ""
     for letter in unit:
         if letter.isalpha():
@@ -145,12 +145,12 @@ class Drive:
     """A step function on the input of an axis.
 
     Electronics see ``x`` in the unit of the input (V; position of a stepper), actuators as the
-    position that it asks for (V on a force axis). ``x`` is held for the next ``h`` seconds, and
-    the answer is the mean of the output while it is. With ``h = 0`` the function reads: it
-    answers what its output is at this instant and forgets nothing; a memory that knows no time
-    may follow ``x``. ``other`` is the position of the axis now.
+    requested position (V on a force axis). ``x`` is held for the next ``h`` seconds, and the answer
+    is the mean of the output meanwhile. With ``h = 0`` the function reads: it returns its output at
+    this instant and changes no state; a memory without time may follow ``x``. ``other`` is the
+    present position of the axis.
 
-    ``timed``: the output moves while the input is held, so it is asked for at every inner step.
+    ``timed``: the output moves while the input is held, so it is called at every inner step.
     """
 
     step: StepFunction
@@ -185,11 +185,11 @@ class Motion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reading:
-    """A step function on the reading of a sensor; ``h`` is the time since it was last called.
+    """A step function on the reading of a sensor; ``h`` is the time since the last call.
 
-    ``other`` is the true position. ``random``: ``a`` is a standard normal variate, 0 where
-    chance is left out, and the function is called at samples alone. ``digital``: it gets what the
-    sensor's own noise, offset and resolution have passed already, and is called at samples alone.
+    ``other`` is the true position. ``random``: ``a`` is a standard normal variate, 0 without
+    chance, and the function is called only at samples. ``digital``: its input already contains the
+    sensor's own noise, offset and resolution, and it is called only at samples.
     """
 
     step: StepFunction
@@ -200,15 +200,15 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LinearPart:
-    """Further states z (n,) of an axis at q under the input U, and what they do to it.
+    """Further states z (n,) of an axis at q under the input U, and their effect on it.
 
     ::
 
         ż = A z + B [q, q̇, U],   force = K z + L [q, q̇],   position = (1 − r) q + R z
 
-    where U is in the unit of position (V on a force axis). At rest the force must be zero.
-    With ``port`` the position of the axis itself stays q, and ``R z + r q`` is what leaks from it
-    into the axis that carries the effect.
+    where U is in the unit of position (V on a force axis). At rest the force must be zero. With
+    ``port`` the position of the axis itself stays q, and ``R z + r q`` leaks from it into the axis
+    that carries the effect.
 
     Attributes: ``a`` (n, n), ``b`` (n, 3), ``force`` (n,), ``reaction`` (2,), ``output`` (n,),
     ``share`` r.
@@ -224,7 +224,7 @@ class LinearPart:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Part:
-    """Linear states beside those of the axis, or of ``from_axis`` for what leaks out of it."""
+    """Linear states added to those of the axis, or of ``from_axis`` if they leak from it."""
 
     part: Callable[[Values, Facts], LinearPart]
 
@@ -287,7 +287,7 @@ class Formulation:
     by_spectra: bool = False
 
     def numbers(self, values: Values, facts: Facts) -> FloatArray:
-        """Return what the step function gets as ``p``."""
+        """Return the argument ``p`` of the step function."""
         if self.prepare is not None:
             return np.asarray(self.prepare(values, facts), dtype=np.float64)
         return np.array([values[p.name] for p in self.parameters], dtype=np.float64)
@@ -332,7 +332,7 @@ class Effect:
     api_version: int = API_VERSIONS["rotemina.effects"]
 
     def formulation(self, name: str | None = None) -> Formulation | None:
-        """Return a formulation by name, the usual one without; None if there is none such."""
+        """Return a formulation by name, by default the usual one; None if there is none."""
         if name is None:
             return self.formulations[0]
         return next((f for f in self.formulations if f.name == name), None)

@@ -92,9 +92,9 @@ def springs(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
     """``f = −Σ kᵢ zᵢ − D v``; each spring follows the motion up to the deflection where it slips.
 
     Solved for the speed that the force leaves at the end of the step, ``v + b f``: the sum rises
-    with the speed and is straight between the slips, so that Newton's steps end exactly. A spring
-    that the step follows pulls by the mean of begin and end, which keeps its energy; one that is
-    too stiff for that by the end, which damps.
+    with the speed and is straight between the slips, so Newton's steps end exactly. A spring that
+    the step resolves pulls by the mean of start and end, which conserves its energy; a stiffer one
+    by the end, which damps.
 
     p: force of one spring, backward over forward, D, each kᵢ; s: each zᵢ.
     """
@@ -203,12 +203,12 @@ def _dry(name: str, meaning: str) -> Parameter:
 
 
 def _viscous(name: str, meaning: str) -> Parameter:
-    """Return a viscous friction that may take away what the model has where nothing holds it."""
+    """Return a viscous friction that may remove the model's own, on a free axis."""
     return Parameter(name, meaning, "N s/q", 0.0, inf, 0.0, spare="free_damping")
 
 
-_STATIC_RATIO = Parameter("static_ratio", "of static over dry friction", "", 1.0, 3.0, 1.0)
-_STRIBECK = Parameter("stribeck_speed", "where static friction fades", "q/s", 1e-6, 1.0, 1e-3)
+_STATIC_RATIO = Parameter("static_ratio", "ratio of static to dry friction", "", 1.0, 3.0, 1.0)
+_STRIBECK = Parameter("stribeck_speed", "speed where static friction fades", "q/s", 1e-6, 1.0, 1e-3)
 
 _LADDER = (0.3, 3.0, 20.0)  # presets
 _DEFLECTIONS = (0.3, 2.0)
@@ -226,7 +226,7 @@ def _slips(view: View) -> Iterator[Values]:
 
 
 def _damping(facts: Facts) -> Retuning | None:
-    """Return that the damping of what a force moves and nothing holds is viscous friction."""
+    """Return that the damping of a free, force-driven axis is viscous friction."""
     free = facts.kind == "force" and facts.mass > 0.0 and facts.stiffness == 0.0
     return Retuning("viscous", {"viscous": 0.0}) if free else None
 
@@ -264,14 +264,14 @@ FRICTION = Effect(
                 _dry("coulomb", "dry friction"),
                 Parameter(
                     "deflection",
-                    "Fc/σ₀, by which bristles yield",
+                    "Fc/σ₀, deflection of the bristles",
                     "q",
                     1e-8,
                     1e-2,
                     1e-5,
                     per="span",
                 ),
-                Parameter("bristle_damping", "damping ratio on the bristles", "", 0.0, 2.0, 0.5),
+                Parameter("bristle_damping", "damping ratio of the bristles", "", 0.0, 2.0, 0.5),
                 _STATIC_RATIO,
                 _STRIBECK,
                 _viscous("viscous", "viscous friction"),
@@ -287,9 +287,19 @@ FRICTION = Effect(
             source="Iwan, J. Applied Mechanics 33 (1966) 893–900",
             parameters=(
                 _dry("coulomb", "dry friction forward"),
-                Parameter("backward", "dry friction backward over forward", "", 0.3, 3.0, 1.0),
-                Parameter("deflection", "L, where all slip", "q", 1e-8, 1e-2, 3e-5, per="span"),
-                Parameter("shape", "s, 0: all slip at once", "", 0.0, 4.0, 1.0),
+                Parameter(
+                    "backward", "ratio of dry friction, backward to forward", "", 0.3, 3.0, 1.0
+                ),
+                Parameter(
+                    "deflection",
+                    "L, deflection where all springs slip",
+                    "q",
+                    1e-8,
+                    1e-2,
+                    3e-5,
+                    per="span",
+                ),
+                Parameter("shape", "s, 0: all springs slip together", "", 0.0, 4.0, 1.0),
                 _viscous("viscous", "viscous friction"),
             ),
             acts=Force(step=springs, states=SPRINGS),

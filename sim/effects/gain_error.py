@@ -31,7 +31,7 @@ GAIN_ERROR = Effect(
             name="relative",
             equation="y = (1 + e) x, counted from where the command is zero",
             source="ISO/IEC Guide 99 (VIM, 2007), 4.12: sensitivity",
-            parameters=(Parameter("error", "e, of the sensitivity", "", -0.5, 0.5, 0.03),),
+            parameters=(Parameter("error", "e, error of the sensitivity", "", -0.5, 0.5, 0.03),),
             acts=Drive(step=scaled),
             traits=frozenset({Trait.LINEAR, Trait.MEMORYLESS, Trait.RATE_INDEPENDENT}),
         ),

@@ -1,7 +1,7 @@
-"""Hysteresis of a piezo: the way up is not the way down, whatever the pace.
+"""Hysteresis of a piezo: the way up differs from the way down at any speed.
 
-The gain from end to end of the range is kept at 1 (nearly so where the loop is bent, or ℓ is not
-short beside the range), so that hysteresis is apart from a gain error. A run begins as after a
+The gain from end to end of the range stays 1 (approximately if the loop is bent, or ℓ is not short
+compared with the range), which separates hysteresis from a gain error. A run starts as after a
 first rise from the low end, where all operators are at rest.
 """
 
@@ -61,8 +61,8 @@ def plays_and_dead_zones(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped
 def bouc_wen(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``y = k x − (W/2) ζ``, ``ℓ dζ = dx − |ζ|ⁿ (β |dx| sign ζ + (1 − β) dx)(1 + δ sign ζ)``.
 
-    Integrated along x by the classical Runge–Kutta rule, in steps that are short beside ℓ; where
-    they are very short, by the midpoint rule, which is then as good.
+    Integrated along x by the classical Runge–Kutta rule in steps that are short compared with ℓ; by
+    the midpoint rule, equally accurate, if they are very short.
 
     p: x₀, k, W/2, ℓ, n, β, δ; s: ζ, x, from the low end.
     """
@@ -133,7 +133,7 @@ def _single(values: Values, facts: Facts) -> tuple[float, ...]:
 def _bent(values: Values, facts: Facts) -> tuple[float, ...]:
     """Add the dead zones: slopes from ``1 − α/2`` at the low end to ``1 + α/2`` at the high one.
 
-    The first dead zone begins at the low end and counts above it alone.
+    The first dead zone starts at the low end and acts only above it.
     """
     spacing = 1.0 / DEAD_ZONES
     more = values["asymmetry"] / (DEAD_ZONES - 1)
@@ -155,14 +155,16 @@ def _wound(values: Values, facts: Facts) -> tuple[float, ...]:
     )
 
 
-WIDTH = Parameter("width", "of the loop from end to end", "q", 0.0, 0.5, 0.1, per="span")
-SHAPE = Parameter("shape", "1: all plays weigh the same; more: wide ones do", "", 0.5, 4.0, 1.0)
+WIDTH = Parameter("width", "width of the loop from end to end", "q", 0.0, 0.5, 0.1, per="span")
+SHAPE = Parameter(
+    "shape", "1: equal weights of all plays; more: larger weights of wide plays", "", 0.5, 4.0, 1.0
+)
 _TRAITS = frozenset({Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE})
 
 HYSTERESIS = Effect(
     id="hysteresis",
     title="Hysteresis",
-    summary="Loops whose width grows faster than their amplitude, at any pace; odd distortion.",
+    summary="Loops whose width grows faster than their amplitude, at any speed; odd distortion.",
     stage=Stage.ACTUATOR,
     kinds=frozenset({"piezo"}),
     identification=Identification(starts=sizes(width=(0.3, 1.0))),
@@ -203,14 +205,22 @@ HYSTERESIS = Effect(
             source="Song and Der Kiureghian, Journal of Engineering Mechanics 132 (2006) 610–618",
             parameters=(
                 Parameter(
-                    "width", "W, of a loop that is long beside ℓ", "q", 0.0, 0.5, 0.1, per="span"
+                    "width",
+                    "W, width of a loop that is long compared with ℓ",
+                    "q",
+                    0.0,
+                    0.5,
+                    0.1,
+                    per="span",
                 ),
                 Parameter(
-                    "reach", "ℓ, over which the loop bends", "q", 0.03, 2.0, 0.25, per="span"
+                    "reach", "ℓ, length over which the loop bends", "q", 0.03, 2.0, 0.25, per="span"
                 ),
                 Parameter("sharpness", "n", "", 1.0, 6.0, 1.0),
                 Parameter("winding", "β; 1/2: straight after a reversal", "", 0.5, 1.5, 1.0),
-                Parameter("asymmetry", "δ, of the way up against the way down", "", -0.8, 0.8, 0.1),
+                Parameter(
+                    "asymmetry", "δ, asymmetry of the way up and the way down", "", -0.8, 0.8, 0.1
+                ),
             ),
             acts=Drive(step=bouc_wen, states=2),
             prepare=_wound,
@@ -223,7 +233,7 @@ HYSTERESIS = Effect(
             parameters=tuple(
                 Parameter(
                     f"weight_{i}",
-                    f"w{i}, of the play with threshold {((i - 0.5) / 10) ** 2 / 2:g}",
+                    f"w{i}, weight of the play with threshold {((i - 0.5) / 10) ** 2 / 2:g}",
                     "",
                     0.0,
                     2.0,

@@ -1,7 +1,7 @@
-"""What a fit must know of an effect, beside its equations, to find it in records.
+"""What a fit must know of an effect, besides its equations, to find it in records.
 
-Where a fit begins, how far it may take a parameter, what each record has for itself: all of it is
-the effect's own knowledge, so that another's effect is found as a built-in one is.
+Each effect itself provides the start of a fit, the domain of its parameters, and the parameters of
+a single record, so effects of plugins are found like built-in ones.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -19,7 +19,7 @@ Interval = tuple[float, float]
 
 
 class Sign(StrEnum):
-    """By what an effect shows that chance or time alone decides, and that no command foretells."""
+    """The trace of an effect that only chance or time determines, and no command predicts."""
 
     JUMPS = "jumps"
     TONES = "tones"
@@ -37,11 +37,11 @@ class Extent(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """One record as it speaks of an axis, SI.
+    """The part of one record that concerns an axis, SI.
 
-    ``command`` (n,), and ``source`` (n,) that of the axis which an effect comes from, if it was
-    recorded; ``real`` (n,) by tap what was measured, ``floor`` its noise, and ``left`` (n,) by tap
-    what the model leaves of it so far, over the floor.
+    ``command`` (n,); ``source`` (n,): command of the axis in which an effect originates, if
+    recorded; ``real`` (n,) by tap: measurement; ``floor``: its noise; ``left`` (n,) by tap: present
+    remainder of the model, over the floor.
     """
 
     time_s: FloatArray
@@ -53,10 +53,10 @@ class Seen(NamedTuple):
 
 
 class View(Protocol):
-    """What the start of a fit may look at: records, and what the model leaves of them so far.
+    """The data for the start of a fit: records, and the present remainders of the model.
 
     It is made for one formulation of an effect: ``values`` are its parameters, presets included,
-    and ``given`` tells whether any was handed over from another formulation that was fitted.
+    and ``given`` tells whether any came from another, fitted formulation.
     """
 
     @property
@@ -85,7 +85,7 @@ class View(Protocol):
 
     @property
     def unbent(self) -> tuple[Sequence[Signals], Sequence[Signals]]:
-        """Answers and what they leave, by record, with the model's own parameters as they were."""
+        """Answers and remainders, by record, with the model's original own parameters."""
 
     def bounds(self, name: str) -> Interval:
         """Return the bounds of a parameter on this axis, SI."""
@@ -94,19 +94,18 @@ class View(Protocol):
         """Return how far a fit to these records may take a parameter, SI."""
 
     def periods(self, bounds: Interval) -> Sequence[float]:
-        """Return periods over position of the strongest lines of what is left, m or rad."""
+        """Return periods over position of the strongest lines of the remainder, m or rad."""
 
     def frequency(self, bounds: Interval) -> float | None:
-        """Return the frequency of the strongest line over time of what is left, Hz."""
+        """Return the frequency of the strongest line over time of the remainder, Hz."""
 
     def grid(
         self, bounds: Interval, origin: float, gain: float, *, at_input: bool
     ) -> Values | None:
-        """Return ``step`` and ``shift`` of the teeth in what is left, if there are any.
+        """Return ``step`` and ``shift`` of the teeth in the remainder, if there are any.
 
         They are ``at_input``, over the command, or in the reading. ``bounds`` of their width and
-        the ``origin`` that they are counted from in m or rad, ``gain`` of the step's own unit to
-        that.
+        their ``origin`` are in m or rad; ``gain`` converts the step's own unit.
         """
 
 

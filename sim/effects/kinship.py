@@ -1,6 +1,6 @@
-"""What the rules that decide between effects ask of each: its family, and what it brings along.
+"""Properties of an effect for the rules that decide between effects: family and companions.
 
-An effect that says nothing here is fitted and weighed like any other.
+An effect without these properties is fitted and compared like any other.
 """
 
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ from enum import StrEnum
 
 
 class Family(StrEnum):
-    """What effects have in common that do much the same to a signal, wherever in the chain."""
+    """Family of effects that change a signal in a similar way, anywhere in the chain."""
 
     GAIN = "gain"
     CURVE = "curve"
@@ -24,7 +24,7 @@ class Family(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Kinship:
-    """How an effect stands to others.
+    """How an effect relates to others.
 
     Attributes
     ----------

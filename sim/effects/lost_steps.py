@@ -64,7 +64,13 @@ LOST_STEPS = Effect(
             "2nd ed. (1994), ch. 4: past two full steps the torque pulls to the next detent",
             parameters=(
                 Parameter(
-                    "limit", "of the lag behind the field", "q", 2.0, 40.0, 2.0, per="full_step"
+                    "limit",
+                    "limit of the lag behind the field",
+                    "q",
+                    2.0,
+                    40.0,
+                    2.0,
+                    per="full_step",
                 ),
             ),
             acts=Drive(step=overload, states=1, timed=True),
@@ -79,7 +85,7 @@ LOST_STEPS = Effect(
                 Parameter("time", "t₁, from the start of the run", "s", 0.0, 1e6, 1.0),
                 Parameter(
                     "slips",
-                    "n; whole on a machine, any number here so that a fit can move it",
+                    "n; an integer on a machine, any number here so that a fit can vary it",
                     "",
                     -1000.0,
                     1000.0,

@@ -24,8 +24,12 @@ def _each(unit: str) -> Iterator[Parameter]:
             f"frequency_{n + 1}", "of the mode", "Hz", 1e-6, 1e3, typical, per="pace_hz"
         )
         yield Parameter(f"damping_ratio_{n + 1}", "of the mode", "", 1e-6, 1e6, 0.03)
-        yield Parameter(f"share_{n + 1}", "a, of its deflection", unit, -1e9, 1e9, share)
-        yield Parameter(f"speed_share_{n + 1}", "b, of its speed over ω", unit, -1e9, 1e9, 0.0)
+        yield Parameter(
+            f"share_{n + 1}", "a, share of the mode's deflection", unit, -1e9, 1e9, share
+        )
+        yield Parameter(
+            f"speed_share_{n + 1}", "b, share of the mode's speed over ω", unit, -1e9, 1e9, 0.0
+        )
 
 
 def modal_part(values: Values, _facts: Facts) -> LinearPart:

@@ -38,7 +38,7 @@ QUANTIZATION = Effect(
             source="Widrow and Kollár, Quantization Noise (2008), ch. 1",
             parameters=(
                 Parameter("step", "Δ", "u", 0.0, 0.05, 1.0 / 4096.0, per="input_span"),
-                Parameter("shift", "σ, of the grid, in steps", "", -0.5, 0.5, 0.0),
+                Parameter("shift", "σ, shift of the grid, in steps", "", -0.5, 0.5, 0.0),
             ),
             acts=Drive(step=rounded),
             prepare=lambda values, facts: (

@@ -1,7 +1,7 @@
-"""The effects that are installed: entry points of the group ``rotemina.effects``.
+"""The installed effects: entry points of the group ``rotemina.effects``.
 
-The built-in ones register as a third party's do. Each is loaded when it is first asked for, so a
-robot without effects loads none.
+Built-in effects and those of plugins register in the same way. Each is loaded at its first use, so
+a robot without effects loads none.
 """
 
 from difflib import get_close_matches

@@ -58,7 +58,7 @@ def _own(facts: Facts) -> Retuning | None:
 RESONANCE_MISMATCH = Effect(
     id="resonance_mismatch",
     title="Resonance mismatch",
-    summary="Frequency or damping off: seen near the resonance alone.",
+    summary="Wrong frequency or damping: visible only near the resonance.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
     identification=Identification(
@@ -71,8 +71,10 @@ RESONANCE_MISMATCH = Effect(
             equation="ω' = (1 + δ) ω, ζ' = (1 + ε) ζ, the static gain stays",
             source="Preumont, Vibration Control of Active Structures, 4th ed. (2018), ch. 2",
             parameters=(
-                Parameter("frequency_error", "δ, of the natural frequency", "", -0.5, 0.5, 0.05),
-                Parameter("damping_error", "ε, of the damping ratio", "", -0.9, 9.0, 0.0),
+                Parameter(
+                    "frequency_error", "δ, error of the natural frequency", "", -0.5, 0.5, 0.05
+                ),
+                Parameter("damping_error", "ε, error of the damping ratio", "", -0.9, 9.0, 0.0),
             ),
             acts=Change(change=detuned),
             traits=frozenset({Trait.LINEAR, Trait.TRANSIENT, Trait.MEMORYLESS}),

@@ -51,7 +51,7 @@ def _ends(values: Values, facts: Facts) -> tuple[float, ...]:
 
 
 def _margin(name: str, end: str) -> Parameter:
-    meaning = f"how far inside the {end} end of the input's range the output ends"
+    meaning = f"distance of the output's limit from the {end} end of the input range"
     return Parameter(name, meaning, "u", -0.5, 0.45, 0.05, per="input_span")
 
 
@@ -64,7 +64,7 @@ _RARELY = 0.002  # of the rows
 
 
 def _margins(view: View) -> Iterator[Values]:
-    """Give ends beyond which an amplifier does not go: a little of the way that is asked for."""
+    """Return limits of an amplifier, a little inside the requested range."""
     facts, soft = view.facts, "softness" in view.values
     seen = [one.real[Tap.U] for one in view.records if Tap.U in one.real]
     if seen:
@@ -148,7 +148,7 @@ SATURATION = Effect(
             source="Rapp, 2nd European Conference on Satellite Communications (1991) 179–184",
             parameters=(
                 *_MARGINS,
-                Parameter("softness", "1/n; 0 is the hard one", "", 0.0, 0.5, 0.08),
+                Parameter("softness", "1/n; 0: hard", "", 0.0, 0.5, 0.08),
             ),
             acts=Drive(step=soft),
             prepare=_ends,

@@ -30,9 +30,9 @@ def random_walk(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # 
 def flicker(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``y = x + Σ wᵢ``, ``ẇᵢ = −pᵢ wᵢ + rᵢ n``, all driven by the same white noise n.
 
-    n holds while h lasts, so what is faster than the samples does not fold back among them.
-    p: pᵢ, then rᵢ; s: wᵢ, then h and r₀ when last called, then how far a step of h lets each fade,
-    and by how much a variate moves it.
+    n is held during h, so components faster than the samples do not alias. p: pᵢ, then rᵢ; s: wᵢ,
+    then h and r₀ of the last call, then the decay of each in a step of h, and its change per
+    variate.
     """
     if h <= 0.0:
         y = x
@@ -74,7 +74,7 @@ _TRAITS = frozenset({Trait.RANDOM, Trait.READING_ONLY, Trait.LOCKED_TO_TIME})
 SENSOR_DRIFT = Effect(
     id="sensor_drift",
     title="Sensor drift",
-    summary="The reading wanders slowly, at rest too; the reference does not.",
+    summary="The reading drifts slowly, also at rest; the reference does not.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
     identification=Identification(shows_as=Sign.WANDER),

@@ -1,9 +1,9 @@
-"""A sensor that follows with a delay of its own: the low pass of its electronics.
+"""A sensor that lags: the low-pass of its electronics.
 
-Between two calls the position is taken to move along a straight line, for which the filters are
-stepped exactly ("triangle hold": Franklin, Powell, Workman, Digital Control of Dynamic Systems,
-3rd ed. (1998), section 6.3.2). So they are right for any time constant, one far below the
-sampling interval too, and the error is that of the straight line: ``(ω h)²/12`` of a vibration.
+Between two calls the position is assumed to move along a straight line, for which the filters are
+stepped exactly ("triangle hold": Franklin, Powell, Workman, Digital Control of Dynamic Systems, 3rd
+ed. (1998), section 6.3.2). They are therefore correct for any time constant, even far below the
+sampling interval, and the error is that of the straight line: ``(ω h)²/12`` of a vibration.
 """
 
 from math import inf
@@ -74,10 +74,10 @@ def second_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  #
 def third_order(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compiled
     """``T₁ u̇ + u = x``, then ``T² ÿ + 2ζT ẏ + y = u`` with T₁ = r T and ζ < 1.
 
-    Along a straight line u and y come to lag by T₁ and ``T₁ + 2ζT``; what u is off by fades, and
-    what y is off by beside it is a free oscillation.
+    Along a straight line u and y come to lag by T₁ and ``T₁ + 2ζT``; the deviation of u decays, and
+    that of y is also a free oscillation.
 
-    p: T, ζ, r; s: x, y, T ẏ and u when last called.
+    p: T, ζ, r; s: x, y, T ẏ and u of the last call.
     """
     if p[0] <= 0.0:
         s[0], s[1], s[2], s[3] = x, x, 0.0, x
@@ -153,7 +153,7 @@ SENSOR_LAG = Effect(
             parameters=(
                 _TIME_CONSTANT,
                 Parameter("damping_ratio", "ζ; 0.5 with r = 1: Butterworth", "", 0.05, 0.95, 0.5),
-                Parameter("ratio", "r, of both time constants", "", 0.05, 20.0, 1.0),
+                Parameter("ratio", "r, ratio of both time constants", "", 0.05, 20.0, 1.0),
             ),
             acts=Reading(step=third_order, states=4),
             inner_step_s=_between_samples,

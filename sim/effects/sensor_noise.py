@@ -20,7 +20,7 @@ def noisy(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compil
 SENSOR_NOISE = Effect(
     id="sensor_noise",
     title="Sensor noise",
-    summary="White scatter of the reading beyond the declared, without memory.",
+    summary="White noise of the reading above the declared level, without memory.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
     identification=Identification(shows_as=Sign.NOISE),
@@ -31,7 +31,13 @@ SENSOR_NOISE = Effect(
             source="Fleming, Sensors and Actuators A 190 (2013) 106–126",
             parameters=(
                 Parameter(
-                    "rms", "σ, beside the declared noise", "q", 0.0, 1000.0, 3.0, per="noise"
+                    "rms",
+                    "σ, in addition to the declared noise",
+                    "q",
+                    0.0,
+                    1000.0,
+                    3.0,
+                    per="noise",
                 ),
             ),
             acts=Reading(step=noisy, random=True),

@@ -57,7 +57,7 @@ SENSOR_NONLINEARITY = Effect(
                 ),
                 Parameter(
                     "cubic",
-                    "c, greatest of the odd part",
+                    "c, maximum of the odd part",
                     "q",
                     -0.1,
                     0.1,

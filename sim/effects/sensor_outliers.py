@@ -1,8 +1,8 @@
-"""A sensor that now and then says something else: spikes and dropouts.
+"""Outliers of a sensor: spikes and dropouts.
 
-One standard normal variate a sample decides all: the share of variates above it tells whether
-something happens, and where within that share, what (Barnett and Lewis, Outliers in Statistical
-Data, 3rd ed. (1994), treats such contaminated samples).
+One standard normal variate per sample decides: the share of variates above it tells whether an
+outlier occurs, and its place within that share tells which (Barnett and Lewis, Outliers in
+Statistical Data, 3rd ed. (1994), treats such contaminated samples).
 """
 
 from math import erfc
@@ -57,15 +57,15 @@ def held(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compile
     return x
 
 
-_RATE = Parameter("rate", "how often it happens", "1/s", 0.0, 100.0, 1.0)
-_DURATION = Parameter("duration", "of a dropout; 0: one sample", "s", 0.0, 1.0, 0.0)
+_RATE = Parameter("rate", "rate of occurrence", "1/s", 0.0, 100.0, 1.0)
+_DURATION = Parameter("duration", "duration of a dropout; 0: one sample", "s", 0.0, 1.0, 0.0)
 _SOURCE = "Barnett and Lewis, Outliers in Statistical Data, 3rd ed. (1994), ch. 2"
 _TRAITS = frozenset({Trait.RANDOM, Trait.READING_ONLY})
 
 SENSOR_OUTLIERS = Effect(
     id="sensor_outliers",
     title="Sensor outliers",
-    summary="Single samples far off: spikes, or readings that drop out.",
+    summary="Single wrong samples: spikes or dropouts of the reading.",
     stage=Stage.SENSOR,
     kinds=EVERY_KIND,
     identification=Identification(shows_as=Sign.SPIKES),

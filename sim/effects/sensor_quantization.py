@@ -40,7 +40,7 @@ SENSOR_QUANTIZATION = Effect(
             source="Widrow and Kollár, Quantization Noise (2008), ch. 1",
             parameters=(
                 Parameter("step", "Δ", "q", 0.0, 1000.0, 20.0, per="noise"),
-                Parameter("shift", "z, where in a step the zero lies", "", -0.5, 0.5, 0.0),
+                Parameter("shift", "z, position of zero within a step", "", -0.5, 0.5, 0.0),
             ),
             acts=Reading(step=rounded, digital=True),
             traits=frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.READING_ONLY}),

@@ -67,7 +67,7 @@ def soft(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compile
     return x - mean if forward else x + mean
 
 
-RATE = Parameter("rate", "r, the greatest; current over capacitance", "u/s", 0.1, 1e6, 100.0,
+RATE = Parameter("rate", "r, maximum rate; current over capacitance", "u/s", 0.1, 1e6, 100.0,
                  per="input_span")  # fmt: skip
 _TRAITS = frozenset({Trait.TRANSIENT, Trait.MEMORYLESS})
 
@@ -75,9 +75,9 @@ _AT_ONCE_S = 5e-4  # over which an axis may be asked to go all its way
 
 
 def _slower_than_asked(_values: Values, facts: Facts, bounds: Interval, extent: Extent) -> Interval:
-    """Return rates, in inputs per second, of which the greatest is one that hardly anything asks.
+    """Return rates, in inputs per second, the largest of which hardly any motion requests.
 
-    Beyond it is no limit: a soft one that never acts would pass for a lag.
+    Above it there is no limit: a soft one that never acts would look like a lag.
     """
     low, high = bounds
     asked = (extent.reach[1] - extent.reach[0]) / facts.gain / _AT_ONCE_S
@@ -87,7 +87,7 @@ def _slower_than_asked(_values: Values, facts: Facts, bounds: Interval, extent: 
 SLEW_LIMIT = Effect(
     id="slew_limit",
     title="Slew limit",
-    summary="Only large and fast motion suffers; it becomes a triangle.",
+    summary="Limits only large, fast motion, which becomes a triangle.",
     stage=Stage.ELECTRONICS,
     kinds=frozenset({"piezo"}),
     identification=Identification(
@@ -111,7 +111,7 @@ SLEW_LIMIT = Effect(
             "5th ed. (2009), ch. 9.6: an emitter-coupled pair charges a capacitor",
             parameters=(
                 RATE,
-                Parameter("time_constant", "τ, of small changes", "s", 1e-9, 0.1, 3e-4),
+                Parameter("time_constant", "τ, for small changes", "s", 1e-9, 0.1, 3e-4),
             ),
             acts=Drive(step=soft, states=1, timed=True),
             inner_step_s=inner_step,

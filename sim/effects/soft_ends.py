@@ -21,11 +21,11 @@ class Bend(NamedTuple):
     softness: float
 
     def without_low(self, low: float) -> "Bend":
-        """Return the same bend at the high end alone; the other lies at ``low`` or beyond."""
+        """Return the same bend only at the high end; the other lies at ``low`` or beyond."""
         return self._stretched(min(self.low, low), self.high)
 
     def without_high(self, high: float) -> "Bend":
-        """Return the same bend at the low end alone; the other lies at ``high`` or beyond."""
+        """Return the same bend only at the low end; the other lies at ``high`` or beyond."""
         return self._stretched(self.low, max(self.high, high))
 
     def _stretched(self, low: float, high: float) -> "Bend":
@@ -34,10 +34,10 @@ class Bend(NamedTuple):
 
 
 def bent_ends(asked: FloatArray, given: FloatArray, seen: tuple[float, float]) -> Bend:
-    """Return the soft saturation by which ``given`` (n,) follows best from ``asked`` (n,), V.
+    """Return the soft saturation with which ``given`` (n,) best follows ``asked`` (n,), V.
 
-    ``seen`` are the least and the most that was given. The curve is that of the effect
-    *saturation*; whatever lags between the two is taken for noise.
+    ``seen`` are the smallest and largest outputs. The curve is that of the effect *saturation*;
+    lags between the two count as noise.
     """
     stride = max(len(asked) // _MOST_ROWS, 1)
     x, y = asked[::stride], given[::stride]

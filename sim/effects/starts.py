@@ -67,11 +67,11 @@ def modes(view: View) -> Iterator[Values]:
 
 
 def lateness_seen(view: View, latest_s: float) -> float:
-    """Return the lateness, s, up to ``latest_s``, that takes most away.
+    """Return the delay, s, up to ``latest_s``, that removes the most.
 
-    It is scanned on a grid finer than the axis rings: between a ring's periods what is left has
-    minima that no fit leaves. And the model's own parameters are as they were: they may have been
-    bent to do in its place what they can.
+    The grid is finer than the ringing of the axis, because the remainder has minima between its
+    periods that no fit leaves. The model's own parameters are the original ones: re-tuned ones may
+    imitate the delay.
     """
     seen = [
         (record.time_s[::stride], answer[tap][::stride] / record.floor[tap], gap[::stride])
@@ -105,9 +105,9 @@ def _left(seen: Sequence[tuple[FloatArray, FloatArray, FloatArray]], late_s: flo
 
 
 def late(name: str, shares: Sequence[float], late_by_one: Callable[[Values], float]) -> Starts:
-    """Begin with sizes of a parameter, and with the lateness that takes most away.
+    """Start with sizes of a parameter, and with the delay that removes the most.
 
-    ``late_by_one`` tells how late one second of the parameter makes, by the other parameters.
+    ``late_by_one`` gives the delay per second of the parameter, for given other parameters.
     """
 
     def starts(view: View) -> Iterator[Values]:
@@ -142,9 +142,9 @@ def teeth(view: View, *, at_input: bool) -> Iterator[Values]:
 
 
 def regressed(view: View, name: str) -> float:
-    """Return the amount of the other axis' command in what is left, by regression.
+    """Return the amount of the other axis' command in the remainder, by regression.
 
-    That of the preset of parameter ``name`` where nothing tells; within its bounds.
+    The preset of parameter ``name`` if the data do not determine it; within its bounds.
     """
     above = below = 0.0
     for record in view.records:

@@ -1,7 +1,7 @@
-"""A bowed characteristic: a curve in place of a straight line, without memory.
+"""A curved characteristic without memory.
 
-All formulations leave the ends of the range, or of the stretch that is bent, where they are, so
-what they do is apart from a gain error and an offset.
+All formulations keep the ends of the range, or of the curved section, in place, which separates
+them from a gain error and an offset.
 """
 
 import numpy as np
@@ -39,7 +39,7 @@ def exponential(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # 
 
 
 def _ends(facts: Facts) -> tuple[float, float]:
-    """Return the ends of what an actuator is asked for: a position, or V for a force."""
+    """Return the ends of an actuator's input: a position, or V for a force."""
     if facts.kind == "force":
         return facts.input_low, facts.input_high
     return facts.low, facts.high

@@ -68,7 +68,7 @@ _HARDENING = Parameter(
     "hardening", "ε, share of further force at L from q₀", "", -0.01, 1.0, 0.05, linear=True
 )
 _CENTRE = Parameter(
-    "centre", "where it is straight, from mid-range", "q", -0.5, 0.5, 0.0, per="span"
+    "centre", "position of the straight part, from mid-range", "q", -0.5, 0.5, 0.0, per="span"
 )
 _TRAITS = frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.DISSIPATIVE})
 
@@ -91,7 +91,7 @@ def _centres(view: View) -> Iterator[Values]:
 STIFFNESS_NONLINEARITY = Effect(
     id="stiffness_nonlinearity",
     title="Stiffness nonlinearity",
-    summary="A bowed static curve, and a resonance that moves with position.",
+    summary="A curved static characteristic, and a resonance that shifts with position.",
     stage=Stage.MECHANICS,
     kinds=frozenset({"piezo"}),
     identification=Identification(starts=_centres, from_other=dict),
@@ -114,7 +114,7 @@ STIFFNESS_NONLINEARITY = Effect(
             parameters=(
                 _HARDENING,
                 _CENTRE,
-                Parameter("quintic", "μ, the same of the fifth power", "", 0.0, 1.0, 0.02),
+                Parameter("quintic", "μ, the same for the fifth power", "", 0.0, 1.0, 0.02),
             ),
             acts=Force(step=cubic_quintic),
             prepare=_two_numbers,

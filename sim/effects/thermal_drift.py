@@ -23,7 +23,7 @@ def warm_up(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # comp
 THERMAL_DRIFT = Effect(
     id="thermal_drift",
     title="Thermal drift",
-    summary="Grows without motion and settles, whatever the command.",
+    summary="Grows without motion and settles, regardless of the command.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
     identification=Identification(starts=sizes(time_constant=(0.03, 0.2, 1.0))),
@@ -35,7 +35,7 @@ THERMAL_DRIFT = Effect(
             parameters=(
                 Parameter(
                     "amplitude",
-                    "A, where the drift ends",
+                    "A, final drift",
                     "q",
                     -0.1,
                     0.1,

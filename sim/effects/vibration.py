@@ -45,8 +45,8 @@ def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
 
 _TONE = (
     Parameter("frequency", "f", "Hz", 0.1, 2000.0, 50.0),
-    _amplitude("sine", "s₁, zero as the run begins", 1e-4),
-    _amplitude("cosine", "c₁, greatest as the run begins", 0.0),
+    _amplitude("sine", "s₁, zero at the start of the run", 1e-4),
+    _amplitude("cosine", "c₁, maximum at the start of the run", 0.0),
 )
 _SOURCE = "Harris and Piersol, Shock and Vibration Handbook, 5th ed. (2002)"
 
@@ -59,7 +59,7 @@ def _lines(view: View) -> Iterator[Values]:
 
 
 def _seen_to_return(_values: Values, _facts: Facts, bounds: Interval, extent: Extent) -> Interval:
-    """Return frequencies, in Hz, of which a record holds a few periods."""
+    """Return frequencies, in Hz, with at least a few periods in a record."""
     low, high = bounds
     return min(max(low, _PERIODS / extent.longest_s), high), high
 
@@ -67,7 +67,7 @@ def _seen_to_return(_values: Values, _facts: Facts, bounds: Interval, extent: Ex
 VIBRATION = Effect(
     id="vibration",
     title="Vibration",
-    summary="Periodic in time, whatever the position and the command.",
+    summary="Periodic in time, regardless of position and command.",
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
     identification=Identification(
@@ -93,8 +93,8 @@ VIBRATION = Effect(
             source=_SOURCE,
             parameters=(
                 *_TONE,
-                _amplitude("sine_2", "s₂, of the second harmonic", 5e-5),
-                _amplitude("cosine_2", "c₂, of the second harmonic", 0.0),
+                _amplitude("sine_2", "s₂, second harmonic", 5e-5),
+                _amplitude("cosine_2", "c₂, second harmonic", 0.0),
             ),
             acts=Motion(step=two_tones),
             prepare=_numbers,

@@ -47,9 +47,9 @@ def parse_amount(text: str) -> Stated | Share:
     match = _AMOUNT.fullmatch(text)
     if match is None:
         raise ExcitationError(
-            message("engine", "{text} is no amount; write it like 200urad, 5um or 30%").fill(
-                text=repr(text[:40])
-            )
+            message(
+                "engine", "{text} is not an amount; enter one such as 200urad, 5um or 30%"
+            ).fill(text=repr(text[:40]))
         )
     number, unit, per = float(match[1]), match[2], (match[3] or "").replace("³", "3")
     if not isfinite(number):

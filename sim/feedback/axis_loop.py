@@ -250,7 +250,7 @@ def _check(robot: Robot, axis: str, rate_hz: float, delay: int) -> None:
         raise FeedbackError(
             message(
                 "engine",
-                "axis {axis}: it is moved by a force and keeps no position by itself; give it a "
+                "axis {axis}: a force moves this axis, so it holds no position; give it a "
                 "cascade controller in the robot file",
             ).fill(axis=axis)
         )

@@ -200,7 +200,8 @@ def _watch(
     what = (
         message(
             "engine",
-            "its sensor is {much} away from where it should be ({share} of the range at most)",
+            "its sensor deviates by {much} from the expected position (at most {share} "
+            "of the range)",
         ).fill(much=amount(float(error[row]), unit, digits=3), share=percent(_LOST))
         if lost[row]
         else message("engine", "it has added {much} ({share} of the range at most)").fill(

@@ -1,7 +1,6 @@
-"""Many attempts at an explanation side by side: a look at each, then a fit of each.
+"""Look at, or fit, many candidate explanations in parallel.
 
-Results come in the order of the attempts whatever ends first, so that they depend on the input
-alone.
+Results come in the order of the candidates, so they depend only on the input.
 """
 
 from collections.abc import Callable, Sequence
@@ -34,7 +33,7 @@ def screened_beside(
     *,
     briefly: bool,
 ) -> list[Screened]:
-    """Look at one more cause each of ``some``, beside what was ``begun`` with."""
+    """Take a first look at each cause of ``some``, added to the explanation ``begun``."""
 
     def told(number: int, one: Screened) -> None:
         account.tried([*begun.causes, some[number]], one.cost, Grade.LOOK)
@@ -51,9 +50,9 @@ def fitted(
     jobs: int,
     begun: Explanation,
 ) -> list[Explanation]:
-    """Fit sets of causes; those that are far behind after a few steps are given up.
+    """Fit sets of causes; give up those that are far behind after a few steps.
 
-    The model's own parameters begin where they are beside what was ``begun`` with.
+    The model's own parameters start from their values in ``begun``.
     """
     number = len(attempts[0])
 

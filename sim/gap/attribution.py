@@ -18,9 +18,9 @@ _NEAR = 4.0  # times the best score
 
 
 def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) -> Explanation:
-    """Return the explanation with those own parameters as causes that alone close their share.
+    """Return the explanation with those own parameters as causes that close their share alone.
 
-    What does not is left where it was, as a small re-tuning that the causes bring along.
+    The others stay as small re-tunings that the causes bring along.
     """
     if explained is bare:
         return bare
@@ -54,7 +54,7 @@ def without_own(
 ) -> list[Explanation]:
     """Return what was tried, fitted without the model's own parameter if that is the cause.
 
-    It takes part in every fit, so that any explanation beside it would do as well.
+    The parameter takes part in every fit, so any explanation would otherwise do as well with it.
     """
     if not is_whole_own(cause[0]):
         return list(tried)
@@ -83,10 +83,10 @@ def _closes(bare: Explanation, before: Explanation, after: Explanation, least: f
 
 
 def _is_part_of_the_mass(explained: Explanation) -> bool:
-    """Tell whether a mass on a spring was hung on the axis that its own mass holds already.
+    """Tell whether a mass on a spring only duplicates the axis' own mass.
 
-    Its share μ of the mass more is then a gain that is higher by as much: of both together the
-    motion is that of the whole mass, of which a part is not rigid.
+    An added share μ of mass is equivalent to a correspondingly higher gain: together they give the
+    motion of the whole mass, of which a part is not rigid.
     """
     gain = _gain_of(explained)
     ratios = [
@@ -110,9 +110,9 @@ def _gain_of(explained: Explanation) -> float:
 
 
 def _with_another_mass(evidence: Evidence, explained: Explanation, friction: str) -> Explanation:
-    """Return an explanation with the damping that a force axis of another mass has.
+    """Return an explanation with the damping of a force axis with another mass.
 
-    A wrong mass is a gain, and damping in proportion to it: what is damped stays as it was.
+    A wrong mass is a gain plus proportional damping: the damping force stays as it was.
     """
     effects = explained.fit.effects
     share = _gain_of(explained)

@@ -26,8 +26,8 @@ def band_edges(records: Sequence[Record]) -> FloatArray:
 def bands(time_s: FloatArray, signal: FloatArray, edges_hz: FloatArray) -> FloatArray:
     """Split a signal (n,) into bands (b, n) that add up to it, by its cosine transform.
 
-    The transform mirrors the signal at its ends, so that a drift does not leak into every band.
-    What lies below the first edge or above the last counts to the band beside it.
+    The transform mirrors the signal at its ends, so drift does not leak into every band. Content
+    below the first edge or above the last one counts to the nearest band.
     """
     from scipy.fft import dct, idct  # takes its time to import
 

@@ -1,4 +1,4 @@
-"""The model's own parameters, which are re-tuned beside every effect that is tried."""
+"""The model's own parameters, which are re-tuned together with every candidate effect."""
 
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.registry import effect_named
@@ -35,6 +35,6 @@ def is_own(evidence: Evidence, effect: AxisEffect) -> bool:
 
 
 def is_whole_own(effect_id: str) -> bool:
-    """Tell whether an effect is no more than other numbers of the model, whatever its form."""
+    """Tell whether an effect only changes numbers of the model, in any formulation."""
     effect = effect_named(effect_id)
     return len(effect.formulations) == 1 and effect.identification.is_retuning

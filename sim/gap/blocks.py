@@ -1,7 +1,7 @@
-"""Blocks of rows that count as one observation, and intervals from drawing them anew.
+"""Blocks of rows that count as one observation, and intervals by block bootstrap.
 
-Neighbouring samples of a gap are no independent witnesses: a hold says one thing however long it
-is sampled. So whole blocks are drawn, with replacement (Künsch, Annals of Statistics 17 (1989)
+Neighbouring samples of a gap are not independent: a hold is one observation at any sampling rate.
+The bootstrap therefore draws whole blocks with replacement (Künsch, Annals of Statistics 17 (1989)
 1217-1241).
 """
 

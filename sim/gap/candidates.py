@@ -1,7 +1,7 @@
-"""Which effects may explain the gap of an axis: every one of the catalogue that can sit there.
+"""Effects that may explain the gap of an axis: all effects of the catalogue that fit the axis.
 
-What chance alone decides, sample by sample, cannot be fitted to a response: noise, drift and
-outliers are found by what they leave behind, and so are events such as lost steps.
+Random effects (noise, drift, outliers, lost steps) cannot be fitted to a response; they are found
+by their traces instead.
 """
 
 from collections.abc import Iterator, Sequence
@@ -33,9 +33,9 @@ def candidates(evidence: Evidence) -> tuple[AxisEffect, ...]:
 
 
 def scouts(evidence: Evidence, own: Sequence[AxisEffect]) -> list[AxisEffect]:
-    """Return the candidates that are looked at first: what is quick to simulate.
+    """Return the candidates for the first look: the formulations that are quick to simulate.
 
-    Of an effect that has no such formulation, the one that tells most, or the usual one.
+    For an effect without a quick formulation, return the most informative one, or the usual one.
     """
     quick = [one for one in own if not is_slow(evidence, one)]
     seen = {(one.id, one.from_axis) for one in quick}
@@ -85,7 +85,7 @@ def _formulations(
 
 
 def _can_sit(evidence: Evidence, asked: AxisEffect) -> bool:
-    """Tell whether an axis of this kind, with what it weighs and what holds it, can carry it."""
+    """Tell whether an axis of this kind, with its mass and stiffness, can have the effect."""
     try:
         Plant.of(replace(evidence.robot, effects=(asked,)), only={evidence.axis})
     except EffectError:

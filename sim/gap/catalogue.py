@@ -1,4 +1,4 @@
-"""The installed effects, looked up by what they are and not by name."""
+"""The installed effects, looked up by their properties instead of their names."""
 
 from functools import lru_cache
 
@@ -50,7 +50,7 @@ def is_stepped(effect_id: str) -> bool:
 
 
 def kinship_of(effect_id: str) -> Kinship:
-    """Return how an effect stands to others."""
+    """Return how an effect relates to others."""
     return effect_named(effect_id).kinship
 
 
@@ -60,6 +60,6 @@ def is_of(family: Family, effect_id: str) -> bool:
 
 
 def brought_along(effect_id: str, by: str) -> float:
-    """Return the share of the gap's power from which an effect is a cause beside another one."""
+    """Return the share of the gap's power above which an effect is a cause next to another one."""
     family = kinship_of(effect_id).family
     return 0.0 if family is None else kinship_of(by).brings_along.get(family, 0.0)

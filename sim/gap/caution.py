@@ -9,7 +9,7 @@ from rotemina.sim.records.record import Record
 
 @dataclass(frozen=True, slots=True)
 class Caution:
-    """A whole sentence about one axis, or about all of a record.
+    """A sentence about one axis, or about all of a record.
 
     Attributes
     ----------

@@ -1,6 +1,6 @@
-"""What a coarse reading says exactly: within which step the axis was.
+"""The exact information of a coarse reading: the step within which the axis was.
 
-Whatever answer lies inside is as good as any other; outside, it is off by what it lies beyond the
+All answers inside the step are equally good; outside, an answer is off by its distance to the
 nearer edge (bounded errors: Milanese and Vicino, Automatica 27 (1991) 997-1009).
 """
 
@@ -22,10 +22,10 @@ _OVER_AN_EDGE = 2.0 / 3.0 * np.sqrt(2.0 / np.pi)
 
 
 def cell_of(reading: FloatArray, expected: FloatArray, step: float, floor: float) -> float | None:
-    """Return the width of the cells in which a reading (n,) tells where an axis is.
+    """Return the width of the cells in which a reading (n,) locates an axis.
 
-    All in SI: ``step`` is roughly that of the reading, ``expected`` (n,) what is read without it,
-    ``floor`` the rms of what is read finer. None where a record goes over too few edges to tell.
+    All values are SI: ``step`` approximates that of the reading, ``expected`` (n,) is the reading
+    without steps, and ``floor`` the rms of finer noise. None if a record crosses too few edges.
     """
     change = np.abs(np.diff(reading, prepend=reading[0]))
     pace = np.abs(np.diff(expected, prepend=expected[0]))
@@ -45,10 +45,10 @@ def floor_beyond(floor: float, step: float) -> float:
 
 
 def beyond(gap: FloatArray, half: float, kept: BoolArray | None) -> FloatArray:
-    """Return how far (n,) a gap (n,) lies beyond ``half`` a cell, whatever its offset.
+    """Return how far (n,) a gap (n,) exceeds ``half`` a cell, for the best offset.
 
-    All in floors; 0 in rows that are not ``kept`` (n,). The offset is the one that leaves least, by
-    Newton's steps on what is quadratic in parts.
+    All values are in floors, and 0 in rows that are not ``kept`` (n,). Newton's steps on the
+    piecewise quadratic find the offset with the smallest remainder.
     """
     own = gap if kept is None else gap[kept]
     left = _outside(own, half)

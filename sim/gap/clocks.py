@@ -38,8 +38,8 @@ def _unsteady(one: Labelled) -> Iterator[Caution]:
         yield one.caution(
             message(
                 "gap",
-                "Rows are missing in a record for up to {time} s while no axis is under way; the "
-                "commands are taken as held meanwhile.",
+                "Rows are missing in a record for up to {time} s while no axis moves; the "
+                "commands are assumed constant meanwhile.",
             ).fill(time=rounded(intervals[missing].max(), 3))
         )
     usual = float(np.median(intervals))
@@ -48,8 +48,8 @@ def _unsteady(one: Labelled) -> Iterator[Caution]:
         yield one.caution(
             message(
                 "gap",
-                "Rows of a record are {low} to {high} s apart; if these are times of a computer "
-                "and not of the device, their scatter passes for noise of the sensors.",
+                "Rows of a record are {low} to {high} s apart; if a computer instead of the"
+                " device took these times, their scatter appears as sensor noise.",
             ).fill(low=rounded(low, 3), high=rounded(high, 3))
         )
         return
@@ -58,7 +58,8 @@ def _unsteady(one: Labelled) -> Iterator[Caution]:
         yield one.caution(
             message(
                 "gap",
-                "Rows are missing at {n} places of a record; the commands are taken as held there.",
+                "Rows are missing at {n} places of a record; the commands are assumed "
+                "constant there.",
             ).fill(n=str(lost))
         )
 

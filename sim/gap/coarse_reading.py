@@ -21,10 +21,10 @@ _CLOSES = 0.9  # of what was left, that is left with steps at most
 
 
 def steps_of(evidence: Evidence, effects: Sequence[AxisEffect], step: float) -> AxisEffect | None:
-    """Return the effect of a coarse sensor as the readings show it beside other effects.
+    """Return the effect of a coarse sensor as the readings show it in addition to other effects.
 
-    ``step`` is roughly known, SI. None where a model that reads in steps is no nearer to the
-    readings, as where the motion is not known to a part of a step.
+    ``step`` is an estimate, SI. None if a model with steps is no nearer to the readings, for
+    example if the motion is not known to a fraction of a step.
     """
     effect = shown_as(Sign.STEPS)
     if effect is None:
@@ -50,10 +50,10 @@ def steps_of(evidence: Evidence, effects: Sequence[AxisEffect], step: float) -> 
 
 
 def grid_width(readings: Sequence[FloatArray], step: float) -> float:
-    """Return the width of a grid on which readings (n,) each stand but for noise.
+    """Return the width of a grid on which all readings (n,) lie, apart from noise.
 
-    A step that is off by a part of itself counts the steps of a short way right, which tells it
-    well enough to count those of a longer one.
+    A step with a small error still counts the steps of a short distance correctly, and that refines
+    it enough for a longer distance.
     """
     where = np.concatenate(readings)
     middle = float(np.median(where))

@@ -17,9 +17,9 @@ _FEWER = 0.7  # times as many different readings as expected, that a coarser sen
 
 
 def coarse_step(reading: FloatArray, expected: FloatArray, finest: float) -> float | None:
-    """Return the step of the grid on which a reading (n,) stands and the expected one does not.
+    """Return the step of a grid that matches a reading (n,) but not the expected reading.
 
-    ``finest`` is the least step that counts. The characteristic function of the readings is one
+    ``finest`` is the smallest step that counts. The characteristic function of the readings is one
     at multiples of 1/step (Widrow and Kollár, Quantization Noise, 2008, ch. 4).
     """
     if len(np.unique(reading)) > _FEWER * len(np.unique(expected)):
@@ -28,10 +28,10 @@ def coarse_step(reading: FloatArray, expected: FloatArray, finest: float) -> flo
 
 
 def stands_on(reading: FloatArray, expected: FloatArray, finest: float, step: float) -> bool:
-    """Tell whether a reading (n,) stands on a grid of a known step, and the expected one does not.
+    """Tell whether a reading (n,) lies on a grid of a known step, but the expected one does not.
 
-    However seldom it comes twice to the same place: an axis under way is read everywhere. One
-    that is itself moved in steps stands on them at rest alone, which no grid of a sensor does.
+    Repeated values are not required: a moving axis is read everywhere. An axis that moves in steps
+    itself lies on the grid only at rest, unlike the grid of a sensor.
     """
     return _grid(reading, expected, finest, _ALL, step) is not None
 
@@ -65,6 +65,6 @@ def _grid(
 
 
 def _characteristic(reading: FloatArray, width: float, bins: int) -> FloatArray:
-    """Return how far (rates,) readings stand on a grid of each rate: 1 if they all do."""
+    """Return how well (rates,) readings match a grid of each rate: 1 if all lie on it."""
     counts = np.bincount((reading / width).astype(np.int64), minlength=bins)
     return np.asarray(np.abs(np.fft.rfft(counts, _PADDED * bins)) / len(reading))

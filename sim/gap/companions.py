@@ -1,9 +1,9 @@
-"""What comes along with a cause by its nature, and is too small beside it to be found by itself.
+"""Effects that accompany a cause and are too small to be found alone.
 
-The domains of a piezo's ceramic that make its hysteresis go on switching after a move: it creeps as
-well (Devasia, Eleftheriou and Moheimani, A survey of control issues in nanopositioning, IEEE
-Trans. Control Syst. Technol. 15 (2007) 802-823). Beside swings of a loop creep closes next to
-nothing of the gap. What is asked of it here is much of what the loop leaves instead.
+The ceramic domains of a piezo that cause its hysteresis go on switching after a move, so the piezo
+also creeps (Devasia, Eleftheriou and Moheimani, A survey of control issues in nanopositioning, IEEE
+Trans. Control Syst. Technol. 15 (2007) 802-823). Compared with large loops, creep closes almost
+nothing of the gap; it must instead close much of the remainder of the loop.
 """
 
 from collections.abc import Sequence
@@ -36,11 +36,11 @@ def accompanied(
     *,
     jobs: int,
 ) -> tuple[Explanation, Ranking]:
-    """Return the explanation with creep beside hysteresis if it is there, and each cause's rivals.
+    """Return the explanation with creep in addition to hysteresis if present, and the rivals.
 
-    Where the causes leave so little that none could close its share, it takes much of that, and of
-    unseen data more than any other candidate does. ``raw`` is the mean square of the gap over the
-    floor.
+    The causes leave too little for another cause to close its share. Creep must therefore close
+    much of that remainder, and more of the unseen data than any other candidate. ``raw`` is the
+    mean square of the gap over the floor.
     """
     companion = _companion(best)
     if companion is None or companion in best.ids:
@@ -64,9 +64,9 @@ def _companion(best: Explanation) -> Key | None:
 def _with_one_more(
     evidence: Evidence, best: Explanation, companion: Key, account: Account, jobs: int
 ) -> list[Explanation]:
-    """Return the explanation with the companion, and with the likeliest others in its place.
+    """Return the explanation with the companion, and with its likeliest alternatives.
 
-    There are none if the companion does not do enough at first sight.
+    Return none if the companion does too little in the first look.
     """
     causes = tuple(own for own in best.causes if not is_own(evidence, own))
     begun = replace(best, causes=causes)

@@ -103,7 +103,7 @@ def _suspected(examination: Examination) -> tuple[Suspected, ...]:
 
 
 def _remainder(examination: Examination, shown: Explanation) -> Remainder:
-    """Return what is left at the last tap, beyond the floor."""
+    """Return the remainder at the last tap, above the floor."""
     evidence = examination.evidence
     tap = _last_tap(evidence)
     rows, floor = at_tap(evidence, tap), evidence.floor(tap)
@@ -243,9 +243,9 @@ def _parameters(
 
 
 def derived(evidence: Evidence, best: Explanation, asked: AxisEffect) -> tuple[Derived, ...]:
-    """Return what the records tell of a cause whatever its kin it comes from: how late it makes.
+    """Return the figure that the records determine for all relatives of a cause: its delay.
 
-    Its interval is by the gradient with respect to the parameters that were fitted.
+    Its interval follows from the gradient with respect to the fitted parameters.
     """
     late_s = effect_named(asked.id).identification.lateness_s
     if late_s is None:
@@ -317,7 +317,5 @@ def _remarks(examination: Examination) -> tuple[Message, ...]:
             for name, part in probe.depends_on[:_MOST_GROUPS]
         )
     )
-    depends = message(
-        "gap", "What is left depends on {groups}, as far as simple features predict it."
-    )
+    depends = message("gap", "The rest depends on {groups}, as far as simple features predict it.")
     return (*said, depends.fill(groups=groups))

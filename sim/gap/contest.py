@@ -1,4 +1,4 @@
-"""Which of the causes found stand, beside all that might be there in their place."""
+"""The causes that hold against all effects that could take their place."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

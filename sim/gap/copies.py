@@ -1,4 +1,4 @@
-"""Measurements that were given twice: no witness to what they were fitted to."""
+"""Duplicate measurements, which cannot validate a fit."""
 
 from collections.abc import Sequence
 from itertools import combinations
@@ -17,10 +17,10 @@ _SAME = 1e-12  # relative: a reading may have been written in another unit
 
 
 def check_copies(records: Sequence[Labelled]) -> None:
-    """Refuse records that hold the same measurements, in whole or in part.
+    """Refuse records that contain the same measurements, in whole or in part.
 
-    Two measurements of one motion never agree in all digits of their noise. What a fit is proved
-    on must be data that it did not see, and a copy has been seen.
+    Two measurements of one motion never agree in all digits of their noise. A fit needs validation
+    data that it did not use, and a copy was used.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def check_copies(records: Sequence[Labelled]) -> None:
 
 
 def _shared(one: Record, other: Record) -> Channel | None:
-    """Return the measured channel of both that tells most, or None."""
+    """Return the most informative measured channel of both, or None."""
     measured = [
         channel
         for channel in one.columns

@@ -1,10 +1,9 @@
-"""Bounded nonlinear least squares for models that are simulated.
+"""Bounded nonlinear least squares for simulated models.
 
-Gauss-Newton steps damped as by Levenberg and Marquardt (Nocedal and Wright, Numerical
-Optimization, 2nd ed., 10.3), cut off at the bounds; parameters that press against a bound stand
-still. Derivatives are forward differences with steps that a simulation with steps and dead bands
-in it can feel, which the solvers of general libraries choose far too small where a parameter is
-zero.
+Gauss-Newton steps with Levenberg-Marquardt damping (Nocedal and Wright, Numerical Optimization, 2nd
+ed., 10.3), cut off at the bounds; parameters pressed against a bound stay there. Derivatives are
+forward differences with steps large enough for simulations with steps and dead bands; general
+libraries choose far too small ones where a parameter is zero.
 """
 
 from collections.abc import Callable
@@ -49,10 +48,10 @@ def begun(residual: Residual, start: FloatArray, low: FloatArray, high: FloatArr
 def descend(
     residual: Residual, at: Descent, low: FloatArray, high: FloatArray, most_steps: int
 ) -> Descent:
-    """Lessen the sum of squares of ``residual(x)`` (n,) from where a descent is, within bounds.
+    """Reduce the sum of squares of ``residual(x)`` (n,) from the state of a descent, within bounds.
 
-    Parameters should be scaled to sizes of about one. Differences cost a run for each parameter:
-    they are taken anew only where the jacobian that was carried along leads no further.
+    Scale parameters to sizes of about one. Differences cost one run per parameter, so the Jacobian
+    is recomputed only when the updated one makes no further progress.
     """
     for _ in range(most_steps):
         at, gain = _onwards(residual, at, low, high)
@@ -62,7 +61,7 @@ def descend(
 
 
 def exact(residual: Residual, at: Descent, high: FloatArray) -> Descent:
-    """Return a descent with its jacobian taken anew, if it was carried along."""
+    """Return a descent with its Jacobian recomputed, if it was only updated."""
     if at.fresh:
         return at
     return at._replace(jacobian=_slopes(residual, at.x, at.residual, high), fresh=True)

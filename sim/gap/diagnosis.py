@@ -1,6 +1,6 @@
-"""What a diagnosis says: where the gap lies, which effects cause it, how far it shrinks.
+"""The result of a diagnosis: where the gap lies, which effects cause it, how far it shrinks.
 
-These are facts alone. :mod:`~rotemina.sim.gap.document` writes them down as JSON.
+:mod:`~rotemina.sim.gap.document` writes these facts as JSON.
 """
 
 from collections.abc import Mapping
@@ -50,7 +50,7 @@ class FittedParameter:
 
 @dataclass(frozen=True, slots=True)
 class Derived:
-    """A figure that the records tell although they leave open which effect it comes from.
+    """A figure that the records determine even if they leave its cause open.
 
     ``value`` and its 95 % ``interval`` in ``unit``, SI.
     """
@@ -105,7 +105,7 @@ class Cause:
 
 @dataclass(frozen=True, slots=True)
 class Suspected:
-    """An effect that has weight, but is small beside what is left: it is no cause."""
+    """An effect that has weight but is small compared with the remainder; it is not a cause."""
 
     effect: str
     from_axis: str | None
@@ -115,10 +115,10 @@ class Suspected:
 
 @dataclass(frozen=True, slots=True)
 class Remainder:
-    """What is left of an axis' gap at the last tap, on data that no fit saw, beyond the floor.
+    """The remainder of an axis' gap at the last tap, on validation data, above the floor.
 
-    ``rms`` in SI; ``share`` of the gap's power; ``depends_on`` names what a probe finds it to
-    depend on, the most telling first, with the share of its power that this foretells.
+    ``rms`` in SI; ``share`` of the gap's power; ``depends_on`` names the predictors found by a
+    probe, most informative first, with the share of the power that each predicts.
     """
 
     rms: float
@@ -149,7 +149,7 @@ class ShrinkageStep:
 
 @dataclass(frozen=True, slots=True)
 class Shrinkage:
-    """How far the gap of an axis at a tap shrinks; all rms, SI, on data that no fit saw.
+    """How far the gap of an axis at a tap shrinks; all rms, SI, on validation data.
 
     Attributes
     ----------
@@ -192,7 +192,7 @@ class Ranked:
 
 @dataclass(frozen=True, slots=True)
 class AxisDiagnosis:
-    """Everything said of one axis."""
+    """The result for one axis."""
 
     axis: str
     verdict: Verdict
@@ -211,7 +211,7 @@ class AxisDiagnosis:
 
 @dataclass(frozen=True, slots=True)
 class Experiment:
-    """An excitation that would tell rivals apart.
+    """An excitation that would distinguish rivals.
 
     Attributes
     ----------
@@ -240,9 +240,9 @@ class Experiment:
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """The whole answer.
+    """The complete result.
 
-    ``robot`` is the model that was examined, without what the diagnosis adds to it.
+    ``robot`` is the examined model, without the additions of the diagnosis.
     """
 
     robot: Robot
@@ -252,7 +252,7 @@ class Diagnosis:
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict on the robot: that of the axis of which most is open."""
+        """Verdict on the robot: that of its least certain axis."""
         order = list(Verdict)
         return max((one.verdict for one in self.axes.values()), key=order.index, default=order[0])
 
@@ -264,7 +264,7 @@ class Diagnosis:
 
     @property
     def causes(self) -> tuple[Cause, ...]:
-        """All causes, in the order of what each closes, in floors of its tap."""
+        """All causes, ordered by the gap that each closes, in floors of its tap."""
         return tuple(cause for one in self.axes.values() for cause in one.causes)
 
     @property

@@ -1,8 +1,8 @@
-"""What does not follow from the commands: outliers, lost steps, coarse steps, noise, vibration.
+"""Disturbances that commands do not cause: outliers, lost steps, coarse steps, noise, vibration.
 
-None of it can be predicted sample by sample, so it is not fitted as the other effects are. It is
-found by what it leaves behind, and set aside so that it misleads no fit: outliers are left out,
-jumps taken back, vibration becomes a nuisance of each record, and noise raises the floor.
+They cannot be predicted sample by sample, so they are not fitted like other effects. They are found
+by their traces and removed before the fits: outliers are left out, jumps are taken back, vibration
+becomes a nuisance signal of each record, and noise raises the floor.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -43,10 +43,10 @@ _SAME_TONE = 0.02  # relative difference of frequencies that are one
 
 @dataclass(frozen=True, slots=True)
 class Disturbance:
-    """Something that chance or time alone decides.
+    """A disturbance that only chance or time determines.
 
-    ``power`` is what it adds to the mean square of the gap at the tap, in declared floors;
-    ``note`` a whole sentence; ``step`` of a reading in steps, SI.
+    ``power`` is its contribution to the mean square of the gap at the tap, in declared floors;
+    ``note`` a complete sentence; ``step`` the step of a coarse reading, SI.
     """
 
     sign: Sign
@@ -68,10 +68,10 @@ def set_aside(
     jumps: bool = True,
     cells: bool = True,
 ) -> tuple[Evidence, tuple[Disturbance, ...]]:
-    """Return evidence without what commands do not cause, and what that was.
+    """Return evidence without disturbances, and the disturbances.
 
-    It is looked for beside a model with the effects that are ``explained``; sudden ``jumps`` may
-    be left where they are, and coarse steps be noise instead of ``cells``.
+    The search uses a model with the ``explained`` effects; sudden ``jumps`` may stay, and coarse
+    steps may count as noise instead of ``cells``.
     """
     robot = evidence.robot
     if explained:
@@ -112,7 +112,7 @@ def _without_jumps(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
     if power and _is_loose(evidence):
         return evidence, []
     note = message(
-        "gap", "{n} sudden jumps by whole multiples of four full steps were taken back."
+        "gap", "{n} sudden jumps by whole multiples of four full steps were removed."
     ).fill(n=str(count))
     return evidence.with_observations(observations), [
         Disturbance(Sign.JUMPS, tap, total / _rows(evidence, tap), note)
@@ -136,7 +136,7 @@ def _is_loose(evidence: Evidence) -> bool:
 
 
 def _plays(evidence: Evidence, width: float) -> Iterator[AxisEffect]:
-    """Give what is lost at a reversal by a width alone, in the usual form."""
+    """Express losses at a reversal that depend only on a width in their usual form."""
     for effect in catalogue():
         form = effect.formulations[0]
         by_width = [parameter.name for parameter in form.parameters] == ["width"]
@@ -207,7 +207,7 @@ def _without_excursions(evidence: Evidence) -> tuple[Evidence, list[Disturbance]
 
 
 def _excursions(evidence: Evidence, gaps: Sequence[Signals], *, sure: bool) -> dict[int, BoolArray]:
-    """Return which rows (n,) of which records are outliers of the sensor."""
+    """Return the rows (n,) of the records that are outliers of the sensor."""
     found: dict[int, BoolArray] = {}
     for number, (observation, gap) in enumerate(zip(evidence.observations, gaps, strict=True)):
         if Tap.MEAS in gap:
@@ -266,7 +266,7 @@ def _without_tones(evidence: Evidence) -> tuple[Evidence, list[Disturbance]]:
     quiet = evidence.with_observations(observations)
     before, after = evidence.residual(), quiet.residual()
     listed = Listed(tuple(Number(f"{rounded(float(np.mean(lines)))} Hz") for lines in shared))
-    note = message("gap", "A vibration of {frequencies}, whatever the axis did, was set aside.")
+    note = message("gap", "A vibration of {frequencies}, independent of the axis, was removed.")
     note = note.fill(frequencies=listed)
     return quiet, [
         Disturbance(Sign.TONES, tap, power, note)
@@ -319,7 +319,7 @@ def _with_true_floors(evidence: Evidence, *, cells: bool) -> tuple[Evidence, lis
 def _by_cells(
     fine: Evidence, raised: Evidence, answers: Sequence[Signals], step: float
 ) -> Evidence:
-    """Return evidence with steps as cells, and a raised floor where a record tells of few edges."""
+    """Return evidence with steps as cells; raise the floor for records with few edges."""
     observations = []
     for own, coarse, answer in zip(fine.observations, raised.observations, answers, strict=True):
         floor, cell = own.floor.get(Tap.MEAS), None
@@ -335,9 +335,9 @@ def _by_cells(
 def _as_expected(
     evidence: Evidence, observation: Observation, answer: Signals, kept: BoolArray
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Return what was read (n,), what a sensor as declared might read, and its finest step.
+    """Return the reading (n,), the expected reading of the declared sensor, and its finest step.
 
-    It reads what a reference tells, if one was recorded: that is where the axis really was.
+    A recorded reference gives the expected reading: it is the true position of the axis.
     """
     sensor = evidence.robot.axes[evidence.axis].sensor
     reading = observation.real[Tap.MEAS][kept]
@@ -351,9 +351,9 @@ def _as_expected(
 
 
 def _coarse(readings: Sequence[tuple[FloatArray, FloatArray, float]]) -> float | None:
-    """Return the step in which a sensor reads in most records; None if it is as fine as declared.
+    """Return the step of a sensor in most records; None if it is as fine as declared.
 
-    One record that tells it by coming to the same places is enough, where all stand on it.
+    One record that shows it by repeated positions suffices if all records lie on it.
     """
     told = [step for one in readings if (step := coarse_step(*one)) is not None]
     if not told:
@@ -365,7 +365,7 @@ def _coarse(readings: Sequence[tuple[FloatArray, FloatArray, float]]) -> float |
 
 
 def _noisy(reading: FloatArray, noise_rms: float) -> FloatArray:
-    """Return what a sensor as noisy as declared might read."""
+    """Return a possible reading of a sensor with the declared noise."""
     rng = np.random.default_rng(0)  # any noise will do, but always the same
     return np.asarray(reading + noise_rms * rng.standard_normal(len(reading)))
 
@@ -382,9 +382,9 @@ def _raised(evidence: Evidence, times: float) -> Evidence:
 
 
 def _sensor_gap(observation: Observation, gaps: Signals) -> FloatArray:
-    """Return what the sensor says more (n,) than the reference, or than the model; in floors.
+    """Return the deviation (n,) of the sensor from the reference, or from the model; in floors.
 
-    What the model's own sensor says more is no part of it.
+    Errors of the model's own sensor are not part of it.
     """
     if Tap.REF not in observation.real:
         return gaps[Tap.MEAS]

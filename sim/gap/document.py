@@ -1,7 +1,7 @@
 """A diagnosis as a JSON document, ``rotemina-diagnosis 1``.
 
-SI units, null for what is no finite number. ``model`` holds the robot as the text of a robot file
-and the fitted effects, so that who reads it needs no other file.
+Values are SI; null stands for a number that is not finite. ``model`` holds the robot file as text
+and the fitted effects, so readers need no other file.
 """
 
 from collections.abc import Mapping, Sequence
@@ -33,7 +33,7 @@ Json = dict[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class ExperimentFiles:
-    """Names of the files of one suggested experiment: its commands, and what rivals predict."""
+    """Names of the files of one suggested experiment: commands, and predictions of rivals."""
 
     commands: str
     predictions: Mapping[str, str]
@@ -85,7 +85,7 @@ def as_json(diagnosis: Diagnosis, files: Sequence[ExperimentFiles] = ()) -> Json
 
 
 def ordered_causes(diagnosis: Diagnosis) -> tuple[Cause, ...]:
-    """Return all causes in the order of what each closes, in floors of its tap squared."""
+    """Return all causes, ordered by the gap that each closes, in squared floors of its tap."""
 
     def closes(cause: Cause) -> float:
         floor = floor_at(diagnosis.axes[cause.axis], cause.tap)
@@ -102,10 +102,10 @@ def floor_at(axis: AxisDiagnosis, tap: Tap | None = None) -> float | None:
 
 
 def shares(places: Sequence[LocatedGap]) -> list[tuple[float, Interval]]:
-    """Return the share of each place in the gap above the floors of all, with its interval.
+    """Return the share of each place in the gap above all floors, with its interval.
 
-    The shares sum to 1. An end of an interval is what the share would be with the excess of this
-    place at that end of its own interval, and those of the others as they are.
+    The shares sum to 1. An end of an interval is the share with the excess of this place at the end
+    of its own interval, and the others unchanged.
     """
     total = sum(place.excess for place in places)
     found = []

@@ -1,6 +1,6 @@
-"""What records say of one axis, and what a model with given effects would have said.
+"""Evidence: the records of one axis, and the answers of a model with given effects.
 
-The constant part of a difference is no evidence: the offset of a record is a nuisance.
+The constant part of a difference is not evidence: the offset of a record is a nuisance.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -45,7 +45,7 @@ class Part(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Observation:
-    """One record as it speaks of one axis.
+    """The part of one record that concerns one axis.
 
     ``real`` (n,) per tap, SI; ``floor`` rms per tap of what no model can explain; ``kept`` (n,)
     per tap tells which rows a fit may trust, all where a tap is missing; ``nuisance`` (n, m) are
@@ -76,9 +76,9 @@ def _unheard() -> None:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Evidence:
-    """All records that speak of one axis of a robot, whose own effects are part of the model.
+    """All records of one axis of a robot; the robot's effects are part of the model.
 
-    ``heartbeat`` is called before every simulation; what it raises ends what is under way.
+    ``heartbeat`` is called before every simulation; its exceptions end the running work.
     """
 
     robot: Robot
@@ -126,7 +126,7 @@ class Evidence:
         return Evidence, (self.robot, self.axis, self.observations)
 
     def with_model(self, robot: Robot) -> "Evidence":
-        """Return the same evidence beside another model of the machine."""
+        """Return the same evidence with another model of the machine."""
         return Evidence(robot, self.axis, self.observations, self.heartbeat)
 
     def with_observations(self, observations: Sequence[Observation]) -> "Evidence":
@@ -204,7 +204,7 @@ class Evidence:
         return np.concatenate(left)
 
     def _without_nuisance(self, number: int, tap: Tap, gap: FloatArray) -> FloatArray:
-        """Remove what is the record's own: its offset, and further signals."""
+        """Remove the record's own part: its offset and its nuisance signals."""
         observation = self.observations[number]
         kept = observation.kept.get(tap)
         weight = observation.weight.get(tap)
@@ -232,7 +232,7 @@ class Evidence:
     def response(
         self, effects: Sequence[AxisEffect] = (), only: Sequence[int] | None = None
     ) -> list[Signals]:
-        """Return what the model with further effects answers to each record, or to some.
+        """Return the answers of the model with further effects to all records, or to some.
 
         Raises
         ------
@@ -242,10 +242,10 @@ class Evidence:
         return [answer for _, (answer, *_) in self._answers(effects, only)]
 
     def remembering(self, effects: Sequence[AxisEffect] = ()) -> list[Signals]:
-        """Return what the model answers to each record, with the memory that suits it best.
+        """Return the answers of the model to each record, with the best-fitting memory.
 
-        Where a record's history is unknown, what the axis remembers at its first row is a nuisance
-        of the record, as it is in :meth:`residual`.
+        Where the history of a record is unknown, the memory of the axis at its first row is a
+        nuisance of the record, as in :meth:`residual`.
 
         Raises
         ------

@@ -66,7 +66,7 @@ _Found = tuple[Evidence, tuple[Disturbance, ...], Selection, Explanation]
 
 @dataclass(frozen=True, eq=False)
 class Examination:
-    """What was found on an axis, before it is put into words.
+    """The findings on an axis, before they become a diagnosis.
 
     ``evidence`` is without what was set aside, and ``declared`` the noise floor of each tap, SI,
     before that raised it; ``disturbances`` are what of it counts. The fit
@@ -196,9 +196,9 @@ def _stepped(
 
 
 def _looked_again(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return what is found once what a first look explains hides disturbances no more.
+    """Return the findings after a second look without disturbances hidden by the first findings.
 
-    Steps of a screw hide lost ones, and a coarse converter hides the spikes of a sensor.
+    Steps of a screw hide lost steps, and a coarse converter hides spikes of a sensor.
     """
     for _ in range(_LOOKS):
         _, aside, _, best = first
@@ -219,10 +219,10 @@ def _looked_again(whole: Evidence, first: _Found, account: Account, jobs: int) -
 
 
 def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return what is found with the declared floor, where what seemed noise can be explained.
+    """Return the findings with the declared floor, if effects can explain the apparent noise.
 
-    What a quick motion leaves from row to row, as an encoder's own error does, looks like noise;
-    an axis that stands at either end of its way, like one that is read in coarse steps.
+    Row-to-row remainders of a fast motion, such as an encoder's own error, look like noise; so does
+    an axis at either end of its travel, or with coarse steps.
     """
     evidence, aside, selection, best = first
     if selection.tried and best.fit.cost >= _NOT_NOISE:
@@ -253,10 +253,10 @@ def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs:
 
 
 def _without_false_jumps(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return what is found with the jumps left in, where what seemed lost steps can be explained.
+    """Return the findings with jumps left in, if effects can explain the apparent lost steps.
 
-    An axis that sticks and breaks loose jumps as well, by what its drive was bent meanwhile; and so
-    does one that is loose, at every reversal by its play. These alone do where little is left.
+    An axis that sticks and breaks loose also jumps, by the deflection of its drive; so does a loose
+    axis, at every reversal by its play. Only these explanations count where little remains.
     """
     _, aside, _, best = first
     if best.score < NOTICED or not any(one.sign is Sign.JUMPS for one in aside):
@@ -268,9 +268,9 @@ def _without_false_jumps(whole: Evidence, first: _Found, account: Account, jobs:
 
 
 def _without_false_cells(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return what is found with steps that are but noise, where nothing explains what is beyond.
+    """Return the findings with steps as noise, if nothing explains deviations beyond the cells.
 
-    Steps need not be even, and a sensor may wander between them.
+    Steps need not be even, and a sensor may drift between them.
     """
     evidence, _, selection, best = first
     if not evidence.in_cells or closed(selection.raw, best.score) >= _BEYOND_STEPS:
@@ -335,7 +335,7 @@ def _fullest(selection: Selection, best: Explanation) -> Sequence[Explanation]:
 
 
 def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
-    """Return what was found on an axis that rings in many modes; nothing else is looked for."""
+    """Return the findings on an axis that rings in many modes; search for nothing else."""
     bare = untouched(evidence)
     selection = Selection(bare, explain(evidence, ()), modal, (modal,))
     best, ranked = modal, rivals_of(evidence, selection, modal)
@@ -397,10 +397,10 @@ def _counting(
     aside: Sequence[Disturbance],
     drift: Disturbance | None,
 ) -> tuple[Disturbance, ...]:
-    """Return the disturbances that are a cause: each closes its share, or clearly what is left.
+    """Return the disturbances that are causes: each closes its share, or most of the remainder.
 
-    What a sensor's own error leaves, told by other equations than the machine's, changes with the
-    place and shows at no reference: beside one a wander needs its share.
+    A sensor's own error, simulated by equations other than the machine's, changes with position and
+    is invisible in the reference; next to one, a drift needs its share.
     """
     found = list(aside)
     misread = any(effect_named(one.id).stage is Stage.SENSOR for one in best.causes)

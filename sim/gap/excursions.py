@@ -1,6 +1,6 @@
-"""Readings that leave for a moment and come back: spikes and dropouts of a sensor.
+"""Readings that leave the signal for a moment and return: spikes and dropouts of a sensor.
 
-A dropout reads something else, zero for one, or goes on giving the last value while the axis moves.
+A dropout reads a fixed value such as zero, or repeats the last value while the axis moves.
 """
 
 import numpy as np
@@ -30,14 +30,14 @@ def excursions(
     *,
     sure: bool = False,
 ) -> BoolArray:
-    """Return which rows (n,) are outliers of a gap over its floor.
+    """Return the rows (n,) that are outliers of a gap over its floor.
 
-    They stand out from their neighbours, come and go abruptly, and no ``change`` (n,) of commands
-    from row to row, in floors, came shortly before; or the ``reading`` (n,), in floors, stands
-    still while the axis moves on. Where more than a twentieth would be outliers, none is one.
-    Where it is ``sure`` that no motion comes and goes like that, as the gap is that to a reference,
-    which rings as well, or the sensor does so at rest, a single row that stands out is an outlier
-    whatever the command did.
+    They stand out from their neighbours, start and end abruptly, and no ``change`` (n,) of commands
+    from row to row, in floors, came shortly before; or the ``reading`` (n,), in floors, is constant
+    while the axis moves. If more than a twentieth of the rows would be outliers, none is one. If it
+    is ``sure`` that no motion starts and ends like that, because the gap is relative to a
+    reference, which rings as well, or occurs at rest, a single row that stands out is an outlier
+    regardless of the command.
     """
     found = _away(time_s, gap, change, sure) | _held(gap, reading)
     return found if found.mean() <= _MOST else np.zeros(len(gap), dtype=np.bool_)
@@ -62,7 +62,7 @@ def _away(time_s: FloatArray, gap: FloatArray, change: FloatArray, sure: bool) -
 
 
 def _held(gap: FloatArray, reading: FloatArray) -> BoolArray:
-    """Return where (n,) a reading stands still, and often leaps to where it should be then."""
+    """Return where (n,) a reading is constant and then often jumps to the expected value."""
     found = np.zeros(len(gap), dtype=np.bool_)
     leaps = total = 0
     for seen, until in _runs(_standing_out(gap, _WINDOWS[-1])):

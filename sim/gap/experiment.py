@@ -1,8 +1,8 @@
-"""The next experiment: of some safe tests, the one on which rivals differ most.
+"""The next experiment: the safe test on which rivals differ most.
 
-Rivals are effects that the records cannot tell apart, each as fitted to them together with the
-model's own parameters. Per row, and so per second, their answers to the chosen test are farthest
-apart once each has been fitted to that test as well: see :mod:`~rotemina.sim.gap.separation`.
+Rivals are effects that the records cannot distinguish, each fitted to the records together with the
+model's own parameters. On the chosen test their answers differ most per row, and so per second,
+after each rival has also been fitted to that test: see :mod:`~rotemina.sim.gap.separation`.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -42,7 +42,7 @@ Floors = Mapping[Tap, float]
 
 
 def experiments(robot: Robot, examination: Examination) -> tuple[Experiment, ...]:
-    """Return a test for each set of effects that the records of an axis cannot tell apart.
+    """Return a test for each set of effects that the records of an axis cannot distinguish.
 
     Parameters
     ----------
@@ -94,15 +94,15 @@ def _sets(examination: Examination) -> Iterator[list[Rival]]:
 
 
 def _rich(axis: str, trial: Trial) -> Experiment:
-    """Return a test for an axis of which the records tell so little that nothing is a rival."""
+    """Return a test for an axis whose records are too poor to have rivals."""
     record = trial.record
     return Experiment(
         axis=axis,
         splits=(),
         why=message(
             "gap",
-            "The records move {axis} too little to tell effects apart. Play this: {test}; it goes "
-            "through many amplitudes and speeds.",
+            "The records move {axis} too little to distinguish effects. Play this: "
+            "{test}; it covers many amplitudes and speeds.",
         ).fill(axis=AxisName(axis), test=_described(trial, axis)),
         time_s=tuple(record.time_s.tolist()),
         commands={name: tuple(record.signal(name, Tap.CMD).tolist()) for name in record.axes},
@@ -112,9 +112,9 @@ def _rich(axis: str, trial: Trial) -> Experiment:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Choice:
-    """A test, what each rival answers, and by how many floors of which taps these differ.
+    """A test, the answer of each rival, and by how many floors of which taps they differ.
 
-    ``need_reference`` are the rivals that only a reference tells apart, which no record has.
+    ``need_reference`` are rivals that only a reference distinguishes, which no record has.
     """
 
     trial: Trial
@@ -125,7 +125,7 @@ class _Choice:
 
     @property
     def tap(self) -> Tap:
-        """The tap at which the predictions tell most: the reading where it tells enough."""
+        """The tap with the most informative predictions: the reading if that suffices."""
         if self.need_reference:
             return Tap.REF
         rows = len(self.trial.record.time_s)
@@ -149,7 +149,7 @@ class _Choice:
 def _experiment(
     examination: Examination, rivals: Sequence[Rival], able: Sequence[Trial]
 ) -> Experiment | None:
-    """Return the best test for a set; what no test tells from the others is left out of it."""
+    """Return the best test for a set; members that no test separates are left out."""
     evidence = examination.evidence
     player = Player(evidence.robot, evidence.axis, evidence.heartbeat)
     enough = _ENOUGH * float(np.sqrt(max(examination.best.score, 1.0)))
@@ -275,17 +275,18 @@ def _why(
 ) -> Message:
     said = message(
         "gap",
-        "To tell {effects} apart, play this: {test}; it sets them{closest} {n} noise floors (rms) "
-        "apart, even once each is fitted to it{doubt}{reference}{others}.",
+        "To distinguish {effects}, play this: {test}; it separates them{closest} by"
+        " {n} noise floors (rms), even after each is fitted to "
+        "it{doubt}{reference}{others}.",
     )
     closest = message("gap", ", the closest two of them,")
     doubt = message("gap", ", which may be too little")
     reference = message(
         "gap",
-        ", if the reference (ref) of {axis} is recorded too: without it, it does not tell "
-        "{effects} apart",
+        ", if the reference (ref) of {axis} is recorded too: without it, the test "
+        "does not distinguish {effects}",
     ).fill(axis=AxisName(axis), effects=_listed(choice.need_reference))
-    others = message("gap", "; no test here tells {any} from one of them")
+    others = message("gap", "; no test here distinguishes {any} from one of them")
     return said.fill(
         effects=_listed(rivals),
         test=_described(choice.trial, axis),

@@ -74,7 +74,7 @@ def counted_in(shown: Evidence, evidence: Evidence, one: Explanation) -> Explana
 
 
 def untouched(evidence: Evidence) -> Explanation:
-    """Return the model as it stands, with what its own parameters could do."""
+    """Return the original model, with the possible changes of its own parameters."""
     bare = fit(evidence, beside(evidence, ()), most_steps=0)
     return Explanation((), bare, bare.residual, mean_squares(evidence, bare.residual))
 

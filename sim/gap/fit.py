@@ -1,9 +1,8 @@
 """Effects fitted to records by output error: simulate, compare, correct.
 
-All parameters of all effects are fitted together, within their bounds, to the gaps over their
-noise floors. A parameter is counted in units of its size: of its preset, or of a hundredth of its
-scale where that is zero. Never is an effect fitted beside a frozen model: the model's own
-parameters may be re-tuned along with it.
+All parameters of all effects are fitted together, within their bounds, to the gaps over their noise
+floors. A parameter is scaled by its size: its preset, or a hundredth of its scale if the preset is
+zero. No effect is fitted to a frozen model: the model's own parameters may be re-tuned with it.
 """
 
 import logging
@@ -222,7 +221,7 @@ def _fitted(effects: Sequence[AxisEffect], free: tuple[Free, ...], found: Descen
 
 
 def held_out(evidence: Evidence, fitted: Fit, shown: Evidence | None = None) -> FloatArray:
-    """Return what is left (rows,) of each record by a fit to all the others.
+    """Return the remainder (rows,) of each record after a fit to all the others.
 
     Each fit is one Gauss-Newton step away from the fit to all. Directions in which the other
     records say hardly anything stay where they are. A single record is left out by quarters.

@@ -1,7 +1,7 @@
 """The noise floor of each tap of a record.
 
-It is declared, measured at rest or between periods, or, short of that, read from what no
-neighbouring sample foretells.
+It is declared, measured at rest or between periods, or else estimated from the part of the signal
+that neighbouring samples do not predict.
 """
 
 from collections.abc import Mapping
@@ -24,10 +24,10 @@ _TAPS = (Tap.U, Tap.REF, Tap.MEAS)
 
 
 def floors(robot: Robot, record: Record, axis: str) -> Mapping[Tap, float]:
-    """Return the floor, SI, of each measured tap that answers and whose floor can be known.
+    """Return the floor, SI, of each measured tap that responds and whose floor can be known.
 
-    Under a controller the reading and ``u`` are one measurement, of which ``u`` shows more: where
-    no sensor is declared, the reading is left out.
+    Under a controller the reading and ``u`` are one measurement, and ``u`` shows more of it:
+    without a declared sensor, the reading is left out.
     """
     found: dict[Tap, float] = {}
     for tap in _TAPS:
@@ -55,7 +55,7 @@ def unforetold(signal: FloatArray) -> float | None:
 
     Motion is smooth to them in most blocks of rows, of which the median is taken; a difference of
     order k multiplies the variance of white noise by ``(2k choose k)`` (Hall, Kay, Titterington,
-    Biometrika 77 (1990) 521-528). None where there are too few rows, or the signal was computed.
+    Biometrika 77 (1990) 521-528). None if there are too few rows, or the signal was computed.
     """
     differences = np.diff(signal, _ORDER) / np.sqrt(comb(2 * _ORDER, _ORDER))
     rows = min(_BLOCK_ROWS, len(differences) // _LEAST_BLOCKS)
@@ -76,7 +76,7 @@ def _answers_u(robot: Robot, axis: str, record: Record) -> bool:
 
 
 def _grid(signal: FloatArray) -> float:
-    """Return the step in which a signal was written down, 0 where there is none."""
+    """Return the step of the written numbers of a signal, 0 if there is none."""
     levels = np.unique(signal[:_GRID_ROWS])
     if len(levels) < 3:
         return 0.0

@@ -19,10 +19,10 @@ _ALIKE = 0.9  # correlation from which a reading is said to follow another axis
 
 
 def check_following(robot: Robot, one: Labelled) -> None:
-    """Check that what is read moves with what is commanded, as far as other axes let tell.
+    """Check that readings follow commands, as far as other axes permit the check.
 
-    An axis that does not move at all on purpose is none of the effects' doing; a model that has
-    to explain it would call it contact or coupling.
+    No effect makes an axis stand still entirely; a model forced to explain it would call it contact
+    or coupling.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""How a record begins: at rest, in a steady state, or as nobody knows.
+"""The state of a record at its start: at rest, in a steady state, or unknown.
 
 What an axis remembers from before an unknown history is the record's own. It is taken to lie
 somewhere between extremes: the axis was long at the low or at the high end of its range until a row
@@ -40,9 +40,9 @@ def start(plant: Plant, record: Record, run: Run) -> PlantState:
 
 
 def other_starts(plant: Plant, record: Record, run: Run, axis: str) -> Iterator[PlantState]:
-    """Give the extreme states a row before the first one, where the history is unknown.
+    """Give the extreme states one row before the first one, where the history is unknown.
 
-    An axis that a force moves has no place that it rests at: what was measured tells its start.
+    A force-driven axis has no position of rest: the measurement gives its start.
     """
     described = plant.robot.axes[axis]
     forgets = isinstance(described, ForceAxis) or not plant.assembly.remembers

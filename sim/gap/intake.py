@@ -1,8 +1,8 @@
-"""Whether records can be diagnosed at all: looked at before anything is fitted.
+"""Checks whether records can be diagnosed, before anything is fitted.
 
-What would make a confident answer wrong is refused, with what to do; what only narrows the answer
-is told as a caution. In particular an axis that was never moved is no error, for effects that act
-without motion show all the same, and short of them the verdict is insufficient excitation.
+Records that would lead to a confident but wrong answer are refused, with a remedy; limits of the
+answer become cautions. An axis that never moved is no error: effects that act without motion still
+show, and otherwise the verdict is insufficient excitation.
 """
 
 from collections.abc import Iterator, Sequence
@@ -27,7 +27,7 @@ _MEASURED = (Tap.U, Tap.REF, Tap.MEAS)
 def check(
     robot: Robot, records: Sequence[Record], names: Sequence[str] = ()
 ) -> tuple[Caution, ...]:
-    """Check records and the robot that they are said to be of.
+    """Check records, and the robot that they should belong to.
 
     Parameters
     ----------
@@ -151,24 +151,22 @@ def _missing(robot: Robot, records: Sequence[Record]) -> Iterator[Caution]:
         if not own:
             continue
         if not taps & set(_MEASURED):
-            said = message("gap", "The axis was commanded but not measured: nothing is said of it.")
+            said = message("gap", "The axis was commanded but not measured: it is not diagnosed.")
             yield Caution(said, axis)
             continue
         if all(np.ptp(record.signal(axis, Tap.CMD)) == 0.0 for record in own):
             said = message(
                 "gap",
-                "The axis was never commanded to move: only what acts without motion can show.",
+                "The axis was never commanded to move: only effects without motion are visible.",
             )
             yield Caution(said, axis)
         if Tap.MEAS not in taps:
-            said = message(
-                "gap", "The axis' own sensor was not recorded: nothing is said of that sensor."
-            )
+            said = message("gap", "The axis' own sensor was not recorded: it is not diagnosed.")
             yield Caution(said, axis)
         elif Tap.REF not in taps:
             said = message(
                 "gap",
-                "No independent reference (ref) was recorded: effects of the sensor cannot be told "
-                "from those of the axis.",
+                "No independent reference (ref) was recorded: effects of the sensor cannot "
+                "be distinguished from those of the axis.",
             )
             yield Caution(said, axis)

@@ -1,7 +1,7 @@
-"""What is left of a record, seen from the input: what the input would have had to be besides.
+"""The remainder of a record as an equivalent input: the additional input that would cause it.
 
-Mechanics filter what electronics and actuators do wrong, and ring with it. Wiener's filter undoes
-that as far as noise allows (Wiener, Extrapolation, Interpolation, and Smoothing of Stationary Time
+Mechanics filter errors of electronics and actuators, and ring with them. Wiener's filter reverses
+that as far as noise permits (Wiener, Extrapolation, Interpolation, and Smoothing of Stationary Time
 Series (1949), ch. 3).
 """
 
@@ -27,9 +27,9 @@ _LEAST = 0.1  # floors squared, that what is left has above them
 
 
 def inputs_left(evidence: Evidence, fitted: Fit) -> list[tuple[Part, FloatArray]]:
-    """Return what a fit leaves (n,) of each tap of open-loop records, as an input, m or rad.
+    """Return the remainder (n,) of each tap of open-loop records as an input, m or rad.
 
-    At the amplifier it is that already.
+    At the amplifier the remainder already is an input.
     """
     seen = []
     kicked: dict[int, Signals] = {}
@@ -50,9 +50,9 @@ def inputs_left(evidence: Evidence, fitted: Fit) -> list[tuple[Part, FloatArray]
 
 
 def _bridged(left: FloatArray, kept: BoolArray | None) -> FloatArray:
-    """Return what is left (n,), with a smooth way over single rows that do not count.
+    """Return the remainder (n,), interpolated smoothly over single rows that do not count.
 
-    They are zeros in a residual: an abrupt change, which no input but a burst explains.
+    Such rows are zeros in a residual: abrupt changes that only a burst of the input could explain.
     """
     if kept is None or kept.mean() < _MOSTLY or kept.all():
         return left
@@ -86,10 +86,10 @@ def _kicked(evidence: Evidence, fitted: Fit, number: int) -> Signals:
 
 
 def _undone(left: FloatArray, answer: FloatArray, per_size: float) -> FloatArray:
-    """Return the input (n,) that answers ``left`` (n,), of which noise of variance 1 is part.
+    """Return the input (n,) that causes ``left`` (n,), which contains noise of variance 1.
 
-    ``answer`` (n,) is that to one row of input; ``per_size`` times an input is about what it
-    leaves.
+    ``answer`` (n,) is the answer to one row of input; ``per_size`` times an input is about its
+    remainder.
     """
     rows = len(left)
     length = 2 * rows  # what rings on beyond the end must not come in at the beginning

@@ -73,7 +73,7 @@ class LocatedGap:
 
     @property
     def worst_regime(self) -> Regime | None:
-        """What the axis was doing where the mean square is greatest; not what it hardly did."""
+        """The regime with the largest mean square, among those that the axis was often in."""
         excess = {
             regime: self.by_regime[regime].excess or 0.0
             for regime in DOING
@@ -101,7 +101,7 @@ class LocatedGap:
 def locate(evidence: Evidence, rng: np.random.Generator) -> tuple[LocatedGap, ...]:
     """Return the gap of one axis at each of its taps, in the order of the chain.
 
-    The gap is that of the model as it stands, by the commands, without its mean over a record.
+    The gap is that of the original model, driven by the commands, without its mean over a record.
     """
     gaps = evidence.gaps()
     taps = [tap for tap in Tap if any(tap in gap for gap in gaps)]
@@ -179,9 +179,9 @@ def _squares(
     ways: Ways,
     numbers: IntArray,
 ) -> Blocks:
-    """Return sums over blocks of the gap's square, whole and in regimes and bands.
+    """Return sums over blocks of the squared gap, in total and by regime and band.
 
-    After these, of what white noise of variance 1 would have there.
+    The same sums for white noise of variance 1 follow.
     """
     command = record.signal(axis, Tap.CMD)
     own = regimes(record.time_s, command, others_move(record, axis), ways)

@@ -43,7 +43,7 @@ _EXCITED = 1e-6  # of the strongest line's power, from which a line is driven
 
 @dataclass(frozen=True, eq=False)
 class _Axis:
-    """Spectra of what the model of an axis lacks, record by record, and what may drive it."""
+    """Spectra of an axis' unexplained motion, record by record, and its possible sources."""
 
     evidence: Evidence
     sources: tuple[str, ...]
@@ -67,9 +67,9 @@ class _Axis:
 
 
 def many_modes(evidence: Evidence, account: Account) -> Explanation | None:
-    """Explain a gap by many modes, if that is what it comes from; None if it is not.
+    """Explain a gap by many modes if they cause it; otherwise return None.
 
-    The sources that close less than their share are left out.
+    Sources that close less than their share are left out.
     """
     axis = _gathered(evidence)
     if axis is None:
@@ -158,7 +158,7 @@ def _drives(evidence: Evidence, name: str) -> bool:
 
 
 def _input(evidence: Evidence, record: Record, name: str) -> FloatArray:
-    """Return the input (n,) of an axis in its unit of position, V of one that a force moves."""
+    """Return the input (n,) of an axis in its unit of position; V for a force-driven axis."""
     if isinstance(evidence.robot.axes[name], ForceAxis):
         return record.signal(name, Tap.U)
     return record.signal(name, Tap.CMD)
@@ -184,10 +184,10 @@ def _left(
 
 
 def _explained(axis: _Axis, poles: ComplexArray, sources: Sequence[str]) -> Explanation:
-    """Return the explanation by modes that some sources drive, with what is left unseen.
+    """Return the explanation by modes that some sources drive, with the unseen remainder.
 
-    A single record leaves nothing unseen: what is left of it is raised to what a fit of so many
-    parameters would leave of another one (Akaike, Ann. Inst. Statist. Math. 22 (1970) 203-217).
+    A single record leaves no unseen data: its remainder is raised to the expected one of a fit with
+    as many parameters on another record (Akaike, Ann. Inst. Statist. Math. 22 (1970) 203-217).
     """
     evidence = axis.evidence
     records = range(len(axis.output))

@@ -54,7 +54,7 @@ def diagnose(
     listener: Listener = unheard,
     cautions: Sequence[Caution] | None = None,
 ) -> Diagnosis:
-    """Tell where the gap between a robot's model and records of it lies, and what causes it.
+    """Find where the gap between a robot's model and its records lies, and what causes it.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def diagnose(
 
 
 def _in_order(records: Sequence[Record]) -> list[Record]:
-    """Return records in an order that their contents alone decide."""
+    """Return records in an order that depends only on their contents."""
 
     def content(record: Record) -> str:
         digest = hashlib.sha256(record.time_s.tobytes())
@@ -190,14 +190,14 @@ class _Run:
         if name in self.examined:
             return concluded(self.examined[name], places, self.rng)
         if name in self.failed:
-            why = message("gap", "Its numbers fail, so that no cause can be found: {error}.")
+            why = message("gap", "The computation failed, so no cause can be found: {error}.")
             said = (why.fill(error=self.failed[name]),)
             return AxisDiagnosis(name, Verdict.UNKNOWN, places, remarks=said)
-        elsewhere = message("gap", "Its gap comes from what was found on other axes.")
+        elsewhere = message("gap", "Its gap comes from the causes on other axes.")
         return AxisDiagnosis(name, Verdict.NONE, places, remarks=(elsewhere,) if has_gap else ())
 
     def _shaken(self, one: AxisDiagnosis, told: Mapping[str, AxisDiagnosis]) -> AxisDiagnosis:
-        """Return what is said of an axis that one without explanation shakes through a coupling."""
+        """Return the result for an axis shaken by an unexplained axis through a coupling."""
         if one.verdict not in (Verdict.UNKNOWN, Verdict.INSUFFICIENT):
             return one
         for group in coupled_axes(self.robot):
@@ -225,7 +225,7 @@ def _excess(one: AxisDiagnosis) -> float:
 
 
 def _has_gap(places: Sequence[LocatedGap]) -> bool:
-    """Tell whether a gap matters: beside the sensor's, one at a finer reference must be clear."""
+    """Tell whether a gap matters: at a reference finer than the sensor it must be clear."""
     by_sensor = any(place.tap is Tap.MEAS for place in places)
     least = {Tap.REF: _LEAST_BEYOND_THE_SENSOR} if by_sensor else {}
     return any(

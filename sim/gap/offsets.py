@@ -1,7 +1,7 @@
 """Constants by which a corrected model is off at each tap, where all records agree on them.
 
-The constant part of one record's difference may be that record's own: an odd start, an origin of
-its counter. What all records have is the machine's, and is predicted.
+The constant part of one record may be its own: an odd start, or the origin of its counter. A
+constant common to all records belongs to the machine, and is predicted.
 """
 
 from collections.abc import Sequence
@@ -52,6 +52,6 @@ def _offset(gaps: Sequence[FloatArray]) -> Offset | None:
 
 
 def _error(piece: FloatArray) -> float:
-    """Return the standard error of the mean of a piece (n,), of which neighbours are alike."""
+    """Return the standard error of the mean of a piece (n,) with correlated neighbours."""
     blocks = np.array([float(np.mean(one)) for one in np.array_split(piece, _BLOCKS)])
     return float(np.std(blocks, ddof=1)) / float(np.sqrt(_BLOCKS))

@@ -1,7 +1,7 @@
-"""In which order axes are examined: what one does may show on another.
+"""The order in which axes are examined.
 
-An axis that another one's motion moves is examined after that one. Else the whole of what the other
-does unlike its model, its hysteresis say, would be looked for in the coupling.
+An axis that another axis moves is examined after that one. Otherwise the model errors of the other
+axis, such as its hysteresis, would be attributed to the coupling.
 """
 
 from collections.abc import Mapping, Sequence
@@ -38,10 +38,10 @@ def examination_order(evidences: Mapping[str, Evidence], largest_first: Sequence
 
 
 def _share(evidence: Evidence, other: str) -> float:
-    """Return the share of a gap that another axis' motion explains beside the axis' own.
+    """Return the share of a gap that another axis' motion explains in addition to the axis' own.
 
-    By linear regression, over the records of both, on position and speed of the other axis as they
-    were measured, and position, speed and acceleration of the axis' model.
+    By linear regression, over the records of both, on measured position and speed of the other
+    axis, and position, speed and acceleration of the axis' model.
     """
     gaps, owns, others = [], [], []
     for observation, gap in zip(evidence.observations, evidence.gaps(), strict=True):
@@ -66,7 +66,7 @@ def _position(gap: Signals) -> Tap | None:
 
 
 def _measured(record: Record, axis: str) -> FloatArray | None:
-    """Return what was measured of an axis' position; None if nothing was."""
+    """Return the measured position of an axis; None if there is none."""
     tap = next((tap for tap in _TAPS if record.has(axis, tap)), None)
     return None if tap is None else record.signal(axis, tap)
 

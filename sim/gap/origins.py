@@ -1,8 +1,8 @@
-"""From where each record counts its place: a counter begins anew, and a screw does not.
+"""The origin of position of each record: a counter restarts, a screw does not.
 
-What is locked to the position has one amplitude in all records, and one phase where these count
-their place alike. Records of which each shows the same line over its place, at phases that no
-period makes agree, count it from different origins.
+Effects locked to position have one amplitude in all records, and one phase if the records share
+their origin. Records with the same line over position, but phases that no period reconciles, have
+different origins.
 """
 
 from collections.abc import Sequence
@@ -40,7 +40,7 @@ class _Line(NamedTuple):
     gap: FloatArray
 
     def wave(self, rate: float) -> tuple[complex, float]:
-        """Return the amplitude A of ``Re(A exp(2πi rate x))`` in the gap, and what it explains."""
+        """Return A of ``Re(A exp(2πi rate x))`` in the gap, and the power it explains."""
         angle = 2.0 * np.pi * rate * self.place
         design = np.stack([np.ones(len(angle)), np.cos(angle), -np.sin(angle)], axis=1)
         found = np.linalg.lstsq(design, self.gap)[0]
@@ -77,14 +77,14 @@ def origin_remarks(evidence: Evidence) -> tuple[Message, ...]:
         return ()
     said = message(
         "gap",
-        "{n} of {all} records count their place from another origin: what is locked to the "
-        "position has the same period in all, at another phase in these.",
+        "{n} of {all} records use another origin of position: effects locked to the"
+        " position have the same period in all records, but another phase in these.",
     )
     return (said.fill(n=str(count), all=str(len(evidence.observations))),)
 
 
 def _periods(evidence: Evidence) -> tuple[float, float] | None:
-    """Return the bounds of what may be locked to the position of an axis; None without any."""
+    """Return the bounds of periods that may be locked to position; None without any."""
     facts = Facts.of(evidence.robot.axes[evidence.axis])
     found = []
     for effect in catalogue():
@@ -96,7 +96,7 @@ def _periods(evidence: Evidence) -> tuple[float, float] | None:
 
 
 def _seen(evidence: Evidence, tap: Tap) -> list[_Line]:
-    """Return what the model leaves of a tap in each record that has it."""
+    """Return the remainder of a tap in each record that has it."""
     seen = []
     whole = zip(evidence.response(), evidence.gaps(), strict=True)
     for number, (answer, gap) in enumerate(whole):
@@ -158,9 +158,10 @@ def _is_one_line(
 
 
 def _together(seen: Sequence[_Line], rate: float, reach: float) -> float:
-    """Return what a wave of one phase over all records explains at most.
+    """Return the most that a wave of one phase over all records explains.
 
-    Its rate is looked for around that of the lines, on a grid finer than what the whole span tells.
+    The search covers rates around that of the lines, on a grid finer than the resolution of the
+    span.
     """
     whole = _Line(
         0, np.concatenate([one.place for one in seen]), np.concatenate([one.gap for one in seen])

@@ -28,11 +28,11 @@ def predict(
     after: Record | None = None,
     pause_s: float = 0.0,
 ) -> Record:
-    """Return the record that a model expects of commands: without noise, rounding and chance.
+    """Return the record that a model predicts for commands, without noise, rounding and chance.
 
-    The run starts as a diagnosis starts it: at rest at the first command, in the steady state of a
-    periodic file, or for a record of unknown history where its first rows were measured. With
-    ``after`` it goes on where that motion ended: what hysteresis or creep remember is carried over.
+    The run starts as in a diagnosis: at rest at the first command, in the steady state of a
+    periodic file, or for a record of unknown history at its first measurement. With ``after``, the
+    run continues from the end of that motion, with its hysteresis and creep.
 
     Parameters
     ----------
@@ -80,9 +80,9 @@ def predict(
 
 
 def _joined(robot: Robot, after: Record, commands: Record, pause_s: float) -> Record:
-    """Return one record of the motion before, a pause and the commands.
+    """Return one record of the previous motion, a pause and the commands.
 
-    What was measured before tells how the run starts; of the commands nothing was measured.
+    Measurements of the previous motion give the start of the run; the commands have none.
     """
     if not pause_s >= 0.0:
         raise GapError(

@@ -42,9 +42,9 @@ def unheard(_progress: Progress) -> None:
 
 
 class Account:
-    """Tells a listener how the examination of an axis goes on.
+    """Reports the progress of the examination of an axis to a listener.
 
-    It takes ``share`` of the whole diagnosis, from ``begin`` on.
+    The examination is ``share`` of the whole diagnosis, starting at ``begin``.
     """
 
     def __init__(

@@ -1,8 +1,8 @@
-"""Where the steps of a coarse converter lie: how wide they are, and where one begins.
+"""The steps of a coarse converter: their width, and the position of one of them.
 
-From one end of a travel to the other there may be thousands. No fit finds them downhill, but over
-the command what they leave, seen from the input, is a sawtooth: its line in the spectrum tells the
-width well enough for one record, that record tells it well enough for the next one, and so on.
+There may be thousands along the travel. No descent finds them, but over the command the remainder,
+seen from the input, is a sawtooth: its spectral line gives the width precisely enough for one
+record, that record gives it precisely enough for the next one, and so on.
 """
 
 from collections.abc import Mapping, Sequence
@@ -73,7 +73,7 @@ def likeliest_grid(
 
 
 class Grid(NamedTuple):
-    """Teeth: their width, m or rad, and by which part of one they are shifted."""
+    """Teeth: their width, m or rad, and their shift as a fraction of the width."""
 
     width: float
     shift: float
@@ -86,7 +86,7 @@ class Grid(NamedTuple):
         return Grid(width, shift - round(shift))
 
     def taken(self, one: Seen) -> float:
-        """Return how much of what is left it takes away, as a sum of squares."""
+        """Return how much of the remainder it removes, as a sum of squares."""
         turns = one.place / self.width - self.shift
         teeth = np.rint(turns) - turns
         teeth = teeth - teeth.mean()
@@ -94,7 +94,7 @@ class Grid(NamedTuple):
 
 
 def _seen(evidence: Evidence, fitted: Fit, origin: float, *, at_input: bool) -> list[Seen]:
-    """Return what is left where the converter is: at the command, or at the sensor."""
+    """Return the remainder at the converter: at the command, or at the sensor."""
     if at_input:
         places = [o.record.signal(evidence.axis, Tap.CMD) - origin for o in evidence.observations]
         return [
@@ -110,7 +110,7 @@ def _seen(evidence: Evidence, fitted: Fit, origin: float, *, at_input: bool) -> 
 
 
 def _without_bursts(left: FloatArray) -> FloatArray:
-    """Return what is left (n,) without what no tooth can be: a spike of the sensor, undone."""
+    """Return the remainder (n,) without spikes of the sensor, which no tooth can cause."""
     most = _BURST * float(np.median(np.abs(left)))
     return np.where(np.abs(left) > most, 0.0, left)
 
@@ -130,10 +130,10 @@ def _lines(seen: Sequence[Seen], bounds: tuple[float, float]) -> list[tuple[int,
 
 
 def _matched(seen: Sequence[Seen], line: tuple[int, float]) -> tuple[float, Grid]:
-    """Return the grid that suits one part, and then one part more at a time.
+    """Return the grid that matches one part, then one more part at a time.
 
-    And the share of what is left that it takes away, on the average of the records, each by the
-    tap that shows teeth best.
+    Also return the share of the remainder that it removes, averaged over the records, each at the
+    tap with the clearest teeth.
     """
     number, period = line
     first = seen[number]

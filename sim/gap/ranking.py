@@ -1,4 +1,4 @@
-"""How candidates stand while an axis is examined: what each that was tried leaves so far."""
+"""The ranking of candidates during the examination of an axis."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ Causes = tuple[tuple[str, str | None], ...]
 
 
 class Grade(IntEnum):
-    """How far a candidate was tried; what is said at a higher grade counts instead."""
+    """How far a candidate was examined; results of a higher grade replace those of a lower one."""
 
     LOOK = 0  # a first look: a step downhill from its best start
     FIT = 1  # fitted, on the records that it is judged by
@@ -42,7 +42,7 @@ class Standing:
 
 @dataclass(frozen=True, slots=True)
 class Ranking:
-    """The candidates of an axis that were tried so far, the best first.
+    """The candidates of an axis so far, best first.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Ranking:
 
 
 class Standings:
-    """Gathers how the candidates of an axis stand."""
+    """Collects the ranking of the candidates of an axis."""
 
     def __init__(self, axis: str) -> None:
         self._axis = axis
@@ -86,6 +86,6 @@ class Standings:
             self._best[key] = now
 
     def ranking(self) -> Ranking:
-        """Return how they stand now; on a tie, the one that was tried further is first."""
+        """Return the present ranking; on a tie, the further examined candidate is first."""
         ranked = sorted(self._best.values(), key=lambda one: (one.left, -one.grade))
         return Ranking(self._axis, self._whole, len(self._known), tuple(ranked))

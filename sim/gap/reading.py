@@ -48,7 +48,7 @@ class Document:
 def read_document(path: str | PathLike[str]) -> Document:
     """Read the verdicts and the corrected model of a diagnosis' JSON file.
 
-    Keys that are not known are left aside.
+    Unknown keys are ignored.
 
     Raises
     ------

@@ -50,9 +50,9 @@ _QUARTERS = (
 
 @dataclass(frozen=True, slots=True)
 class Ways:
-    """Where an axis went in all records: from where to where, its greatest swing, m or rad.
+    """The travel of an axis in all records: its ends, and its largest swing, m or rad.
 
-    ``turn`` is what a turn of its screw moves it by; None where it has none.
+    ``turn`` is the travel per turn of its screw; None without a screw.
     """
 
     low: float
@@ -76,8 +76,8 @@ def regimes(
 ) -> dict[Regime, BoolArray]:
     """Return the rows (n,) of each regime; forward and fast overlap, rest and reversal do not.
 
-    ``others_move`` (n,) tells where another axis was under way. Swings are counted under way,
-    ends of the way and quarters of a turn at rest as well.
+    ``others_move`` (n,) tells where another axis was moving. Swings count only during motion; ends
+    of travel and quarters of a turn count at rest as well.
     """
     speed = np.gradient(command, time_s) if len(time_s) > 1 else np.zeros(len(time_s))
     moving = np.diff(command, prepend=command[0]) != 0.0

@@ -1,7 +1,7 @@
-"""What a residual still depends on: a black box of simple features, judged on unseen records.
+"""A probe of the residual: a black box of simple features, judged on unseen records.
 
-If it can predict what an explanation leaves, something is still missing; without an explanation it
-shows what any model could reach at best (the ceiling of a diagnosis).
+If it predicts the remainder of an explanation, something is still missing; without an explanation
+it shows what any model could reach at best (the ceiling of a diagnosis).
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,11 +25,11 @@ _LEAST_GAIN = 0.05  # of what is left, that a group of features must predict to 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Probe:
-    """What a black box predicts of a residual.
+    """The prediction of a residual by a black box.
 
-    ``left`` (rows,) is what it does not, each record predicted from the others; ``depends_on``
-    names the groups of features, the most telling first, with the share of the power that each
-    predicts by itself.
+    ``left`` (rows,) is the unpredicted part, each record predicted from the others; ``depends_on``
+    names the groups of features, most informative first, with the share of the power that each
+    predicts alone.
     """
 
     left: FloatArray
@@ -37,7 +37,7 @@ class Probe:
 
     @property
     def score(self) -> float:
-        """Mean square over the floor of what is left."""
+        """Mean square of the unpredicted part over the floor."""
         return float(np.mean(self.left**2))
 
 

@@ -1,4 +1,4 @@
-"""The model's own parameters re-tuned alone: from several resonances, as one far off hides."""
+"""Re-tuning of the model's own parameters alone, from several starting resonances."""
 
 from dataclasses import replace
 
@@ -18,8 +18,8 @@ _BETTER = 0.8  # of what a nearer resonance leaves
 def retuned(evidence: Evidence) -> Explanation:
     """Return the explanation by the model's own parameters alone.
 
-    A ring of another frequency than the model's is explained only from near that on; from farther
-    away a fit makes it broad instead.
+    A fit finds a ring of another frequency only from a start near that frequency; from farther away
+    it only broadens the resonance.
     """
     own = baseline(evidence)
     near = fit(evidence, own, most_steps=_STEPS)

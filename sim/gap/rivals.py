@@ -1,4 +1,4 @@
-"""How sure a cause is: its rivals, and which of them the data cannot tell from it."""
+"""The certainty of a cause: its rivals, and those that the data cannot distinguish from it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -48,10 +48,10 @@ class Rival:
 def rivals(
     evidence: Evidence, best: Explanation, tried: Sequence[Explanation], cause: Key, raw: float
 ) -> tuple[Rival, ...]:
-    """Return what was tried in the place of a cause, and the cause itself, likeliest first.
+    """Return the explanations with another effect in place of a cause, likeliest first.
 
-    The model's own parameters take part in all of them, causes or not. ``raw`` is the mean square
-    of the gap over the floor.
+    The cause itself is among them, and the model's own parameters take part in all. ``raw`` is the
+    mean square of the gap over the floor.
     """
     others = [key for key in best.ids if key != cause and not is_whole_own(key[0])]
     found = [(cause, best)]
@@ -78,11 +78,11 @@ def rivals(
 
 
 def not_ruled_out(ranked: Sequence[Rival], cause: Key, raw: float) -> tuple[str, ...]:
-    """Return the effects that the data cannot tell from a cause.
+    """Return the effects that the data cannot distinguish from a cause.
 
-    ``raw`` is the mean square of the gap over the floor. One that closes most is among them where
-    the cause leaves something: that it takes more parameters speaks against it, but rules nothing
-    out while no formula is quite right.
+    ``raw`` is the mean square of the gap over the floor. An effect that closes most is among them
+    if the cause leaves a remainder: its additional parameters count against it, but rule nothing
+    out while no formula is exact.
     """
     likeliest = max(one.probability for one in ranked)
     names = [
@@ -102,10 +102,10 @@ def not_ruled_out(ranked: Sequence[Rival], cause: Key, raw: float) -> tuple[str,
 
 
 def _is_kin(ranked: Sequence[Rival], cause: Key, other: Rival, raw: float) -> bool:
-    """Tell whether another effect does nearly all that its near kin does, of a gap far off.
+    """Tell whether an effect does nearly as much as its near relative, for a large gap.
 
-    A screw that sticks and one that is loose stay behind at each reversal. How softly they are
-    taken along, and what a dither does to them, is each machine's own; no formula is quite right.
+    A sticking screw and a loose one both lag at each reversal. How softly they engage, and how a
+    dither affects them, differs between machines; no formula is exact.
     """
     kin = is_of(Family.LOST_MOTION, cause[0]) and is_of(Family.LOST_MOTION, other.effect)
     if not kin or other.effect == cause[0] or cause[1] is not None:
@@ -155,9 +155,9 @@ def _as_the_machine(one: Explanation) -> float:
 
 
 def _counted(one: Explanation, cause: Key) -> int:
-    """Return how many parameters an explanation has, but for the shape of a lag beside a delay.
+    """Return the number of parameters of an explanation, but for a lag's shape by a delay.
 
-    A filter has some order: that a delay knows none makes it no likelier.
+    A filter has some order: a delay without order is not more likely for that reason.
     """
     if not is_of(Family.LATE, cause[0]):
         return one.fit.parameters
@@ -166,7 +166,7 @@ def _counted(one: Explanation, cause: Key) -> int:
 
 
 def _shape(late: AxisEffect) -> int:
-    """Return how many parameters an effect has beside its lateness."""
+    """Return the number of parameters of an effect besides its delay."""
     formulation = effect_named(late.id).formulation(late.formulation)
     return len(formulation.parameters) - 1 if formulation is not None else 0
 

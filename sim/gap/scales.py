@@ -1,4 +1,4 @@
-"""Units of records: what is off by a factor that no effect explains."""
+"""Units of records: factors that no effect explains."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -31,9 +31,9 @@ _HASTE = 30.0  # speed limits that the median speed may have
 def check_scales(robot: Robot, one: Labelled, records: Sequence[Record]) -> Iterator[Caution]:
     """Check commands against limits, and readings against commands, in one of several records.
 
-    A factor between two units of the axis is refused, as are commands far beyond the range: to
-    the model they are errors of gain, saturation or contact. Other odd gains, and a reading that
-    runs against its command, are told: strong coupling can bring them about.
+    A factor between two units of the axis is refused, and so are commands far beyond the range: to
+    the model they are errors of gain, saturation or contact. Other unusual gains, and a reading of
+    opposite sign, become cautions: strong coupling can cause them.
 
     Raises
     ------
@@ -75,8 +75,8 @@ def _check_command(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
         yield one.caution(
             message(
                 "gap",
-                "A command goes beyond the range {low} to {high}, to {value}; the model knows no "
-                "ends of the range.",
+                "A command of {value} is outside the range {low} to {high}; the model has "
+                "no end stops.",
             ).fill(
                 low=exact(low, unit, size=high),
                 high=exact(high, unit),
@@ -134,15 +134,15 @@ def _check_readings(
             yield one.caution(
                 message(
                     "gap",
-                    "The {tap} channel is {gain} × what is commanded, which no single effect "
-                    "brings about: check signs, units and the gain in the robot file.",
+                    "The {tap} channel is {gain} × the command, which no single effect causes: "
+                    "check signs, units and the gain in the robot file.",
                 ).fill(tap=str(tap), gain=rounded(gain, 3)),
                 axis,
             )
 
 
 def _expected(described: Axis, record: Record, tap: Tap) -> float | None:
-    """Return what a slow signal is for a command of 1, or None where that is not known."""
+    """Return the expected slow signal for a command of 1, or None if unknown."""
     if tap is Tap.U:
         if not isinstance(described, PiezoAxis) or under_controller(described, record):
             return None
@@ -182,7 +182,7 @@ def _is_cut_off(robot: Robot, records: Sequence[Record], axis: str) -> bool:
 
 
 def _moves_with_another(record: Record, axis: str) -> bool:
-    """Whether what comes from another axis cannot be told from what the own command does."""
+    """Tell whether the motion of another axis cannot be distinguished from the own command's."""
     own = _centred(record.signal(axis, Tap.CMD))
     for other in record.axes:
         if other != axis and record.has(other, Tap.CMD):
@@ -212,7 +212,7 @@ def _check_voltage(one: Labelled, axis: str, gain: float) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Factor:
-    """A factor between two units, and how a message tells it."""
+    """A factor between two units, and its text in a message."""
 
     value: float
     text: str

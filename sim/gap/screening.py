@@ -1,7 +1,7 @@
-"""A first look at every candidate: how much of what is left it could take away.
+"""A first look at every candidate: how much of the remainder it could remove.
 
-What the fit so far could do itself by changing its parameters is projected out, so that only what
-a candidate adds counts; then a few steps of descent on the candidate's parameters alone.
+Changes that the present fit could make itself are projected out, so only the candidate's own
+contribution counts; then follow a few steps of descent on the candidate's parameters alone.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Which effects explain the gap of an axis: forward selection on data that no fit has seen."""
+"""The effects that explain the gap of an axis: forward selection on validation data."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -64,10 +64,10 @@ _LEAST_PROMISE = 0.7  # of the score: a best candidate that leaves more is no cl
 
 @dataclass(frozen=True, eq=False)
 class Selection:
-    """What was tried on an axis, and what was found.
+    """The explanations tried on an axis, and the result.
 
-    ``bare`` is the model as it stands; ``retuned`` the explanation without causes, by the model's
-    own parameters; ``tried`` holds all explanations, best first.
+    ``bare`` is the original model; ``retuned`` the explanation without causes, by the model's own
+    parameters; ``tried`` holds all explanations, best first.
     """
 
     bare: Explanation
@@ -89,7 +89,7 @@ def select(
     known: Sequence[AxisEffect] = (),
     jobs: int = 1,
 ) -> Selection:
-    """Find the causes of an axis' gap, the model's own parameters being re-tuned beside them.
+    """Find the causes of an axis' gap, together with the model's own re-tuned parameters.
 
     ``account`` hears of stages, and of every candidate what it leaves. ``aside`` is the power at
     each tap, in its floors squared, of what was set aside before. Beside causes that are ``known``

@@ -1,11 +1,11 @@
-"""How far rivals stay apart on a test, once each is fitted to the records and to the test as well.
+"""The separation of rivals on a test, after each is fitted to the records and to the test.
 
-A rival may give way where the records leave its parameters open. It explains what another says of
-a test, ``d = y_other - y_own``, by a step δ of its parameters as far as the records let it: what
-stays is ``min |d - S δ|² + δᵀ H δ``, with the sensitivities S of its own answer and the
-information H = JᵀJ of its fit to the records, all over the noise floors (optimal discrimination
-between fitted models: Atkinson and Fedorov, Biometrika 62 (1975) 57-70). What is constant in a
-signal says nothing. A parameter that no record tells is known to about its own size.
+A rival may adapt where the records leave its parameters open. It absorbs the difference to another
+rival's prediction, ``d = y_other - y_own``, by a step δ of its parameters as far as the records
+permit; the remainder is ``min |d - S δ|² + δᵀ H δ``, with the sensitivities S of its own answer and
+the information H = JᵀJ of its fit to the records, all over the noise floors (optimal discrimination
+between fitted models: Atkinson and Fedorov, Biometrika 62 (1975) 57-70). Constants in a signal
+carry no information. A parameter that no record determines is uncertain by about its own size.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -41,7 +41,7 @@ class Player:
     heartbeat: Callable[[], None]
 
     def answer(self, effects: Sequence[AxisEffect], record: Record) -> Answer | None:
-        """Return what the axis answers at each tap (n,), SI; None where it cannot be simulated."""
+        """Return the answer of the axis at each tap (n,), SI; None if it cannot be simulated."""
         self.heartbeat()
         robot = replace(self.robot, effects=(*self.robot.effects, *effects))
         try:
@@ -61,10 +61,10 @@ class Player:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Yielding:
-    """A rival on a test: what it answers (rows,), and how that can give way (rows, parameters).
+    """A rival on a test: its answer (rows,), and how far it can adapt (rows, parameters).
 
-    Over the floors of some taps, one after the other; ``information`` (parameters, parameters) is
-    what the records say of its parameters, and ``answer_of`` answers with others.
+    Both are over the floors of some taps, one after the other; ``information`` (parameters,
+    parameters) comes from the records, and ``answer_of`` answers with other parameters.
     """
 
     fitted: Fit
@@ -114,7 +114,7 @@ class Yielding:
 
 
 def _information(fitted: Fit) -> FloatArray:
-    """Return what the records say of parameters; what they leave unexplained makes that less."""
+    """Return the information of records on parameters, reduced by their unexplained remainder."""
     known = fitted.jacobian.T @ fitted.jacobian / max(fitted.cost, 1.0)
     for column, free in enumerate(fitted.free):
         effect = effect_named(fitted.effects[free.effect].id)
@@ -157,10 +157,10 @@ def alike(rivals: Sequence[Yielding], rows: int, least: float) -> list[int]:
 
 
 def _pairs(rivals: Sequence[Yielding]) -> list[tuple[float, Yielding, Yielding]]:
-    """Return pairs of rivals, the closest first, with the square sum that keeps them apart.
+    """Return pairs of rivals, closest first, with the squared sum that separates them.
 
-    Where one can be all that the other is, but not the other way round, a test decides in either
-    case: the simpler one is right wherever it is as good.
+    If one rival can imitate the other but not vice versa, a test decides in either case: the
+    simpler one is right wherever it is as good.
     """
     pairs = [
         (max(one.left_of(other), other.left_of(one)), one, other)

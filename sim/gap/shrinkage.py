@@ -1,4 +1,4 @@
-"""How far the gap of an axis shrinks, cause by cause, on data that no fit saw."""
+"""How far the gap of an axis shrinks, cause by cause, on validation data."""
 
 from collections.abc import Callable
 from itertools import combinations
@@ -29,9 +29,9 @@ def shrinkage(
     rng: np.random.Generator,
     left_by: "LeftBy",
 ) -> Shrinkage:
-    """Return the whole way from the raw gap of a tap to its floor.
+    """Return all steps from the raw gap of a tap to its floor.
 
-    ``left_by`` tells what some of the causes of ``best`` leave.
+    ``left_by`` returns the remainder of a subset of the causes of ``best``.
     """
     raw = left_by(frozenset())
     floor = evidence.floor(tap)
@@ -54,7 +54,7 @@ def shrinkage(
 def closing(
     evidence: Evidence, before: FloatArray, after: FloatArray, tap: Tap, rng: np.random.Generator
 ) -> tuple[float | None, Interval | None]:
-    """Return which share of a gap is closed, and its 95 % interval; None where there is none."""
+    """Return the closed share of a gap, and its 95 % interval; None if there is no gap."""
     shown = at_tap(evidence, tap)
     was, left = float(np.mean(before[shown] ** 2)), float(np.mean(after[shown] ** 2))
     if was <= _LEAST_GAP**2:
@@ -87,7 +87,7 @@ class LeftBy:
         self._left: dict[frozenset[int], FloatArray] = {whole: best.held_out} if whole else {}
 
     def __call__(self, members: frozenset[int]) -> FloatArray:
-        """Return what is left (rows,), over the floor, by the causes of these numbers."""
+        """Return the remainder (rows,), over the floor, of the causes with these numbers."""
         if members not in self._left:
             own = [self._causes[number] for number in sorted(members)]
             self._left[members] = self._evidence.residual(own)
@@ -97,7 +97,7 @@ class LeftBy:
 def _steps(
     best: Explanation, shown: np.ndarray, floor: float, left_by: LeftBy
 ) -> tuple[ShrinkageStep, ...]:
-    """Return what is left after each cause, and the causes' Shapley shares of what is closed."""
+    """Return the remainder after each cause, and the causes' Shapley shares of the closed part."""
     whole = frozenset(range(len(best.causes)))
 
     def score(members: frozenset[int]) -> float:

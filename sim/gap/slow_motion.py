@@ -1,6 +1,6 @@
-"""Commands and readings where both are slow: an axis' own dynamics have averaged out there.
+"""Commands and readings in slow motion, where an axis' own dynamics have averaged out.
 
-They are compared by means over blocks that are long beside the axis' own period.
+They are compared by means over blocks that are long compared with the axis' own period.
 """
 
 from collections.abc import Mapping
@@ -56,7 +56,7 @@ class SlowMotion:
 
 
 def follows_command(described: Axis, record: Record) -> bool:
-    """Whether a slow position is what is commanded, and not what a force makes of it."""
+    """Tell whether a slow position follows the command, and not a force."""
     return not isinstance(described, ForceAxis) or under_controller(described, record)
 
 

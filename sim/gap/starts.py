@@ -1,4 +1,4 @@
-"""Where a fit begins: each effect knows from what it sees of the records and of what is left."""
+"""Starting points of a fit: each effect derives them from the records and the remainder."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,9 +19,9 @@ from rotemina.sim.robot.model import AxisEffect
 
 
 def starts(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> tuple[AxisEffect, ...]:
-    """Return the candidate with the parameters from which its fit should be tried.
+    """Return the candidate with starting parameters for its fit.
 
-    ``fitted`` is what is there already; the candidate is to explain what it leaves.
+    ``fitted`` is the present explanation; the candidate is to explain its remainder.
     """
     given, attached = candidate.parameters, Attached.of(evidence.robot, candidate)
     begin = attached.effect.identification.starts
@@ -33,7 +33,7 @@ def starts(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> tuple[Axis
 
 @dataclass(frozen=True, eq=False)
 class EvidenceView:
-    """Evidence beside a fit, as an effect may look at it."""
+    """Evidence and a fit, as effects may access them."""
 
     evidence: Evidence
     fitted: Fit
@@ -84,7 +84,7 @@ class EvidenceView:
 
     @cached_property
     def unbent(self) -> tuple[Sequence[Signals], Sequence[Signals]]:
-        """Answers and what they leave, by record, with the model's own parameters as they were."""
+        """Answers and remainders, by record, with the model's original own parameters."""
         causes = [one for one in self.fitted.effects if not is_whole_own(one.id)]
         return self.evidence.response(causes), self._by_tap(self.evidence.residual(causes))
 
@@ -101,17 +101,17 @@ class EvidenceView:
         return tolerance(self.attached, parameter, self.extent)
 
     def periods(self, bounds: Interval) -> Sequence[float]:
-        """Return periods over position of the strongest lines of what is left, m or rad."""
+        """Return periods over position of the strongest lines of the remainder, m or rad."""
         return strongest_periods(self.evidence, self.fitted, bounds)
 
     def frequency(self, bounds: Interval) -> float | None:
-        """Return the frequency of the strongest line over time of what is left, Hz."""
+        """Return the frequency of the strongest line over time of the remainder, Hz."""
         return strongest_frequency(self.evidence, self.fitted.residual, bounds)
 
     def grid(
         self, bounds: Interval, origin: float, gain: float, *, at_input: bool
     ) -> Values | None:
-        """Return ``step`` and ``shift`` of the teeth in what is left, if there are any."""
+        """Return ``step`` and ``shift`` of the teeth in the remainder, if there are any."""
         return likeliest_grid(
             self.evidence,
             self.fitted,

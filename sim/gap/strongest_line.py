@@ -1,4 +1,4 @@
-"""The strongest line in the spectrum of what a model leaves, over position or over time."""
+"""The strongest line in the spectrum of a remainder, over position or over time."""
 
 from collections.abc import Sequence
 
@@ -17,9 +17,9 @@ _PER_PERIOD = 4  # bins of position in the shortest period
 
 
 def strongest_periods(evidence: Evidence, fitted: Fit, bounds: tuple[float, float]) -> list[float]:
-    """Return the periods over position, within bounds, of the strongest lines of what a fit leaves.
+    """Return the periods over position, within bounds, of the strongest lines of a remainder.
 
-    One for each record, strongest first, made so exact that all records agree on its phase.
+    One per record, strongest first, refined until all records agree on its phase.
     """
     seen = _placed(evidence, fitted)
     lines = [line for line in (_over_position(*one, bounds) for one in seen) if line is not None]
@@ -34,7 +34,7 @@ def line_over(place: FloatArray, gap: FloatArray, bounds: tuple[float, float]) -
 
 
 def _placed(evidence: Evidence, fitted: Fit) -> list[tuple[FloatArray, FloatArray]]:
-    """Return the place (n,) where the model has the axis, and what is left there, by record."""
+    """Return the position (n,) of the axis in the model and the remainder there, by record."""
     answers = evidence.response(fitted.effects)
     placed = []
     for part in evidence.parts:
@@ -46,9 +46,9 @@ def _placed(evidence: Evidence, fitted: Fit) -> list[tuple[FloatArray, FloatArra
 
 
 def _in_phase(seen: Sequence[tuple[FloatArray, FloatArray]], period: float) -> float:
-    """Return the period near ``period`` by which the records agree best.
+    """Return the period near ``period`` on which the records agree best.
 
-    First by each record alone, whose phases may differ, then by all: they may lie far apart.
+    First refine it by each record, whose phases may differ, then by all; records may lie far apart.
     """
     thinned = [(place[::_EVERY], gap[::_EVERY]) for place, gap in seen]
     lowest = min(float(place.min()) for place, _ in thinned)

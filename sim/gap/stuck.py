@@ -1,4 +1,4 @@
-"""Sensors that stand still while their axis is commanded to move."""
+"""Sensors with a constant reading while their axis is commanded to move."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -57,13 +57,13 @@ class _Runs(NamedTuple):
 
 
 def check_sensors(robot: Robot, one: Labelled) -> Iterator[Caution]:
-    """Check that readings move when their axis does.
+    """Check that readings change when their axis moves.
 
-    A reading that is the same to the last bit for long cannot be that of a moving axis; nor that
-    of a resting one whose sensor's noise exceeds its resolution. Then the sensor is at fault, and
-    refused: to the model it would be contact or saturation. Where noise does not tell, and no
-    reference shows the axis in motion, it may truly stand still: that is told. Dropouts, which
-    come and go by jumps and are short, are an effect and pass.
+    A reading that stays the same to the last bit for long cannot belong to a moving axis; nor to a
+    resting one whose sensor noise exceeds its resolution. Then the sensor is faulty, and the record
+    is refused: the model would explain it as contact or saturation. If noise does not decide and no
+    reference shows motion, the axis may really stand still: this becomes a caution. Dropouts, which
+    start and end by jumps and are short, are an effect and pass.
 
     Raises
     ------
@@ -105,9 +105,9 @@ def _check_sensor(robot: Robot, one: Labelled, axis: str) -> Iterator[Caution]:
         yield one.caution(
             message(
                 "gap",
-                "The reading stands at exactly {stand} for {percent} % of the rows, while the axis "
-                "is commanded to move: either the axis does not follow, or the sensor is {fault}, "
-                "and the records cannot tell which.",
+                "The reading stays at exactly {stand} for {percent} % of the rows, while "
+                "the axis is commanded to move: either the axis does not follow, or the "
+                "sensor is {fault}. The records cannot distinguish the two.",
             ).fill(stand=stand, percent=percent, fault=what),
             axis,
         )
@@ -149,9 +149,9 @@ def _faults(reading: FloatArray, runs: _Runs) -> Iterator[tuple[float, Message]]
 
 
 def _comes_and_goes(reading: FloatArray, runs: _Runs) -> BoolArray:
-    """Whether a reading comes to its end smoothly and leaves it at the command at which it came.
+    """Tell whether a reading reaches its end smoothly and leaves it at the same command.
 
-    Dropouts jump, and what plays takes up, such as backlash, goes on elsewhere than it stopped.
+    Dropouts jump, and effects with play, such as backlash, continue at another command.
     """
     near = _NEAR * float(np.ptp(reading))
     before = np.abs(reading[np.maximum(runs.begin - 1, 0)] - runs.value)
@@ -161,7 +161,7 @@ def _comes_and_goes(reading: FloatArray, runs: _Runs) -> BoolArray:
 
 
 def _flickers(robot: Robot, axis: str) -> bool:
-    """Whether noise would show even while the axis stands still."""
+    """Tell whether noise would be visible even while the axis stands still."""
     sensor = robot.axes[axis].sensor
     return sensor is not None and sensor.noise_rms > 0.0 and sensor.noise_rms >= sensor.resolution
 

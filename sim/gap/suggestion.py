@@ -15,7 +15,7 @@ _NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_.-]")
 
 @dataclass(frozen=True, slots=True)
 class Suggestion:
-    """The files of one experiment: their names, and the record that each holds."""
+    """The files of one experiment: their names and records."""
 
     names: ExperimentFiles
     records: Mapping[str, Record]

@@ -1,4 +1,4 @@
-"""A diagnosis in words: what a terminal shows."""
+"""A diagnosis as text for a terminal."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from math import isfinite
@@ -24,16 +24,14 @@ from rotemina.sim.records.record import Record
 _VERDICTS = {
     Verdict.NONE: message("gap", "no gap: the model explains the records up to their noise"),
     Verdict.EXPLAINED: message("gap", "the gap is explained"),
-    Verdict.PARTLY: message(
-        "gap", "the gap is explained in part; what causes the rest is not known"
-    ),
-    Verdict.UNKNOWN: message("gap", "there is a gap that no known effect explains"),
-    Verdict.INSUFFICIENT: message("gap", "the records cannot tell"),
+    Verdict.PARTLY: message("gap", "the gap is partly explained; the cause of the rest is unknown"),
+    Verdict.UNKNOWN: message("gap", "no known effect explains the gap"),
+    Verdict.INSUFFICIENT: message("gap", "undecided: the records lack excitation"),
 }
 _TITLES = {
     Verdict.NONE: message("gap", "no gap of its own"),
     Verdict.EXPLAINED: message("gap", "explained"),
-    Verdict.PARTLY: message("gap", "explained in part"),
+    Verdict.PARTLY: message("gap", "partly explained"),
     Verdict.UNKNOWN: message("gap", "unknown effect"),
     Verdict.INSUFFICIENT: message("gap", "insufficient excitation"),
 }
@@ -67,11 +65,11 @@ def _lines(diagnosis: Diagnosis, records: Sequence[Record]) -> Iterator[tuple[in
         (line for cause in ordered_causes(diagnosis) for line in _cause(cause, records)),
     )
     yield from _part(
-        message("gap", "how far it shrinks, rms on data that no fit saw"),
+        message("gap", "how far it shrinks, rms on validation data"),
         ((1, _shrinkage(each, records)) for axis in axes for each in axis.shrinkage),
     )
     yield from _part(
-        message("gap", "what would tell more"),
+        message("gap", "suggested experiments"),
         (
             (
                 1,
@@ -107,7 +105,7 @@ def _place(
     ]
     if place.worst_band_hz is not None:
         low, high = place.worst_band_hz
-        most = message("gap", "most between {low} and {high} Hz")
+        most = message("gap", "mostly between {low} and {high} Hz")
         said.append(most.fill(low=rounded(low, 3), high=rounded(high, 3)))
     if place.worst_regime is not None:
         regime = Message("gap", str(place.worst_regime))
@@ -142,7 +140,7 @@ def _cause(cause: Cause, records: Sequence[Record]) -> Iterator[tuple[int, Messa
         said.append(message("gap", "rms {before}").fill(before=before))
     yield 1, _named(cause.axis, joined(said, "; "))
     if cause.ambiguous_with:
-        others = message("gap", "cannot be told from: {names}")
+        others = message("gap", "not distinguishable from: {names}")
         yield 2, others.fill(names=", ".join(cause.ambiguous_with))
     for one in cause.derived:
         told = message("gap", "{name} {value} ({interval})")
@@ -166,7 +164,7 @@ def _parameter(one: FittedParameter, cause: Cause, records: Sequence[Record]) ->
 def _shrinkage(each: Shrinkage, records: Sequence[Record]) -> Message:
     unit = unit_of(each.axis, each.tap, records)
     figures = (
-        (message("gap", "as it is {rms}"), each.raw),
+        (message("gap", "original {rms}"), each.raw),
         (message("gap", "re-tuned {rms}"), each.retuned),
         (message("gap", "corrected {rms}"), each.corrected),
         (message("gap", "black box {rms}"), each.ceiling),

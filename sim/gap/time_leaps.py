@@ -23,9 +23,9 @@ _UNUSUAL = 3.0  # and times what 95 % of the intervals stay below, for those tha
 def pieces(records: Sequence[Record], names: Sequence[str] = ()) -> list[Labelled]:
     """Return the pieces into which leaps of time split records.
 
-    Time leaps where an interval is longer than ten usual ones and a second, or where rows are
-    lost while an axis is under way: a model that holds the command meanwhile would part from the
-    machine for no fault of either. What came before a piece is unknown, but for the first one.
+    Time leaps where an interval exceeds ten usual ones and a second, or where rows are lost during
+    motion: a model that holds the command meanwhile would differ from the machine without fault of
+    either. The history of every piece but the first is unknown.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def default_names(records: Sequence[Record]) -> list[str]:
 
 
 def _contiguous(record: Record) -> list[slice]:
-    """Return the rows between leaps, all of them where there is none."""
+    """Return the rows between leaps; all rows if there is no leap."""
     ends = [0, *(_leaps(record) + 1), len(record.time_s)]
     return [slice(int(begin), int(end)) for begin, end in pairwise(ends)]
 
@@ -127,11 +127,11 @@ def check_leaps(records: Sequence[Record], names: Sequence[str]) -> Iterator[Cau
                 )
             )
         short = rows[rows < LEAST_ROWS].sum()
-        left_out = message("gap", "; {rows} rows in pieces shorter than {least} are left out")
+        left_out = message("gap", "; {rows} rows in pieces shorter than {least} are omitted")
         said = message(
             "gap",
-            "Time leaps {n} ×, by up to {time} s: the record is split there, and what came before "
-            "a piece is unknown{left_out}.",
+            "Time leaps {n} ×, by up to {time} s: the record is split there, and the "
+            "history of each piece is unknown{left_out}.",
         ).fill(
             n=str(len(leaps)),
             time=rounded(longest_s, 3),
@@ -141,9 +141,9 @@ def check_leaps(records: Sequence[Record], names: Sequence[str]) -> Iterator[Cau
 
 
 def _under_way(record: Record, row: int) -> bool:
-    """Whether an axis' command goes on changing through the interval behind ``row``.
+    """Tell whether an axis' command keeps changing through the interval after ``row``.
 
-    One that steps from hold to hold there may have been written sparsely on purpose.
+    A command that steps from hold to hold there may have been written sparsely on purpose.
     """
     for axis in record.axes:
         if record.has(axis, Tap.CMD):

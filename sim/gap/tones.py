@@ -1,4 +1,4 @@
-"""Vibration: lines in the spectrum of a gap that are locked to time, whatever the axis does."""
+"""Vibration: lines in the spectrum of a gap that are locked to time, regardless of the motion."""
 
 import numpy as np
 from scipy.signal import detrend

@@ -34,7 +34,7 @@ _PITCHES = 2.5  # to each side, so that what repeats with the screw shows
 _HASTE = 0.9  # of the greatest speed and acceleration
 _LEAST_SHARE = 1e-4  # of the range, as an amplitude where the records hardly moved
 _FAST, _SLOW = message("gap", "fast {size}triangle"), message("gap", "slow {size}triangle")
-_ROW_OF_STEPS, _MULTISINE = message("gap", "row of steps"), message("gap", "multisine")
+_ROW_OF_STEPS, _MULTISINE = message("gap", "series of steps"), message("gap", "multisine")
 _OF_OTHERS = (_FAST.fill(size=""), _SLOW.fill(size=""), _ROW_OF_STEPS, _MULTISINE)
 _CROSSING_S = 1.0  # for its range, that an axis without declared speed is given
 
@@ -132,7 +132,7 @@ def _kinds(room: _Room, pace: float) -> Iterator[tuple[Message, Kind]]:
     long_holds = Steps(amplitude=large, offset=centre, hold_s=4.0 * pace)
     yield message("gap", "steps with long holds"), long_holds
     yield (
-        message("gap", "one step there and back with very long holds"),
+        message("gap", "one step back and forth with very long holds"),
         Staircase(amplitude=large, offset=centre, levels=2, hold_s=6.0 * pace),
     )
     way = max(large, _PITCHES * room.pitch) if room.pitch else large

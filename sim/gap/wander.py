@@ -1,4 +1,4 @@
-"""A sensor that wanders: what is not white, goes on at rest, and follows from nothing."""
+"""Drift of a sensor: coloured noise that continues at rest and follows from no signal."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -30,11 +30,10 @@ _ROUGH = 1.6  # exponent of time, with which a wander's squared change grows at 
 
 @dataclass(frozen=True, slots=True)
 class Wander:
-    """What is left of a record, as far as it is not white.
+    """The coloured part of a record's remainder.
 
-    ``at_rest`` tells whether it goes on at rest as a wander does,
-    None where no rest was recorded that could tell; ``walks`` whether it grows with time as a
-    random walk does.
+    ``at_rest`` tells whether it continues at rest as a drift does, None if no rest was recorded;
+    ``walks`` whether it grows with time like a random walk.
     """
 
     at_rest: bool | None
@@ -54,9 +53,9 @@ def wandering(time_s: FloatArray, left: FloatArray, resting: BoolArray) -> Wande
 
 
 def _is_slow(left: FloatArray, white: float) -> bool:
-    """Tell whether what is not white of a residual (n,) lies in the slowest terms of a record.
+    """Tell whether the coloured part of a residual (n,) lies in the slowest terms of a record.
 
-    So does what wanders; what a command, a speed or a place brings about returns with these.
+    A drift does; effects of a command, a speed or a position recur with these.
     """
     power = dct(left - left.mean(), norm="ortho") ** 2
     slow = float(power[: _SLOWEST + 1].sum())
@@ -64,12 +63,12 @@ def _is_slow(left: FloatArray, white: float) -> bool:
 
 
 def _white(left: FloatArray) -> float:
-    """Return the power of what is white in a residual (n,)."""
+    """Return the power of the white part of a residual (n,)."""
     return float(np.mean(np.diff(left) ** 2)) / 2.0
 
 
 def _coloured(left: FloatArray) -> float:
-    """Return the power of what is not white in a residual (n,) over the floor, beyond that."""
+    """Return the power of the coloured part of a residual (n,) over the floor, in excess of it."""
     return max(float(np.mean(left**2)) - max(_white(left), 1.0), 0.0)
 
 
@@ -127,11 +126,11 @@ def _is_smooth(grown: Sequence[tuple[int, float]]) -> bool:
 
 
 def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
-    """Return how far a sensor wanders, by what the best explanation leaves (rows,).
+    """Return how far a sensor drifts, by the remainder (rows,) of the best explanation.
 
-    Rest proves it, or, where none can tell, a reference at which the same explanation leaves
-    nothing. Once a record proves it, another, too quiet or short to, counts as well. Its power is
-    in floors of the evidence.
+    Rest proves a drift; without rest, a reference at which the same explanation leaves nothing. If
+    one record proves it, others that are too quiet or short also count. The power is in floors of
+    the evidence.
     """
     total, rows, rested, walked = 0.0, 0, False, False
     for part in evidence.parts:
@@ -149,10 +148,10 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     if not proven or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
         return None
     note = message(
-        "gap", "The reading wanders whatever the axis does, though the reference does not."
+        "gap", "The reading drifts regardless of the motion, but the reference does not."
     )
     if rested:
-        note = message("gap", "The reading wanders whatever the axis does, at rest as well.")
+        note = message("gap", "The reading drifts regardless of the motion, also at rest.")
     return Disturbance(Sign.WANDER, Tap.MEAS, total / rows, note)
 
 

@@ -18,8 +18,8 @@ _LEAST_ROWS = 256
 def noise_level(gap: FloatArray) -> float:
     """Return the rms of the white noise in a gap (n,), in its unit.
 
-    The median over frequency of the spectrum of the quietest part of it: lines, slow motion and
-    what the command does leave most frequencies alone most of the time.
+    It is the median over frequency of the spectrum of the quietest part: lines, slow motion and the
+    command leave most frequencies unaffected most of the time.
     """
     pieces = np.array_split(gap, min(_PIECES, max(len(gap) // _LEAST_ROWS, 1)))
     return float(np.sqrt(min(_level(piece) for piece in pieces)))
@@ -36,9 +36,9 @@ def common_level(levels: Sequence[float]) -> float:
 
 
 def _level(gap: FloatArray) -> float:
-    """Return the power of what is white: the least of the levels of several bands.
+    """Return the power of the white part: the lowest of the levels of several bands.
 
-    0 where the spectrum falls even where slow motion has no part in it, as a wander's does.
+    0 if the spectrum falls even beyond slow motion, like that of a drift.
     """
     rows = min(_SEGMENT_ROWS, len(gap))
     _, power = welch(gap, nperseg=rows)

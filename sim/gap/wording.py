@@ -1,4 +1,4 @@
-"""A diagnosis in sentences: what was found, how far the gap shrinks, what is left."""
+"""A diagnosis in sentences: the causes, how far the gap shrinks, and the remainder."""
 
 from collections.abc import Iterator, Sequence
 
@@ -32,12 +32,12 @@ _MOST_GROUPS = 2
 
 
 def findings(diagnosis: Diagnosis) -> tuple[Message, ...]:
-    """Return what each axis lacks, one sentence for an axis that has a gap of its own."""
+    """Return the causes of each axis with a gap of its own, one sentence per axis."""
     return tuple(_finding(one) for one in _speaking(diagnosis))
 
 
 def details(diagnosis: Diagnosis, records: Sequence[Record]) -> tuple[Message, ...]:
-    """Return how far the gap of each axis shrinks, what is left, and which axes have none."""
+    """Return how far the gap of each axis shrinks, the remainder, and axes without a gap."""
     said = [message for one in _speaking(diagnosis) for message in _details(one, records)]
     return (*said, *_quiet(diagnosis))
 
@@ -68,7 +68,7 @@ def _named(one: AxisDiagnosis) -> list[Cause]:
 def _finding(one: AxisDiagnosis) -> Message:
     axis, named = AxisName(one.axis), _named(one)
     if one.verdict is Verdict.INSUFFICIENT:
-        poor = message("gap", "{axis}: the records do not move it enough to tell what it lacks.")
+        poor = message("gap", "{axis}: the records do not move the axis enough for a diagnosis.")
         return poor.fill(axis=axis)
     if not named:
         return message("gap", "{axis}: a gap that no known effect explains.").fill(axis=axis)
@@ -84,7 +84,9 @@ def _cause(cause: Cause) -> Message:
     if cause.ambiguous_with:
         others = map(_titled, cause.ambiguous_with)
         effects = Listed((_effect(cause), *others), one_of_them=True)
-        return message("gap", "{effects} (these records cannot tell which)").fill(effects=effects)
+        return message("gap", "{effects} (these records cannot distinguish them)").fill(
+            effects=effects
+        )
     said = message("gap", "{cause} ({likelihood})")
     return said.fill(cause=_effect(cause), likelihood=_likelihood(cause))
 
@@ -141,7 +143,7 @@ def _shrinks(shrinkage: Shrinkage, several: bool, records: Sequence[Record]) -> 
 
 
 def _gap(shrinkage: Shrinkage, *, begins: bool = False) -> Message:
-    """Return what the gap is called: one that the axis' own sensor shows needs no tap."""
+    """Return the name of the gap; a gap in the axis' own sensor needs no tap."""
     if shrinkage.tap is Tap.MEAS:
         return message("gap", "The gap") if begins else message("gap", "the gap")
     at_tap = message("gap", "The gap at {tap}") if begins else message("gap", "the gap at {tap}")
@@ -156,13 +158,13 @@ def _figures(shrinkage: Shrinkage, records: Sequence[Record]) -> dict[str, str]:
 def _left(one: AxisDiagnosis) -> Message:
     depends = one.remainder.depends_on[:_MOST_GROUPS] if one.remainder is not None else ()
     if not depends:
-        return message("gap", "No known effect explains what is left.")
-    said = message("gap", "What is left depends on {groups}; no known effect explains it.")
+        return message("gap", "No known effect explains the rest.")
+    said = message("gap", "The rest depends on {groups}; no known effect explains it.")
     return said.fill(groups=Listed(tuple(group(name) for name, _ in depends)))
 
 
 def group(name: str) -> Message:
-    """Return what a remainder depends on; of another axis by its name."""
+    """Return a predictor of a remainder; another axis is named."""
     kind, _, axis = name.partition(" ")
     if kind == "axis":
         return message("gap", "axis {axis}").fill(axis=AxisName(axis))

@@ -16,7 +16,7 @@ class TooShortError(IdentificationError):
 
 
 class ExcitationError(IdentificationError):
-    """The input does not move, or not in enough ways to determine what is asked for."""
+    """The input does not move, or not in enough ways to determine the result."""
 
 
 class SettingError(IdentificationError):

@@ -1,7 +1,7 @@
-"""What the poles of an identified model say in a mechanic's words: frequency and damping.
+"""Natural modes of an identified model: frequency and damping from its poles.
 
-A pole z of samples at rate f_s stands for ``s = f_s ln z`` of the machine; a pair of complex poles
-is one mode with ``ω0 = |s|`` and ``ζ = −Re s / |s|``. Source: G. F. Franklin, J. D. Powell,
+A pole z of samples at rate f_s corresponds to ``s = f_s ln z`` of the machine; a pair of complex
+poles is one mode with ``ω0 = |s|`` and ``ζ = −Re s / |s|``. Source: G. F. Franklin, J. D. Powell,
 M. Workman, *Digital Control of Dynamic Systems*, 3rd ed., 1998, section 4.3.
 """
 
@@ -47,7 +47,7 @@ def natural_modes(model: IdentifiedModel) -> tuple[NaturalMode, ...]:
 
 
 def _energy(transfer: TransferFunction, pole: complex) -> float:
-    """Return the energy of one pole's part of the impulse response; infinite if it stays."""
+    """Return the energy of one pole's part of the impulse response; infinite without decay."""
     if abs(pole) >= 1.0:
         return np.inf
     others = list(transfer.poles)

@@ -206,8 +206,7 @@ def decode_line(data: bytes, name: str, line: int) -> str:
         raise RecordError(
             message(
                 "engine",
-                "{name}:{line}: a carriage return stands inside of the line; end lines with LF or "
-                "CRLF",
+                "{name}:{line}: a carriage return is inside the line; end lines with LF or CRLF",
             ).fill(name=name, line=line)
         )
     return text

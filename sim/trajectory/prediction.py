@@ -145,8 +145,9 @@ class _Watch:
             self._unit,
             message(
                 "engine",
-                "the model expects it to swing out by more than {margin} (1 % of the range): "
-                "smooth or stretch the trajectory, or keep it away from the end of the range",
+                "the model predicts an overshoot beyond the range of more than {margin} (1 "
+                "% of the range): smooth or stretch the trajectory, or keep it away from "
+                "the end of the range",
             ).fill(margin=margin),
         )
 

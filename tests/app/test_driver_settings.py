@@ -44,7 +44,7 @@ def test_assignments():
         ("seed", "name=value"),
         ("=3", "name=value"),
         ("colour=red", "no setting 'colour'; it knows sample_rate_hz"),
-        ("seed=many", "no whole number"),
+        ("seed=many", "not an integer"),
     ],
 )
 def test_a_bad_assignment_says_what_is_wrong(text, told):

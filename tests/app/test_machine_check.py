@@ -51,7 +51,7 @@ def test_an_old_python_is_broken(monkeypatch):
     ("required", "said"),
     [
         ("numpy>=99", "numpy"),
-        ("no-such-package-at-all>=1; python_version >= '3.0'", "missing, needed is >=1"),
+        ("no-such-package-at-all>=1; python_version >= '3.0'", "missing, >=1 needed"),
     ],
 )
 def test_packages_too_old_or_absent_are_broken(required, said):
@@ -85,7 +85,7 @@ def test_missing_libraries_come_with_the_command_that_installs_them(monkeypatch)
         ("print('xcb'); print('Mesa Intel UHD')", [State.GOOD, State.GOOD], "Mesa Intel UHD"),
         ("import os; print('xcb', flush=True); os.abort()", [State.GOOD, State.LIMITED], "no Op"),
         ("import sys; sys.exit('could not load xcb')", [State.BROKEN], "could not load xcb"),
-        ("import os; os.abort()", [State.BROKEN], "without a word"),
+        ("import os; os.abort()", [State.BROKEN], "without a message"),
     ],
 )
 def test_qt_is_tried_in_a_process_that_may_abort(program, states, said):

@@ -38,7 +38,7 @@ def test_a_latch_lets_nothing_move_and_a_release_lets_only_what_comes_after_it(g
     gate.stop("emergency stop")
     meanwhile = gate.permit()
     assert gate.latched == "emergency stop"
-    with pytest.raises(OvertakenError, match="emergency stop is latched; release it first"):
+    with pytest.raises(OvertakenError, match="emergency stop is active; release it first"):
         passes(meanwhile)
     gate.release()
     with pytest.raises(OvertakenError, match="ask again"):

@@ -143,7 +143,10 @@ def test_the_page_opens_records_that_cannot_be_compared(qtbot, make_robot_window
     write_record(Record.from_signals(time_s, taps, {"q": "m"}), path)
     panel.open_record(path)
     qtbot.waitUntil(lambda: panel.findings is not None, timeout=LONG_MS)
-    assert "No nominal model beside it: axis 'q' is moved by a force" in panel.notices.toPlainText()
+    assert (
+        "The nominal model is not shown: axis 'q' is moved by a force"
+        in panel.notices.toPlainText()
+    )
     assert figure(panel, "gain, lowest line") == pytest.approx(1.0, abs=0.05)
 
 
@@ -159,7 +162,7 @@ def test_an_axis_without_an_answer_is_named(qtbot, panel, answers, record):
     panel.take_record("noise", record)
     answers()
     choose(panel.controls.axis, "m2")
-    assert "m2 has no pair" in panel.notices.toPlainText()
+    assert "m2 lacks an input" in panel.notices.toPlainText()
     assert panel.findings is None
     choose(panel.controls.axis, "m1")
     assert answers().question.axis == "m1"
@@ -314,8 +317,8 @@ def test_what_may_not_be_played_says_why(qtbot, exciting):
     assert not excite.frequency.isEnabled()
     workbench.emergency_stop()
     excite.refresh(workbench.session.snapshot())
-    assert "latched" in why_not(excite.play)
-    assert why_not(excite.stop) == "it is not playing"
+    assert "release it first" in why_not(excite.play)
+    assert why_not(excite.stop) == "the motion is not playing"
     assert excite.minimumSizeHint().width() <= EXCITE_WIDTH
     assert exciting.minimumSizeHint().width() <= 720  # beside the control panel
 
@@ -331,7 +334,7 @@ def test_an_axis_is_excited_and_looked_at_beside_its_model(qtbot, exciting, answ
     with qtbot.waitSignal(workbench.run_changed, timeout=2 * LONG_MS):
         excite.play.click()
         qtbot.waitUntil(lambda: excite.progress.value() > 0, timeout=LONG_MS)
-        assert excite.owner.text() == "Z nano: driven by playback"
+        assert excite.owner.text() == "Z nano: controlled by playback"
         assert excite.stop.isEnabled()
     found = answers_of(exciting)
     assert exciting.controls.shown is View.FREQUENCY
@@ -360,7 +363,7 @@ def test_a_health_card_is_kept_and_compared_with(qtbot, panel, answers, record):
     panel.controls.view.setCurrentText(View.HEALTH)
     first = answers()
     assert [row[0] for row in first.rows][:2] == ["gain", "resonance"]
-    assert "No card of this axis" in first.notices[0]
+    assert "no card of this axis" in first.notices[0]
     panel.controls.keep.click()
     qtbot.waitUntil(
         lambda: panel.findings is not None and "Last card" in panel.findings.notices[0],

@@ -53,10 +53,14 @@ def test_a_slower_way_takes_longer_where_speed_is_what_binds():
     ("points", "error", "why"),
     [
         ([point()], ExcitationError, "1 points: a trajectory needs two"),
-        ([point(), point(speed=0.0)], ExcitationError, "point 2: a speed of 0 %: must be above 0"),
+        ([point(), point(speed=0.0)], ExcitationError, "point 2: the speed of 0 % must be above 0"),
         ([point(), point(speed=1.01)], ExcitationError, "at most 100"),
-        ([point(), point(pause_s=-1.0)], ExcitationError, "point 2: a pause of -1 s: must be 0 to"),
-        ([point(), point(pause_s=float("nan"))], ExcitationError, "a pause of nan"),
+        (
+            [point(), point(pause_s=-1.0)],
+            ExcitationError,
+            "point 2: the pause of -1 s must be 0 to",
+        ),
+        ([point(), point(pause_s=float("nan"))], ExcitationError, "the pause of nan"),
         ([point(), point(x=0.056)], OutOfLimitsError, "56 mm is outside its range"),
     ],
 )
@@ -67,5 +71,5 @@ def test_what_is_none_is_refused_with_the_bound(points, error, why):
 
 def test_too_many_rows_are_refused_before_they_are_made(monkeypatch):
     monkeypatch.setattr(teach, "MOST_ROWS", 2000)
-    with pytest.raises(ExcitationError, match="shorten pauses, or go faster"):
+    with pytest.raises(ExcitationError, match="shorten pauses or increase speeds"):
         taught(ROBOT, [point(), replace(point(x=0.03), pause_s=1.9)], "")

@@ -137,7 +137,7 @@ def test_another_trajectory_ends_a_pause(qtbot, window, panel):
 
 @pytest.mark.parametrize("text", ["0", "-1", "1_0", "five", "1 mm"])
 def test_what_is_no_bound_is_refused(text):
-    with pytest.raises(InputError, match="is no bound"):
+    with pytest.raises(InputError, match="is not a bound"):
         read_bound(text, "m")
 
 

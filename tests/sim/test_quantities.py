@@ -97,6 +97,7 @@ def test_an_uncertainty_has_two_digits_and_ends_the_number(value, deviation):
         (exact(0.0, "m"), "0 m"),
         (exact(float("inf"), "V"), "inf V"),
         (exact(1e-4, "m", size=0.02), "0.1 mm"),
+        (exact(3.269e-4, "m/s²", size=5.0), "326.9 µm/s²"),
         (percent(6.713e-7), "< 0.01 %"),
         (percent(0.999), "99.9 %"),
         (percent(None), "–"),

@@ -19,7 +19,7 @@ _OVERSHOOT_S = 0.2  # of approach: until a contact is sure, seen, and the axis a
 
 
 class TravelMargin(NamedTuple):
-    """The way that a penetration takes at most, and what the range leaves for it; m.
+    """The travel that a penetration needs at most, and the travel available; m.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class TravelMargin(NamedTuple):
 
 
 def armed(session: MotionSession, parameters: PenetrationParameters, owner: str) -> Attempt:
-    """Reserve every axis and return the attempt, all of whose way has been checked.
+    """Reserve all axes and return the attempt, with its whole path checked.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def check_now(
 
 
 def planned(session: MotionSession, parameters: PenetrationParameters) -> ThrustPlan:
-    """Return the thrust of parameters on this robot, wherever it stands.
+    """Return the thrust for parameters on this robot, at any position.
 
     Raises
     ------
@@ -119,8 +119,8 @@ def prepared(session: MotionSession, parameters: PenetrationParameters) -> dict[
         raise PenetrationError(
             message(
                 "engine",
-                "axis {axis}: only {nano} can be moved back while the tip stays; move {axis} back "
-                "yourself, or shorten the way",
+                "axis {axis}: only {nano} can be moved back while the tip stays in place; "
+                "move {axis} back manually, or shorten the distance",
             ).fill(axis=AxisName(name), nano=AxisName(_NANO))
         )
     low, high = session.robot.axes[name].range
@@ -141,9 +141,9 @@ def _check_device(session: MotionSession, parameters: PenetrationParameters) -> 
     driver = session.driver
     if not isinstance(driver, ProfileRunner):
         raise RefusedError(
-            message(
-                "engine", "driver {driver} cannot run profiles by itself; a thrust needs that"
-            ).fill(driver=repr(driver.name))
+            message("engine", "driver {driver} cannot execute profiles; a thrust needs that").fill(
+                driver=repr(driver.name)
+            )
         )
     if not isinstance(driver, VelocityMover):
         raise RefusedError(
@@ -169,9 +169,9 @@ def _check_axis(robot: Robot, parameters: PenetrationParameters) -> None:
         )
     if robot.unit(name) != "m":
         raise PenetrationError(
-            message("engine", "axis {axis} of {robot} turns; a penetration needs a way in m").fill(
-                axis=AxisName(name), robot=repr(robot.name)
-            )
+            message(
+                "engine", "axis {axis} of {robot} rotates; a penetration needs a linear axis"
+            ).fill(axis=AxisName(name), robot=repr(robot.name))
         )
     axis = robot.axes[name]
     if axis.max_speed is not None and parameters.approach_speed > axis.max_speed:

@@ -1,4 +1,4 @@
-"""One run as it goes: what has been found so far, and the log's entry that becomes of it."""
+"""A running penetration: the findings so far, and the resulting entry of the log."""
 
 from dataclasses import dataclass, field
 
@@ -43,7 +43,7 @@ class Attempt:
 
     @property
     def side(self) -> float:
-        """The sign of what a contact does to the residual."""
+        """The sign of a contact's effect on the residual."""
         return -self.parameters.sign
 
     def noted(self, phase: str, now_s: float) -> None:
@@ -57,9 +57,9 @@ class Attempt:
         return self.side * (self.residual - self.noise.level)
 
     def load(self) -> float:
-        """Return how far the axis is from where it was sent, m: since the contact, or the start.
+        """Return the distance of the axis from its target, m: since the contact, or the start.
 
-        That is told by command and reading alone: no model has a say in it.
+        Only command and reading are used; no model is involved.
         """
         if self.contact_offset is not None:
             return abs(self.offset - self.contact_offset)

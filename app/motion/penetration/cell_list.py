@@ -50,7 +50,7 @@ class CellList:
         self._last = 0
 
     def add(self, place: Mapping[str, float]) -> ListedCell:
-        """Add a cell at a place of all axes.
+        """Add a cell at the present position of all axes.
 
         Raises
         ------

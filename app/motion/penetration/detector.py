@@ -1,20 +1,19 @@
-"""When the tip meets something: a sequential test on what a sensor says beside the model.
+"""Contact detection: a sequential test on the difference between sensor and model.
 
-The residual ``r = meas − model`` of an axis in motion holds noise, and what hysteresis, creep and a
-wrong gain make of the motion: a slope over the way s that changes slowly. A contact is a kink. So
-the residual is followed by a Kalman filter of level and slope,
+The residual ``r = meas − model`` of a moving axis contains noise, and the effects of hysteresis,
+creep and a wrong gain: a slope over the path s that changes slowly. A contact is a kink. A Kalman
+filter of level and slope follows the residual,
 
     level' = level + slope ds + c,   slope' = slope + w,   r = level + v,
     w ~ N(0, q ds),   c ~ N(0, σ² dt/1 s),   v ~ N(0, σ²),   slope₀ ~ N(0, drift²)
 
-whose innovations z, each divided by its own standard deviation, are white and N(0, 1) as long as
-nothing is met, however the slope drifts. They are summed one-sidedly (Page's CUSUM),
+Its innovations z, each divided by its own standard deviation, are white and N(0, 1) without
+contact, however the slope drifts. They are summed one-sidedly (Page's CUSUM),
 
     g = max(0, g + z − k),   alarm at g > h,   k = ½
 
-and h is such that the mean number of samples between false alarms is what was asked for, by
-Siegmund's approximation ``(e^(2k b) − 2k b − 1) / 2k²`` with ``b = h + 1.166``. The kink is where
-g left zero last.
+and h gives the requested mean number of samples between false alarms by Siegmund's approximation
+``(e^(2k b) − 2k b − 1) / 2k²`` with ``b = h + 1.166``. The kink is where g last left zero.
 
 Sources: Page, Biometrika 41 (1954) 100–115; Siegmund, Sequential Analysis (1985), section 2.6;
 Basseville and Nikiforov, Detection of Abrupt Changes (1993), sections 2.2 and 7.2.
@@ -54,7 +53,7 @@ class Noise:
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """What the detector found.
+    """A detected contact.
 
     Attributes
     ----------
@@ -111,7 +110,7 @@ def noise_at_rest(time_s: FloatArray, residual: FloatArray, floor: float = 0.0) 
 
 
 def samples_between_alarms(threshold: float) -> float:
-    """Return the mean number of samples until g, of N(0, 1) alone, exceeds a threshold."""
+    """Return the mean number of samples until g, for pure N(0, 1) input, exceeds a threshold."""
     b = 2.0 * REFERENCE * (threshold + _CORRECTION)
     return (exp(b) - b - 1.0) / (2.0 * REFERENCE**2)
 
@@ -124,7 +123,7 @@ def threshold_for(samples: float) -> float:
 
 
 class ContactDetector:
-    """The test, sample by sample, from the beginning of an approach.
+    """The test, sample by sample, from the start of an approach.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is wrong with a penetration that somebody asked for."""
+"""Errors of a requested penetration."""
 
 from rotemina.sim.errors import InputError
 

@@ -1,4 +1,4 @@
-"""The samples of one axis, from the session's worker to whoever steps a penetration."""
+"""The samples of one axis, from the session's worker to a penetration."""
 
 from collections import deque
 from dataclasses import dataclass, fields
@@ -17,8 +17,8 @@ _MOST_PORTIONS = 2000
 class AxisSamples:
     """Samples of one axis, (n,) each: device time, command, reading, and reading − model.
 
-    ``residual`` is of the model in use, without what may have been a contact when it was learned;
-    ``nominal`` of the nominal model.
+    ``residual`` uses the model in use, without effects that may be a contact in its records;
+    ``nominal`` uses the nominal model.
     """
 
     time_s: FloatArray
@@ -72,7 +72,7 @@ class AxisFeed:
         )
 
     def taken(self) -> AxisSamples:
-        """Return what has come since the last call; without those that the model cannot answer."""
+        """Return the samples since the last call, without those that the model cannot answer."""
         parts = []
         while self._portions:
             parts.append(self._portions.popleft())

@@ -49,7 +49,7 @@ class Penetration(PenetrationSequence):
 
     @property
     def status(self) -> PenetrationStatus:
-        """What is to be shown; at once, whatever goes on meanwhile."""
+        """The present state, available at once."""
         return self._status
 
     def arm(self, parameters: PenetrationParameters, now_s: float) -> None:
@@ -155,7 +155,7 @@ class Penetration(PenetrationSequence):
                 )
 
     def step(self, now_s: float) -> None:
-        """Go on; ``now_s`` is the host's time. Never raises for what a device does."""
+        """Advance; ``now_s`` is the host's time. Never raises for errors of a device."""
         with self._lock:
             phase, attempt = self._status.phase, self._attempt
             if attempt is not None and phase in self._steps.keys() | {Phase.ARMED}:
@@ -196,9 +196,7 @@ class Penetration(PenetrationSequence):
         state = self._session.snapshot()
         if state.locked is not None:
             raise RefusedError(
-                message("engine", "the held tip cannot be moved: {locked}").fill(
-                    locked=state.locked
-                )
+                message("engine", "the tip cannot be moved: {locked}").fill(locked=state.locked)
             )
         if not self._session.reservations.held_by(OWNER):
             raise RefusedError(
@@ -215,7 +213,7 @@ class Penetration(PenetrationSequence):
         self._enter(Phase.RETRACT, now_s)
 
     def _write(self) -> None:
-        """Log what has ended; a disk that is full is said, and stops nothing."""
+        """Log an ended run; a full disk is reported, and stops nothing."""
         while self._unwritten:
             run = self._unwritten.popleft()
             try:

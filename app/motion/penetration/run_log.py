@@ -115,7 +115,7 @@ class PenetrationRun:
 
 
 class RunLog:
-    """A file of runs, the latest last. A crash while one is appended costs that one alone."""
+    """A file of runs, latest last. A crash during an append costs only that run."""
 
     def __init__(self, path: str | PathLike[str]) -> None:
         self.path = fspath(path)
@@ -155,7 +155,7 @@ class RunLog:
             )
 
     def read(self) -> tuple[tuple[PenetrationRun, ...], tuple[str, ...]]:
-        """Return the runs, and what is wrong with lines that are none, each with its number.
+        """Return the runs, and the errors of invalid lines, each with its number.
 
         Raises
         ------

@@ -102,7 +102,7 @@ class PenetrationSequence:
     def _wait(
         self, attempt: Attempt, samples: AxisSamples, broken: str | None, now_s: float
     ) -> None:
-        """Listen to the noise while nobody has pressed the button yet."""
+        """Measure the noise until the button is pressed."""
         self._listen(attempt, samples)
 
     # --- phases ---------------------------------------------------------------------------------
@@ -335,7 +335,7 @@ class PenetrationSequence:
         return True
 
     def _broken(self, state: SessionState) -> str | None:
-        """Return why nothing may go on by itself, or None."""
+        """Return why the sequence must not continue, or None."""
         if state.locked is not None:
             return state.locked
         if not self._permit.valid:

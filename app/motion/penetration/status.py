@@ -41,7 +41,7 @@ UNDER_WAY = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class PenetrationStatus:
-    """One moment of it.
+    """The state of a penetration at one moment.
 
     Attributes
     ----------

@@ -67,7 +67,7 @@ class ThrustPlan:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The least and the greatest position of what is commanded, from its beginning, m."""
+        """The lowest and the highest commanded position, from its start, m."""
         at, places = 0.0, [0.0]
         for segment in self.profile.segments:
             places += [at + extreme for extreme in segment.extremes()]
@@ -77,7 +77,7 @@ class ThrustPlan:
 
 @dataclass(frozen=True, slots=True)
 class ThrustMeasured:
-    """How the axis followed, by its own sensor.
+    """The measured motion of the axis in a thrust, by its own sensor.
 
     Attributes
     ----------
@@ -131,7 +131,7 @@ def resonance_of(robot: Robot, axis: str) -> Resonance | None:
 
 
 def plan_thrust(robot: Robot, parameters: PenetrationParameters, hold_s: float) -> ThrustPlan:
-    """Return the thrust of some parameters; ``hold_s`` is how long each command is held.
+    """Return the thrust for parameters; ``hold_s`` is the hold time of each command.
 
     Raises
     ------
@@ -228,7 +228,7 @@ def thrust_response(
 def thrust_trace(
     plan: ThrustPlan, time_s: FloatArray, measured: FloatArray, begin_s: float, delay_s: float
 ) -> ThrustTrace:
-    """Return readings (n,) beside the profile that they followed by ``delay_s``; as `followed`."""
+    """Return readings (n,) and the profile that they followed by ``delay_s``; as `followed`."""
     since_s = read_only(np.asarray(time_s - begin_s - delay_s))
     return ThrustTrace(since_s, read_only(_way(time_s, measured, begin_s)), plan)
 

@@ -69,7 +69,7 @@ class Lost:
 
 
 class Backlog:
-    """A bounded queue; what finds no room is counted, and nobody ever waits."""
+    """A bounded queue that never blocks; it counts items without room."""
 
     def __init__(self, capacity_bytes: int) -> None:
         self._capacity = capacity_bytes
@@ -95,7 +95,7 @@ class Backlog:
         return entries
 
     def take_lost(self) -> Lost:
-        """Return what was lost since this was last asked."""
+        """Return the losses since the last call."""
         with self._lock:
             lost, self._lost = self._lost, Lost()
         return lost

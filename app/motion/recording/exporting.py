@@ -1,4 +1,4 @@
-"""Recordings made into records: of what a machine did, and of what it can be told to do again."""
+"""Export of recordings as records, and as trajectories that can be played."""
 
 from collections.abc import Iterator
 from contextlib import suppress
@@ -30,7 +30,7 @@ _REST_S = 0.02  # for so long an axis must stand to count as at rest
 def export(
     recording: Recording, path: Path, begin_s: float = -np.inf, end_s: float = np.inf
 ) -> int:
-    """Write the samples between two host times as an ASCII record; return how many.
+    """Write the samples between two host times as an ASCII record; return their number.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def trajectory(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Span:
-    """What the pieces of a record share: where it begins, and which axes tell their ``u``."""
+    """The common data of the pieces of a record: its start, and the axes with ``u``."""
 
     first_s: float
     told: BoolArray
@@ -153,8 +153,8 @@ def _span(recording: Recording, begin_s: float, end_s: float) -> _Span:
             raise RecordingError(
                 message(
                     "engine",
-                    "{path}: the device was connected anew {at_s} s after the begin, with a time "
-                    "of its own; choose what is before or after that",
+                    "{path}: the device was reconnected {at_s} s after the start, with a new "
+                    "clock; choose a section before or after that",
                 ).fill(path=recording.path, at_s=fixed(at_s, 3))
             )
         told &= np.isfinite(piece.inputs).all(axis=0)
@@ -232,8 +232,9 @@ def _check_gaps(recording: Recording, samples: RecordedSamples) -> None:
         raise RecordingError(
             message(
                 "engine",
-                "{path}: {steps_s} ms of samples are missing in mid-move {at_s} s after the begin: "
-                "at most {rest_s} ms; choose what is before or after that",
+                "{path}: {steps_s} ms of samples are missing during a move {at_s} s after "
+                "the start, at most {rest_s} ms are permitted; choose a section before or "
+                "after that",
             ).fill(
                 path=recording.path,
                 steps_s=fixed(1000.0 * steps_s[wide[0]], 0),

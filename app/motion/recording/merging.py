@@ -29,7 +29,7 @@ _ROWS = 65_536  # of a batch, at least: what a reader takes at a time
 
 
 def recover(path: Path) -> Path:
-    """Make a finished recording of what a crash has left in ``path``; return where it is.
+    """Complete the recording that a crash left in ``path``; return the finished file.
 
     Raises
     ------
@@ -51,7 +51,7 @@ def unfinished(folder: Path) -> tuple[Path, ...]:
 
 
 def being_recorded(path: Path) -> bool:
-    """Tell whether a program has what is in ``path`` under way: records or recovers it."""
+    """Tell whether a program is recording or recovering ``path``."""
     try:
         with path.open("r+b") as file:
             return not locked(file)
@@ -176,7 +176,7 @@ def _batches(segments: WholeSegments, table: _Table, schema: pa.Schema) -> Itera
 
 
 def _column(batch: pa.RecordBatch, field: pa.Field) -> pa.Array:
-    """Return a column; NaN where this batch has none of that name."""
+    """Return a column; NaN if this batch lacks it."""
     if batch.schema.get_field_index(field.name) >= 0:
         return batch.column(field.name)
     return pa.array(np.full(len(batch), np.nan))

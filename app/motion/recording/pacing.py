@@ -1,4 +1,4 @@
-"""A replay that goes on as a clock does, slower or faster, with pauses and jumps."""
+"""A replay paced by a clock, slower or faster, with pauses and jumps."""
 
 import time
 

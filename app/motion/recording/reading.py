@@ -1,4 +1,4 @@
-"""Recordings read back: samples, events and channels by host time, as far as they are asked for."""
+"""Access to recordings: samples, events and channels by host time, read on demand."""
 
 import json
 import mmap
@@ -39,7 +39,7 @@ _WRITTEN = ("id", "began_s", "units")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecordedSamples:
-    """A stretch of samples of one machine; the arrays are read-only.
+    """A section of samples of one machine; the arrays are read-only.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class RecordedSamples:
 
 
 class Recording:
-    """A finished recording. The file is mapped: only what is asked for is read from the disk.
+    """A finished recording. The file is mapped: only requested data are read from the disk.
 
     Times are those of the host's monotonic clock, s, as recorded.
     """
@@ -263,7 +263,7 @@ def _tables(file: BinaryIO) -> dict[str, pa.Table]:
 
 
 def _check(path: Path, tables: Mapping[str, pa.Table]) -> None:
-    """Refuse what was not written by this program, and what became of it on a bad disk."""
+    """Refuse files that this program did not write, and damaged ones."""
     schema = tables[SAMPLES].schema if SAMPLES in tables else None
     about = {} if schema is None else schema.metadata or {}
     version = about.get(FORMAT.encode())

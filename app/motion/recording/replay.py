@@ -32,11 +32,11 @@ _SEEN_S = 60.0  # of history that a jump fills
 
 
 class Replay:
-    """Feeds a history, states and events from a recording; what shows a session can show it.
+    """Feeds a history, states and events from a recording, for displays of a session.
 
-    Nothing moves and nobody is asked for the time: :meth:`advance` is told how much of it goes by.
-    It has what panels read of a session: ``robot``, ``history``, :meth:`snapshot`,
-    :meth:`subscribe`; and all ``events`` of the recording, oldest first.
+    Nothing moves and no clock is read: :meth:`advance` gets the elapsed time. It has the interface
+    that panels read of a session: ``robot``, ``history``, :meth:`snapshot`, :meth:`subscribe`; and
+    all ``events`` of the recording, oldest first.
 
     Parameters
     ----------
@@ -71,7 +71,9 @@ class Replay:
         received_s = self._state.sample_host_time_s
         age_s = None if received_s is None else self.host_time_s - received_s
         return replace(
-            self._state, age_s=age_s, locked=message("engine", "this is a replay; nothing moves")
+            self._state,
+            age_s=age_s,
+            locked=message("engine", "this is a replay; the machine does not move"),
         )
 
     def subscribe(self, callback: Callback) -> Callable[[], None]:
@@ -139,7 +141,7 @@ class Replay:
         )
 
     def _again(self, recorded: RecordedEvent) -> Event | None:
-        """Return the session's event that was recorded; None for what it has none for."""
+        """Return the recorded event of the session; None for other kinds."""
         if recorded.kind == "state":
             with suppress(ValueError, KeyError, TypeError):  # details that the disk has spoilt
                 self._state = replace(self._state, **_recorded_state(recorded.details))
@@ -169,6 +171,6 @@ def _recorded_state(details: str) -> dict[str, Any]:
 
 
 def _by_connection(piece: RecordedSamples) -> list[RecordedSamples]:
-    """Split samples where the device was connected anew."""
+    """Split samples at reconnections of the device."""
     cuts = [0, *(np.flatnonzero(np.diff(piece.connection)) + 1), len(piece)]
     return [piece.part(slice(int(low), int(high))) for low, high in pairwise(cuts)]

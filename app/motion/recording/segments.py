@@ -42,14 +42,13 @@ class ByteRange(NamedTuple):
 
 
 class SegmentFile:
-    """Appends segments. They outlive the process once appended, and the machine once synced.
+    """Appends segments. They survive the process once appended, and the machine once synced.
 
-    :meth:`append` and :meth:`sync` may be called by two threads: a disk that is slow to confirm
-    keeps nobody from appending. What is not confirmed is kept in memory, to be written again where
-    the disk says that it has failed.
+    :meth:`append` and :meth:`sync` may run on two threads: a disk that confirms slowly delays no
+    append. Unconfirmed data stay in memory, to be written again if the disk reports a failure.
 
-    The file is locked, so that nobody recovers it while it is written; a process that ends, however
-    it does, lets go of it.
+    The file is locked, so that nobody recovers it while it is written; the lock ends with the
+    process.
 
     Raises
     ------
@@ -123,7 +122,7 @@ class SegmentFile:
             self._unconfirmed += due
 
     def sync(self) -> None:
-        """Wait until the disk has what was appended before.
+        """Wait until the disk has all earlier appends.
 
         Raises
         ------
@@ -165,7 +164,7 @@ def _crc(number: int, content: bytes) -> int:
 
 
 class WholeSegments:
-    """The whole segments of a file that nobody writes any more.
+    """The complete segments of a file that is no longer written.
 
     Raises
     ------
@@ -202,7 +201,7 @@ class WholeSegments:
         self._file.close()
 
     def __iter__(self) -> Iterator[tuple[ByteRange, bytes]]:
-        """Give range and content of one after the other, up to the first that is not whole."""
+        """Yield range and content of each segment, up to the first incomplete one."""
         at = number = 0
         while True:
             self._file.seek(at)

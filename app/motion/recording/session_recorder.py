@@ -1,4 +1,4 @@
-"""A recorder of a motion session: what it did, was told and said, on the host's clock."""
+"""A recorder of a motion session: its actions, inputs and messages, on the host's clock."""
 
 import hashlib
 import json
@@ -36,9 +36,8 @@ from rotemina.sim.robot.writing import robot_text
 class SessionRecorder:
     """Records a session from :meth:`start` to :meth:`close`; motion never waits for it.
 
-    Samples, states, faults, refusals, stops and playbacks come from the session by themselves;
-    sticks, frames, notes and log lines are handed over, from any thread, all with times of the
-    session's clock.
+    Samples, states, faults, refusals, stops and playbacks come from the session; sticks, frames,
+    notes and log lines are handed over, from any thread, all with times of the session's clock.
 
     Parameters
     ----------
@@ -100,7 +99,7 @@ class SessionRecorder:
     def close(self) -> Path:
         """End, and return the finished file; safe to call twice.
 
-        It takes as long as copying what was recorded does.
+        It takes as long as copying the recording.
 
         Raises
         ------
@@ -117,14 +116,14 @@ class SessionRecorder:
         self.writer.record(channel, host_time_s, values)
 
     def record_reading(self, device: InputDevice, reading: InputReading) -> None:
-        """Record what an input device said: its axes, −1 to 1, and its buttons, 0 or 1."""
+        """Record the reading of an input device: its axes, −1 to 1, and its buttons, 0 or 1."""
         names = (*device.axes, *device.buttons)
         values = (*reading.axes, *map(float, reading.buttons))
         named = dict(zip(names, values, strict=True))
         self.writer.record(f"input {device.identity.key}", reading.host_time_s, named)
 
     def record_intent(self, intent: Intent) -> None:
-        """Record what the operator asks for: deflections, and actions where they change."""
+        """Record the operator's requests: deflections, and changes of actions."""
         self.writer.record("intent", intent.host_time_s, intent.deflections)
         with self._lock:
             before, self._intent = self._intent, intent

@@ -1,4 +1,4 @@
-"""The writer of a recording: what is handed over goes to the disk, on a thread of its own."""
+"""The writer of a recording, on a thread of its own."""
 
 import json
 import threading
@@ -31,21 +31,21 @@ _LONGEST_S = 60.0  # that a close waits for a disk that hangs
 
 @dataclass(frozen=True, slots=True)
 class RecorderNotice:
-    """Something to tell the operator about the recording; motion is not concerned."""
+    """A message to the operator about the recording; motion is unaffected."""
 
     message: str
     problem: bool
 
 
 class RecordingWriter:
-    """Keeps what it is given in ``PATH.part``, a segment at a time, and merges it on close.
+    """Writes data to ``PATH.part``, one segment at a time, and merges it on close.
 
-    ``add`` and ``record`` may be called from any thread and return at once. :meth:`run_once`
-    writes what waits; :meth:`start` has two threads do that: one writes, one waits for the disk.
+    ``add`` and ``record`` may be called from any thread and return at once. :meth:`run_once` writes
+    waiting data; :meth:`start` uses two threads: one writes, one waits for the disk.
 
-    Where the disk is full, or fails, the operator is told once and the segment is tried again with
-    each turn: what comes meanwhile waits in memory as far as there is room, then it is counted as
-    lost. When writing succeeds again, an event in the recording says what is missing.
+    If the disk is full, or fails, the operator is told once and the segment is retried each turn:
+    new data wait in memory as far as there is room, then count as lost. When writing succeeds
+    again, an event in the recording reports the loss.
 
     Parameters
     ----------
@@ -138,12 +138,12 @@ class RecordingWriter:
         return self._file.size
 
     def start(self) -> None:
-        """Write on threads of its own from now on."""
+        """Write on separate threads from now on."""
         for ticker in self._tickers:
             ticker.start()
 
     def connected(self) -> None:
-        """Note that the device's time begins anew."""
+        """Note that the device's time has restarted."""
         self._connection += 1
         self._device_clock = DeviceClock()
         self._device_time_s = float("-inf")
@@ -197,7 +197,7 @@ class RecordingWriter:
         self._sync()
 
     def close(self) -> Path:
-        """Write what is left, merge, and return the finished file; safe to call twice.
+        """Write the remaining data, merge, and return the finished file; safe to call twice.
 
         Raises
         ------
@@ -230,7 +230,7 @@ class RecordingWriter:
                 self._write_backlog()
 
     def _sync(self) -> None:
-        """Have what was written outlive a power cut; the disk may take its time."""
+        """Make written data survive a power cut; the disk may take its time."""
         if self._closed:
             return
         began_s = self._clock()
@@ -271,8 +271,8 @@ class RecordingWriter:
             self._notice(
                 message(
                     "engine",
-                    "{name}: nothing more can be recorded ({reason}): motion goes on, what was "
-                    "recorded until now is safe in {path}; make room",
+                    "{name}: the recording has failed ({reason}); the data so far are safe in "
+                    "{path}. Free disk space; the motion continues",
                 ).fill(name=self.path.name, reason=reason, path=self._file.path),
                 problem=True,
             )
@@ -284,7 +284,7 @@ class RecordingWriter:
             self._failure = None
             what = gap or marked("engine", "nothing is missing")
             self._notice(
-                message("engine", "{file}: recording goes on; {what}").fill(
+                message("engine", "{file}: the recording continues; {what}").fill(
                     file=self.path.name, what=what
                 ),
                 problem=bool(gap),

@@ -134,14 +134,14 @@ class CalibrationRun:
         if seen.rest is None or seen.all is None:
             return message(
                 "engine",
-                "axis {axis} has said nothing at rest; move it once, let go, and begin again",
+                "axis {axis} reported nothing at rest; move it once, release it, and start again",
             ).fill(axis=AxisName(axis))
         low, high = seen.all
         if high - low < SMALLEST_RANGE:
             return message(
                 "engine",
-                "axis {axis} hardly moved: {low} to {high} of −1 to 1, at least "
-                "{least} is needed; move it to all its ends",
+                "axis {axis} hardly moved: {low} to {high} of −1 to 1, at least {least} is "
+                "needed; move it to both ends",
             ).fill(
                 axis=AxisName(axis),
                 low=fixed(low, 2),

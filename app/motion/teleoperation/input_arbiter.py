@@ -293,9 +293,7 @@ class InputArbiter:
         if reason is not None:
             self._lost.append(reason)
             for device in self._of(self.driving):
-                device.distrust(
-                    message("engine", "{reason}: let go of it first").fill(reason=reason)
-                )
+                device.distrust(message("engine", "{reason}: release it first").fill(reason=reason))
 
     def _state(self, seat: OperatorRole) -> RoleState:
         devices = self._of(seat)

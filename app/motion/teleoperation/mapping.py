@@ -108,8 +108,8 @@ def missing(profile: Profile, devices: Collection[PluggedDevice]) -> str | None:
     present = ", ".join(map(str, devices)) or "nothing"
     return message(
         "engine",
-        "profile {name} is for {gone}, not plugged in; plugged in: "
-        "{present}. Plug it in, or choose or make a profile for what is there",
+        "profile {name} needs {gone}, which is not connected; connected: {present}."
+        " Connect it, or choose or create another profile",
     ).fill(name=repr(profile.name), gone=" and ".join(gone), present=present)
 
 

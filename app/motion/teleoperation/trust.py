@@ -17,8 +17,8 @@ REVERSALS = 10  # leaps to and fro
 WITHIN_S = 0.5  # for no hand moves to and fro ten times a second
 CALM_S = 1.0  # without leaps, until a jittering axis is looked at again
 
-NOT_CENTRED = message("engine", "not yet seen at rest: let go of it")
-NOTHING_SAID = message("engine", "has said nothing yet: move it, and let go of it")
+NOT_CENTRED = message("engine", "not at rest yet: release it")
+NOTHING_SAID = message("engine", "has not reported yet: move and release it")
 
 
 class AxisTrust:
@@ -58,15 +58,15 @@ class AxisTrust:
         """Why it is not trusted, in words; None if it is."""
         if self._said is not None and not _possible(self._said):
             return message(
-                "engine", "says {raw}, which is not in −1 to 1: disconnect it and look at it"
+                "engine", "reports {raw}, outside −1 to 1: disconnect and check it"
             ).fill(raw=rounded(self._said, 6))
         if self._jitter.found:
             return message("engine", "jitters from end to end: its potentiometer or cable is bad")
         if self._why is not None and self._said is not None and self._at_end_only:
             return message(
                 "engine",
-                "has stood at its end from the first moment: free it; if it rests "
-                "there, calibrate it as one-sided",
+                "has been at its end from the start: free it; if it rests there, calibrate "
+                "it as one-sided",
             )
         return NOTHING_SAID if self._said is None and self._why == NOT_CENTRED else self._why
 

@@ -127,7 +127,7 @@ def _why_closed(who: str, path: bytes, said: str) -> DriverError:
     lower = said.lower()
     if "no such" in lower or "not found" in lower or "cannot find" in lower:
         return InputLostError(
-            message("engine", "{where}: it is there no more; plug it in again").fill(where=where)
+            message("engine", "{where}: no longer connected; plug it in again").fill(where=where)
         )
     if "denied" in lower or "not permitted" in lower:
         return DriverError(

@@ -8,10 +8,6 @@
         <translation>Aufzeichnungen (*.csv *.txt *.dat *.gz);;Alle Dateien (*)</translation>
     </message>
     <message>
-        <source>What is shown</source>
-        <translation>Was gezeigt wird</translation>
-    </message>
-    <message>
         <source>Result</source>
         <translation>Ergebnis</translation>
     </message>
@@ -25,7 +21,7 @@
     </message>
     <message>
         <source>Calibration of {axis} in use: {path}</source>
-        <translation>Kalibrierung von {axis} in Gebrauch: {path}</translation>
+        <translation>Verwendete Kalibrierung von {axis}: {path}</translation>
     </message>
     <message>
         <source>Storing the calibration …</source>
@@ -68,24 +64,12 @@
         <translation>Läufe</translation>
     </message>
     <message>
-        <source>3 to 50; each run is held out of the fit once; ISO 230-2 asks for 5</source>
-        <translation>3 bis 50; jeder Lauf wird einmal von der Anpassung zurückgehalten; ISO 230-2 verlangt 5</translation>
-    </message>
-    <message>
         <source>Targets</source>
         <translation>Ziele</translation>
     </message>
     <message>
-        <source>5 to 101 positions that are approached from both sides (ISO 230-2)</source>
-        <translation>5 bis 101 Positionen, die von beiden Seiten angefahren werden (ISO 230-2)</translation>
-    </message>
-    <message>
         <source>the laser&apos;s zero is the axis&apos; zero</source>
         <translation>der Nullpunkt des Lasers ist der der Achse</translation>
-    </message>
-    <message>
-        <source>Off: the laser was zeroed anywhere; the reading in the middle of the travel stays</source>
-        <translation>Aus: der Laser wurde irgendwo genullt; der Messwert in der Mitte des Wegs bleibt</translation>
     </message>
     <message>
         <source>Plan</source>
@@ -104,22 +88,6 @@
         <translation>Anpassen …</translation>
     </message>
     <message>
-        <source>a run is under way</source>
-        <translation>ein Lauf ist im Gang</translation>
-    </message>
-    <message>
-        <source>Make the motion, and check it against all limits</source>
-        <translation>Die Bewegung erstellen und gegen alle Grenzen prüfen</translation>
-    </message>
-    <message>
-        <source>Fit records of this axis that hold its sensor and the laser</source>
-        <translation>Aufzeichnungen dieser Achse anpassen, die Sensor und Laser enthalten</translation>
-    </message>
-    <message>
-        <source>no run is under way</source>
-        <translation>kein Lauf ist im Gang</translation>
-    </message>
-    <message>
         <source>Stop the machine now</source>
         <translation>Die Maschine jetzt anhalten</translation>
     </message>
@@ -130,14 +98,6 @@
     <message>
         <source>the machine is still moving</source>
         <translation>die Maschine bewegt sich noch</translation>
-    </message>
-    <message>
-        <source>Play the motion; sensor and laser are recorded and fitted</source>
-        <translation>Die Bewegung abspielen; Sensor und Laser werden aufgezeichnet und angepasst</translation>
-    </message>
-    <message>
-        <source>Keep this calibration, dated, and correct the axis&apos; readings by it from now on</source>
-        <translation>Diese Kalibrierung mit Datum behalten und die Messwerte der Achse ab jetzt damit korrigieren</translation>
     </message>
     <message>
         <source>Figures of the sensor</source>
@@ -156,14 +116,6 @@
         <translation>es gibt noch kein Ergebnis</translation>
     </message>
     <message>
-        <source>it is stored</source>
-        <translation>es ist gespeichert</translation>
-    </message>
-    <message>
-        <source>choose a calibration in the table</source>
-        <translation>eine Kalibrierung in der Tabelle wählen</translation>
-    </message>
-    <message>
         <source>Stored calibrations</source>
         <translation>Gespeicherte Kalibrierungen</translation>
     </message>
@@ -176,20 +128,8 @@
         <translation>Abschalten</translation>
     </message>
     <message>
-        <source>it is on</source>
-        <translation>sie ist an</translation>
-    </message>
-    <message>
-        <source>it is off</source>
-        <translation>sie ist aus</translation>
-    </message>
-    <message>
         <source>Correct the axis&apos; readings with it</source>
         <translation>Die Messwerte der Achse damit korrigieren</translation>
-    </message>
-    <message>
-        <source>Leave the axis&apos; readings as they are</source>
-        <translation>Die Messwerte der Achse lassen, wie sie sind</translation>
     </message>
     <message>
         <source>axis</source>
@@ -222,10 +162,6 @@
     <message>
         <source>reading before</source>
         <translation>Messwert vorher</translation>
-    </message>
-    <message>
-        <source>Plan the motion and run it, or fit records that hold the sensor and the laser.</source>
-        <translation>Die Bewegung planen und starten, oder Aufzeichnungen mit Sensor und Laser anpassen.</translation>
     </message>
     <message>
         <source>{axis}: {runs} runs, triangles and moves, {ends}, {time} min</source>
@@ -272,16 +208,8 @@
         <translation>Der Lauf ist fehlgeschlagen: {message}.</translation>
     </message>
     <message>
-        <source>The run is done.</source>
-        <translation>Der Lauf ist fertig.</translation>
-    </message>
-    <message>
         <source>Refused: {reason}.</source>
         <translation>Abgelehnt: {reason}.</translation>
-    </message>
-    <message>
-        <source>Error at held-out runs: {before} rms before, {after} after.</source>
-        <translation>Fehler bei zurückgehaltenen Läufen: {before} rms vorher, {after} nachher.</translation>
     </message>
     <message>
         <source>on</source>
@@ -290,6 +218,78 @@
     <message>
         <source>off</source>
         <translation>aus</translation>
+    </message>
+    <message>
+        <source>select a calibration in the table</source>
+        <translation>eine Kalibrierung in der Tabelle wählen</translation>
+    </message>
+    <message>
+        <source>already on</source>
+        <translation>schon an</translation>
+    </message>
+    <message>
+        <source>already off</source>
+        <translation>schon aus</translation>
+    </message>
+    <message>
+        <source>Do not correct the readings of the axis</source>
+        <translation>Die Messwerte der Achse nicht korrigieren</translation>
+    </message>
+    <message>
+        <source>Store this calibration with its date, and correct the readings of the axis with it from now on</source>
+        <translation>Diese Kalibrierung mit Datum speichern und die Messwerte der Achse ab jetzt damit korrigieren</translation>
+    </message>
+    <message>
+        <source>already stored</source>
+        <translation>schon gespeichert</translation>
+    </message>
+    <message>
+        <source>Plan and run the motion, or fit records with the sensor and the laser.</source>
+        <translation>Die Bewegung planen und starten, oder Aufzeichnungen mit Sensor und Laser anpassen.</translation>
+    </message>
+    <message>
+        <source>The run is complete.</source>
+        <translation>Der Lauf ist fertig.</translation>
+    </message>
+    <message>
+        <source>Error in the validation runs: {before} rms before, {after} after.</source>
+        <translation>Fehler in den Prüfläufen: {before} rms vorher, {after} nachher.</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>3 to 50; each run validates the fit of the others once; ISO 230-2 requires 5</source>
+        <translation>3 bis 50; jeder Lauf prüft einmal die Anpassung der anderen; ISO 230-2 verlangt 5</translation>
+    </message>
+    <message>
+        <source>5 to 101 positions, approached from both sides (ISO 230-2)</source>
+        <translation>5 bis 101 Positionen, die von beiden Seiten angefahren werden (ISO 230-2)</translation>
+    </message>
+    <message>
+        <source>Off: the zero of the laser is arbitrary; the reading at mid-travel stays</source>
+        <translation>Aus: der Nullpunkt des Lasers ist beliebig; der Messwert in der Mitte des Bereichs bleibt</translation>
+    </message>
+    <message>
+        <source>a run is in progress</source>
+        <translation>ein Lauf ist im Gang</translation>
+    </message>
+    <message>
+        <source>Compute the motion and check it against all limits</source>
+        <translation>Die Bewegung berechnen und gegen alle Grenzen prüfen</translation>
+    </message>
+    <message>
+        <source>Fit records of this axis with its sensor and the laser</source>
+        <translation>Aufzeichnungen dieser Achse mit Sensor und Laser anpassen</translation>
+    </message>
+    <message>
+        <source>Play the motion, record sensor and laser, and fit</source>
+        <translation>Die Bewegung abspielen, Sensor und Laser aufzeichnen und anpassen</translation>
+    </message>
+    <message>
+        <source>no run is in progress</source>
+        <translation>kein Lauf ist im Gang</translation>
     </message>
 </context>
 <context>

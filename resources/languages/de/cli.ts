@@ -124,10 +124,6 @@
         <translation>{text} ist nicht {advice}</translation>
     </message>
     <message>
-        <source>{text} is no whole number</source>
-        <translation>{text} ist keine ganze Zahl</translation>
-    </message>
-    <message>
         <source>--{option}: {error}</source>
         <translation>--{option}: {error}</translation>
     </message>
@@ -258,6 +254,346 @@
     <message>
         <source>interrupted</source>
         <translation>abgebrochen</translation>
+    </message>
+    <message>
+        <source>originates in another axis, named by from_axis</source>
+        <translation>geht von einer anderen Achse aus, die from_axis nennt</translation>
+    </message>
+    <message>
+        <source>formulation {name}</source>
+        <translation>Formulierung {name}</translation>
+    </message>
+    <message>
+        <source>source: {source}</source>
+        <translation>Quelle: {source}</translation>
+    </message>
+    <message>
+        <source>{preset} ({low} to {high})</source>
+        <translation>{preset} ({low} bis {high})</translation>
+    </message>
+    <message>
+        <source>acts on axes of kind {kinds}</source>
+        <translation>wirkt auf Achsen der Art {kinds}</translation>
+    </message>
+    <message>
+        <source>traits: {traits}</source>
+        <translation>Merkmale: {traits}</translation>
+    </message>
+    <message>
+        <source>left out: {reason}</source>
+        <translation>ausgelassen: {reason}</translation>
+    </message>
+    <message>
+        <source>point</source>
+        <translation>Punkt</translation>
+    </message>
+    <message>
+        <source>tracking [%]</source>
+        <translation>Folgefehler [%]</translation>
+    </message>
+    <message>
+        <source>settling [ms]</source>
+        <translation>Einschwingen [ms]</translation>
+    </message>
+    <message>
+        <source>overshoot [%]</source>
+        <translation>Überschwingen [%]</translation>
+    </message>
+    <message>
+        <source>effort [1/s]</source>
+        <translation>Stellaufwand [1/s]</translation>
+    </message>
+    <message>
+        <source>integral [1/s]</source>
+        <translation>I-Anteil [1/s]</translation>
+    </message>
+    <message>
+        <source>stopped after {done} of {total} generations; {output} holds the points found so far, and is marked as incomplete</source>
+        <translation>nach {done} von {total} Generationen angehalten; {output} enthält die bisher gefundenen Punkte und ist als unvollständig gekennzeichnet</translation>
+    </message>
+    <message>
+        <source>{output}: axis {axis}, loop at {rate}</source>
+        <translation>{output}: Achse {axis}, Regelkreis mit {rate}</translation>
+    </message>
+    <message>
+        <source>chosen</source>
+        <translation>gewählt</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>empfohlen</translation>
+    </message>
+    <message>
+        <source>{done} of {total} generations, {points} points</source>
+        <translation>{done} von {total} Generationen, {points} Punkte</translation>
+    </message>
+    <message>
+        <source>{place}: {kind} {name}; install it with
+  pip install --editable &apos;{place}[test]&apos;
+and check it with `rotemina plugin check {name}` and `pytest {place}`.</source>
+        <translation>{place}: {kind} {name}; installieren mit
+  pip install --editable &apos;{place}[test]&apos;
+und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translation>
+    </message>
+    <message>
+        <source>{version} of {current}</source>
+        <translation>{version} von {current}</translation>
+    </message>
+    <message>
+        <source>loaded</source>
+        <translation>geladen</translation>
+    </message>
+    <message>
+        <source>kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>package</source>
+        <translation>Paket</translation>
+    </message>
+    <message>
+        <source>version</source>
+        <translation>Version</translation>
+    </message>
+    <message>
+        <source>interface</source>
+        <translation>Schnittstelle</translation>
+    </message>
+    <message>
+        <source>state</source>
+        <translation>Zustand</translation>
+    </message>
+    <message>
+        <source>{output}: {count} inverses</source>
+        <translation>{output}: {count} Inverse</translation>
+    </message>
+    <message>
+        <source>recommended: {why}</source>
+        <translation>empfohlen: {why}</translation>
+    </message>
+    <message>
+        <source>{name} runs in real time: ALL AXES WILL MOVE, also to the ends of their ranges. Remove the tool, and keep the machine&apos;s emergency switch within reach.</source>
+        <translation>{name} läuft in Echtzeit: ALLE ACHSEN WERDEN SICH BEWEGEN, auch bis an die Enden ihrer Bereiche. Das Werkzeug abnehmen; der Not-Halt der Maschine muss in Reichweite sein.</translation>
+    </message>
+    <message>
+        <source>{name} runs in real time: only checks without motion run; --move lets the axes move</source>
+        <translation>{name} läuft in Echtzeit: nur Prüfungen ohne Bewegung laufen; --move lässt die Achsen fahren</translation>
+    </message>
+    <message>
+        <source>any clock</source>
+        <translation>beliebige Uhr</translation>
+    </message>
+    <message>
+        <source>real time</source>
+        <translation>Echtzeit</translation>
+    </message>
+    <message>
+        <source>moves</source>
+        <translation>bewegt</translation>
+    </message>
+    <message>
+        <source>left out: {name}: {reason}</source>
+        <translation>ausgelassen: {name}: {reason}</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} of robot {robot}, {runs} runs</source>
+        <translation>{name}: Achse {axis} des Roboters {robot}, {runs} Durchläufe</translation>
+    </message>
+    <message>
+        <source>from {name} ({digest})</source>
+        <translation>aus {name} ({digest})</translation>
+    </message>
+    <message>
+        <source>{file}: written</source>
+        <translation>{file}: geschrieben</translation>
+    </message>
+    <message>
+        <source>{output}: {motion}, {duration}</source>
+        <translation>{output}: {motion}, {duration}</translation>
+    </message>
+    <message>
+        <source>no calibrations are stored</source>
+        <translation>es sind keine Kalibrierungen gespeichert</translation>
+    </message>
+    <message>
+        <source>on</source>
+        <translation>ein</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>aus</translation>
+    </message>
+    <message>
+        <source>{causes} first of {tried}: {closed} closed</source>
+        <translation>{causes} führt unter {tried}: {closed} geschlossen</translation>
+    </message>
+    <message>
+        <source>about {duration} left</source>
+        <translation>noch etwa {duration}</translation>
+    </message>
+    <message>
+        <source>re-tuned model</source>
+        <translation>neu abgestimmtes Modell</translation>
+    </message>
+    <message>
+        <source>axis {axis}: command of the inverse minus recorded command</source>
+        <translation>Achse {axis}: Sollwert der Inversen minus aufgezeichneter Sollwert</translation>
+    </message>
+    <message>
+        <source>inverse</source>
+        <translation>Inverse</translation>
+    </message>
+    <message>
+        <source>rms / range</source>
+        <translation>Effektivwert / Bereich</translation>
+    </message>
+    <message>
+        <source>{share} of the rows are not judged: they lie outside {low} to {high}, the range of the training</source>
+        <translation>{share} der Zeilen werden nicht bewertet: sie liegen außerhalb von {low} bis {high}, dem Bereich des Trainings</translation>
+    </message>
+    <message>
+        <source>rms [{unit}]</source>
+        <translation>Effektivwert [{unit}]</translation>
+    </message>
+    <message>
+        <source>rms without offset [{unit}]</source>
+        <translation>Effektivwert ohne Versatz [{unit}]</translation>
+    </message>
+    <message>
+        <source>worst [{unit}]</source>
+        <translation>größte Abweichung [{unit}]</translation>
+    </message>
+    <message>
+        <source>{axis}.cmd = {value} at row {row} (t = {time}) is outside {low} … {high}; {rows} such rows</source>
+        <translation>{axis}.cmd = {value} in Zeile {row} (t = {time}) liegt außerhalb von {low} … {high}; {rows} solche Zeilen</translation>
+    </message>
+    <message>
+        <source>effect {effect} on axis {axis} does not act: the commands name neither this axis nor one coupled to it</source>
+        <translation>Effekt {effect} an Achse {axis} wirkt nicht: die Sollwerte nennen weder diese Achse noch eine mit ihr gekoppelte</translation>
+    </message>
+    <message>
+        <source>recommended after training: {why}</source>
+        <translation>nach dem Training empfohlen: {why}</translation>
+    </message>
+    <message>
+        <source>{count} of {names}</source>
+        <translation>{count} von {names}</translation>
+    </message>
+    <message>
+        <source>{output}: {rows} rows</source>
+        <translation>{output}: {rows} Zeilen</translation>
+    </message>
+    <message>
+        <source>{name}: {rows} rows of {columns}</source>
+        <translation>{name}: {rows} Zeilen mit {columns}</translation>
+    </message>
+    <message>
+        <source>{source}: nothing to recover</source>
+        <translation>{source}: nichts wiederherzustellen</translation>
+    </message>
+    <message>
+        <source>changed: {what}</source>
+        <translation>geändert: {what}</translation>
+    </message>
+    <message>
+        <source>{rows} rows, {duration} at {rate}</source>
+        <translation>{rows} Zeilen, {duration} mit {rate}</translation>
+    </message>
+    <message>
+        <source>{summary}, period {rows} rows</source>
+        <translation>{summary}, Periode {rows} Zeilen</translation>
+    </message>
+    <message>
+        <source>{output}: robot {robot} with {effects}</source>
+        <translation>{output}: Roboter {robot} mit {effects}</translation>
+    </message>
+    <message>
+        <source>{effect} on axis {axis}</source>
+        <translation>{effect} an Achse {axis}</translation>
+    </message>
+    <message>
+        <source>no further effects</source>
+        <translation>keinen weiteren Effekten</translation>
+    </message>
+    <message>
+        <source>{trajectory}: {duration}, {rows} rows, within the limits</source>
+        <translation>{trajectory}: {duration}, {rows} Zeilen, innerhalb der Grenzen</translation>
+    </message>
+    <message>
+        <source>playing {share} %</source>
+        <translation>abgespielt: {share} %</translation>
+    </message>
+    <message>
+        <source>axis {axis}: commands of {inverse}; other axes unchanged</source>
+        <translation>Achse {axis}: Sollwerte der Inversen {inverse}; andere Achsen unverändert</translation>
+    </message>
+    <message>
+        <source>fastest command, before → after resampling:</source>
+        <translation>schnellster Sollwert, vor → nach der neuen Abtastung:</translation>
+    </message>
+    <message>
+        <source>{output}: {rows} rows, {duration}</source>
+        <translation>{output}: {rows} Zeilen, {duration}</translation>
+    </message>
+    <message>
+        <source>{text} is not an integer</source>
+        <translation>{text} ist keine ganze Zahl</translation>
+    </message>
+    <message>
+        <source>ok</source>
+        <translation>in Ordnung</translation>
+    </message>
+    <message>
+        <source>limited</source>
+        <translation>eingeschränkt</translation>
+    </message>
+    <message>
+        <source>broken</source>
+        <translation>defekt</translation>
+    </message>
+    <message>
+        <source>dependencies</source>
+        <translation>Abhängigkeiten</translation>
+    </message>
+    <message>
+        <source>Qt libraries</source>
+        <translation>Qt-Bibliotheken</translation>
+    </message>
+    <message>
+        <source>Qt platform</source>
+        <translation>Qt-Plattform</translation>
+    </message>
+    <message>
+        <source>rendering</source>
+        <translation>Darstellung</translation>
+    </message>
+    <message>
+        <source>serial ports</source>
+        <translation>serielle Anschlüsse</translation>
+    </message>
+    <message>
+        <source>line rate</source>
+        <translation>Leitungsrate</translation>
+    </message>
+    <message>
+        <source>joysticks</source>
+        <translation>Joysticks</translation>
+    </message>
+    <message>
+        <source>folders</source>
+        <translation>Ordner</translation>
+    </message>
+    <message>
+        <source>disk</source>
+        <translation>Datenträger</translation>
+    </message>
+    <message>
+        <source>clock</source>
+        <translation>Uhr</translation>
     </message>
 </context>
 </TS>

@@ -4,14 +4,6 @@
 <context>
     <name>comparison</name>
     <message>
-        <source>Play a trajectory or open a record of the real machine to see how far the model is off.</source>
-        <translation>Eine Trajektorie abspielen oder eine Aufzeichnung der realen Maschine öffnen, um zu sehen, wie weit das Modell danebenliegt.</translation>
-    </message>
-    <message>
-        <source>tap</source>
-        <translation>Abgriff</translation>
-    </message>
-    <message>
         <source>without offset</source>
         <translation>ohne Versatz</translation>
     </message>
@@ -44,12 +36,8 @@
         <translation>Aufzeichnung speichern …</translation>
     </message>
     <message>
-        <source>Write the record in hand to a file (Ctrl+S)</source>
-        <translation>Die vorliegende Aufzeichnung in eine Datei schreiben (Strg+S)</translation>
-    </message>
-    <message>
         <source>Signals and their gaps</source>
-        <translation>Signale und ihre Lücken</translation>
+        <translation>Signale und ihre Abweichungen</translation>
     </message>
     <message>
         <source>, stopped early</source>
@@ -65,11 +53,23 @@
     </message>
     <message>
         <source>model in use</source>
-        <translation>Modell im Einsatz</translation>
+        <translation>verwendetes Modell</translation>
     </message>
     <message>
         <source>real − model [{symbol}]</source>
         <translation>Maschine − Modell [{symbol}]</translation>
+    </message>
+    <message>
+        <source>Play a trajectory or open a record of the real machine to compare it with the model.</source>
+        <translation>Eine Trajektorie abspielen oder eine Aufzeichnung der realen Maschine öffnen, um sie mit dem Modell zu vergleichen.</translation>
+    </message>
+    <message>
+        <source>signal</source>
+        <translation>Signal</translation>
+    </message>
+    <message>
+        <source>Save the current record to a file (Ctrl+S)</source>
+        <translation>Die aktuelle Aufzeichnung in einer Datei speichern (Strg+S)</translation>
     </message>
 </context>
 <context>

@@ -8,44 +8,8 @@
         <translation>Regelkreis wird geprüft …</translation>
     </message>
     <message>
-        <source>Take off</source>
-        <translation>Abnehmen</translation>
-    </message>
-    <message>
-        <source>Put on</source>
-        <translation>Anlegen</translation>
-    </message>
-    <message>
-        <source>Take loop off</source>
-        <translation>Abnehmen</translation>
-    </message>
-    <message>
-        <source>it moves</source>
-        <translation>sie bewegt sich</translation>
-    </message>
-    <message>
         <source>the robot has no piezo in open loop</source>
         <translation>der Roboter hat keinen Piezo im offenen Kreis</translation>
-    </message>
-    <message>
-        <source>Close a loop of these gains around the axis, which stays in place, or open it</source>
-        <translation>Einen Regelkreis mit diesen Verstärkungen um die Achse schließen, die stehen bleibt, oder ihn öffnen</translation>
-    </message>
-    <message>
-        <source>Ends of moves, speeds and each row of a trajectory go through the inverse; the axis stays in place</source>
-        <translation>Enden von Bewegungen, Geschwindigkeiten und jede Zeile einer Trajektorie gehen durch die Inverse; die Achse bleibt stehen</translation>
-    </message>
-    <message>
-        <source>no inverse is on: put one on first</source>
-        <translation>keine Inverse ist angelegt: zuerst eine anlegen</translation>
-    </message>
-    <message>
-        <source>Play 6 s of swings over 60 % of the range</source>
-        <translation>6 s Schwingungen über 60 % des Bereichs abspielen</translation>
-    </message>
-    <message>
-        <source>Every set-point of this axis goes through the inverse; the axis stays in place</source>
-        <translation>Jeder Sollwert dieser Achse geht durch die Inverse; die Achse bleibt stehen</translation>
     </message>
     <message>
         <source>Without</source>
@@ -68,16 +32,12 @@
         <translation>Achse</translation>
     </message>
     <message>
-        <source>Piezo axis in open loop that is compensated</source>
-        <translation>Piezoachse im offenen Kreis, die kompensiert wird</translation>
-    </message>
-    <message>
         <source>Simulator</source>
         <translation>Simulator</translation>
     </message>
     <message>
         <source>Last record</source>
-        <translation>Vorliegende</translation>
+        <translation>Letzte</translation>
     </message>
     <message>
         <source>Records …</source>
@@ -89,15 +49,7 @@
     </message>
     <message>
         <source>Save …</source>
-        <translation>Sichern …</translation>
-    </message>
-    <message>
-        <source>Which inverse is put on</source>
-        <translation>Welche Inverse angelegt wird</translation>
-    </message>
-    <message>
-        <source>Which of the trained inverses is put on</source>
-        <translation>Welche der gelernten Inversen angelegt wird</translation>
+        <translation>Speichern …</translation>
     </message>
     <message>
         <source>Try it</source>
@@ -112,10 +64,6 @@
         <translation>Abstimmen</translation>
     </message>
     <message>
-        <source>Keep …</source>
-        <translation>Sichern …</translation>
-    </message>
-    <message>
         <source>Generations of 60 individuals</source>
         <translation>Generationen zu 60 Individuen</translation>
     </message>
@@ -128,16 +76,8 @@
         <translation>durch die Inverse</translation>
     </message>
     <message>
-        <source>Feed the reference forward through the inverse in hand</source>
-        <translation>Die Referenz durch die vorliegende Inverse vorsteuern</translation>
-    </message>
-    <message>
         <source>Stop</source>
         <translation>Halt</translation>
-    </message>
-    <message>
-        <source>Learn from</source>
-        <translation>Lernen aus</translation>
     </message>
     <message>
         <source>Feed-forward</source>
@@ -162,10 +102,6 @@
     <message>
         <source>Tunings (*.toml)</source>
         <translation>Abstimmungen (*.toml)</translation>
-    </message>
-    <message>
-        <source>What is shown</source>
-        <translation>Was gezeigt wird</translation>
     </message>
     <message>
         <source>Check</source>
@@ -196,40 +132,12 @@
         <translation>Abgebrochen; nichts wurde ersetzt.</translation>
     </message>
     <message>
-        <source>Learning …</source>
-        <translation>Lernen …</translation>
-    </message>
-    <message>
-        <source>It failed; nothing was replaced.</source>
-        <translation>Fehlgeschlagen; nichts wurde ersetzt.</translation>
-    </message>
-    <message>
         <source>Compensation: {message}</source>
         <translation>Kompensation: {message}</translation>
     </message>
     <message>
         <source>{inverse} (recommended)</source>
         <translation>{inverse} (empfohlen)</translation>
-    </message>
-    <message>
-        <source>work is under way; stop it or wait</source>
-        <translation>eine Arbeit läuft; abbrechen oder warten</translation>
-    </message>
-    <message>
-        <source>no record is in hand</source>
-        <translation>keine Aufzeichnung liegt vor</translation>
-    </message>
-    <message>
-        <source>Move the simulated axis over its range and learn from it</source>
-        <translation>Die simulierte Achse über ihren Bereich bewegen und daraus lernen</translation>
-    </message>
-    <message>
-        <source>Learn from the record in hand</source>
-        <translation>Aus der vorliegenden Aufzeichnung lernen</translation>
-    </message>
-    <message>
-        <source>Learn from records with cmd and meas, or ref</source>
-        <translation>Aus Aufzeichnungen mit cmd und meas oder ref lernen</translation>
     </message>
     <message>
         <source>Load inverses from a file</source>
@@ -252,32 +160,12 @@
         <translation>Reglerparameter eines PID-Kreises bei 5 kHz an der simulierten Achse suchen</translation>
     </message>
     <message>
-        <source>Write the front with the point that is marked</source>
-        <translation>Die Front mit dem markierten Punkt schreiben</translation>
-    </message>
-    <message>
-        <source>nothing is under way</source>
-        <translation>nichts läuft</translation>
-    </message>
-    <message>
-        <source>End it</source>
-        <translation>Beenden</translation>
-    </message>
-    <message>
-        <source>the inverse in hand is of axis {axis}</source>
-        <translation>die vorliegende Inverse ist von Achse {axis}</translation>
-    </message>
-    <message>
         <source>Records</source>
         <translation>Aufzeichnungen</translation>
     </message>
     <message>
         <source>Inverses</source>
         <translation>Inverse</translation>
-    </message>
-    <message>
-        <source>Keep gains</source>
-        <translation>Reglerparameter sichern</translation>
     </message>
     <message>
         <source>Gains</source>
@@ -312,28 +200,12 @@
         <translation>Position</translation>
     </message>
     <message>
-        <source>wanted</source>
-        <translation>Soll</translation>
-    </message>
-    <message>
-        <source>inverse of it</source>
-        <translation>ihre Inverse</translation>
-    </message>
-    <message>
         <source>front</source>
         <translation>Front</translation>
     </message>
     <message>
-        <source>Unseen, over the command [{unit}]</source>
-        <translation>Ungesehen, über dem Sollwert [{unit}]</translation>
-    </message>
-    <message>
         <source>command [{unit}]</source>
         <translation>Sollwert [{unit}]</translation>
-    </message>
-    <message>
-        <source>Residual of each inverse on unseen rows</source>
-        <translation>Restfehler jeder Inverse auf ungesehenen Zeilen</translation>
     </message>
     <message>
         <source>Reading over reference [{unit}]</source>
@@ -354,10 +226,6 @@
     <message>
         <source>tracking rms [%]</source>
         <translation>Folgefehler rms [%]</translation>
-    </message>
-    <message>
-        <source>Click a point: its step and triangle are tried at once</source>
-        <translation>Einen Punkt anklicken: sein Sprung und sein Dreieck werden sofort getestet</translation>
     </message>
     <message>
         <source>Pareto front</source>
@@ -392,40 +260,12 @@
         <translation>vom Bereich</translation>
     </message>
     <message>
-        <source>There is no inverse yet: learn one, or open a file.</source>
-        <translation>Es gibt noch keine Inverse: eine lernen oder eine Datei öffnen.</translation>
-    </message>
-    <message>
-        <source>there is no front yet: tune, or open gains</source>
-        <translation>es gibt noch keine Front: abstimmen oder Reglerparameter öffnen</translation>
-    </message>
-    <message>
-        <source>The simulated machine closes the loop live, at 5 kHz; it is put on only where it is stable on axes off by 5 % too. The boards close none: there, what is put on is feed-forward.</source>
-        <translation>Die simulierte Maschine schließt den Regelkreis live, bei 5 kHz; er wird nur angelegt, wo er auch bei Achsen mit 5 % Abweichung stabil ist. Die Steuerkarten schließen keinen: dort ist, was angelegt wird, Vorsteuerung.</translation>
-    </message>
-    <message>
-        <source>Its loop asks for more than the axis&apos; range: move it away from the end.</source>
-        <translation>Der Regelkreis verlangt mehr als den Bereich der Achse: sie vom Ende wegbewegen.</translation>
-    </message>
-    <message>
         <source>Sweep the whole range of the inverse to erase the history of the axis: this removes most of a constant error (a loop removes it anyway)</source>
         <translation>Den ganzen Bereich der Inverse durchfahren, um die Vorgeschichte der Achse zu löschen: das beseitigt den größten Teil eines konstanten Fehlers (ein Regelkreis beseitigt ihn ohnehin)</translation>
     </message>
     <message>
         <source>Apply gains</source>
-        <translation>Regler anlegen</translation>
-    </message>
-    <message>
-        <source>below its trained range (clamped)</source>
-        <translation>unter dem gelernten Bereich (begrenzt)</translation>
-    </message>
-    <message>
-        <source>above its trained range (clamped)</source>
-        <translation>über dem gelernten Bereich (begrenzt)</translation>
-    </message>
-    <message>
-        <source>faster than it was trained</source>
-        <translation>schneller als gelernt</translation>
+        <translation>Anwenden</translation>
     </message>
     <message>
         <source>at an end of the machine&apos;s range (clamped)</source>
@@ -436,24 +276,184 @@
         <translation>{rms} rms, Mittel {mean}</translation>
     </message>
     <message>
-        <source>axis {axis} is still driven by {owner}; wait, or stop it</source>
-        <translation>Achse {axis} wird noch von {owner} bewegt; warten oder anhalten</translation>
-    </message>
-    <message>
-        <source>It has been {where}.</source>
-        <translation>Sie war {where}.</translation>
-    </message>
-    <message>
         <source>Point {number}: tracking {tracking:.3g} %, settling {settling:.3g} ms, overshoot {overshoot:.2g} %, Ms {peak:.2f}</source>
         <translation>Punkt {number}: Folgefehler {tracking:.3g} %, Einschwingzeit {settling:.3g} ms, Überschwingen {overshoot:.2g} %, Ms {peak:.2f}</translation>
     </message>
     <message>
-        <source>0 to {most}; held against the axis before it acts</source>
-        <translation>0 bis {most}; wird an der Achse geprüft, bevor es wirkt</translation>
+        <source>0 to {most}; checked on the axis before use</source>
+        <translation>0 bis {most}; wird vor der Anwendung an der Achse geprüft</translation>
     </message>
     <message>
-        <source>gain {letter} = {text}: must be a number from 0 to {most}, the greatest that a search tries</source>
-        <translation>Verstärkung {letter} = {text}: muss eine Zahl von 0 bis {most} sein, dem Größten, was eine Suche versucht</translation>
+        <source>gain {letter} = {text}: must be a number from 0 to {most}, the bound of the search</source>
+        <translation>Verstärkung {letter} = {text}: muss eine Zahl von 0 bis {most} sein, der Grenze der Suche</translation>
+    </message>
+    <message>
+        <source>There is no inverse: train one, or open a file.</source>
+        <translation>Es gibt keine Inverse: eine trainieren oder eine Datei öffnen.</translation>
+    </message>
+    <message>
+        <source>there is no front: tune, or open gains</source>
+        <translation>es gibt keine Front: abstimmen oder Reglerparameter öffnen</translation>
+    </message>
+    <message>
+        <source>The simulated machine closes the loop live at 5 kHz, only if it is also stable on axes off by 5 %. The boards close no loop: there, only feedforward is possible.</source>
+        <translation>Die simulierte Maschine schließt den Regelkreis live bei 5 kHz, nur wenn er auch bei Achsen mit 5 % Abweichung stabil ist. Die Steuerkarten schließen keinen: dort ist nur Vorsteuerung möglich.</translation>
+    </message>
+    <message>
+        <source>The loop demands more than the range of the axis: move the axis away from the end.</source>
+        <translation>Der Regelkreis verlangt mehr als den Bereich der Achse: die Achse vom Ende wegbewegen.</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Anwenden</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Abschalten</translation>
+    </message>
+    <message>
+        <source>Open loop</source>
+        <translation>Kreis öffnen</translation>
+    </message>
+    <message>
+        <source>below its training range (clamped)</source>
+        <translation>unter dem trainierten Bereich (begrenzt)</translation>
+    </message>
+    <message>
+        <source>above its training range (clamped)</source>
+        <translation>über dem trainierten Bereich (begrenzt)</translation>
+    </message>
+    <message>
+        <source>faster than in training</source>
+        <translation>schneller als im Training</translation>
+    </message>
+    <message>
+        <source>The axis has been {where}.</source>
+        <translation>Die Achse war {where}.</translation>
+    </message>
+    <message>
+        <source>{owner} still controls axis {axis}; wait, or stop it</source>
+        <translation>{owner} steuert noch Achse {axis}; warten oder anhalten</translation>
+    </message>
+    <message>
+        <source>Close a loop with these gains around the axis, or open it; the axis stays in place</source>
+        <translation>Mit diesen Verstärkungen einen Regelkreis um die Achse schließen oder ihn öffnen; die Achse bleibt stehen</translation>
+    </message>
+    <message>
+        <source>Apply the inverse to ends of moves, speeds and each row of a trajectory; the axis stays in place</source>
+        <translation>Die Inverse auf Enden von Bewegungen, Geschwindigkeiten und jede Zeile einer Trajektorie anwenden; die Achse bleibt stehen</translation>
+    </message>
+    <message>
+        <source>the axis is moving</source>
+        <translation>die Achse bewegt sich</translation>
+    </message>
+    <message>
+        <source>no inverse is active: apply one first</source>
+        <translation>keine Inverse ist aktiv: zuerst eine anwenden</translation>
+    </message>
+    <message>
+        <source>Play 6 s of oscillations over 60 % of the range</source>
+        <translation>6 s Schwingungen über 60 % des Bereichs abspielen</translation>
+    </message>
+    <message>
+        <source>Apply the inverse to every set-point of this axis; the axis stays in place</source>
+        <translation>Die Inverse auf jeden Sollwert dieser Achse anwenden; die Achse bleibt stehen</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>Training …</source>
+        <translation>Training …</translation>
+    </message>
+    <message>
+        <source>Failed; nothing was replaced.</source>
+        <translation>Fehlgeschlagen; nichts wurde ersetzt.</translation>
+    </message>
+    <message>
+        <source>work is in progress; stop it or wait</source>
+        <translation>eine Arbeit läuft; abbrechen oder warten</translation>
+    </message>
+    <message>
+        <source>there is no record</source>
+        <translation>es gibt keine Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>Train with a motion of the simulated axis over its range</source>
+        <translation>Mit einer Bewegung der simulierten Achse über ihren Bereich trainieren</translation>
+    </message>
+    <message>
+        <source>Train with the last record</source>
+        <translation>Mit der letzten Aufzeichnung trainieren</translation>
+    </message>
+    <message>
+        <source>Train with records that have cmd and meas or ref</source>
+        <translation>Mit Aufzeichnungen trainieren, die cmd und meas oder ref haben</translation>
+    </message>
+    <message>
+        <source>Feed the reference forward through the current inverse</source>
+        <translation>Die Referenz durch die aktuelle Inverse vorsteuern</translation>
+    </message>
+    <message>
+        <source>Save the front with the selected point</source>
+        <translation>Die Front mit dem gewählten Punkt speichern</translation>
+    </message>
+    <message>
+        <source>Stop the work</source>
+        <translation>Die Arbeit anhalten</translation>
+    </message>
+    <message>
+        <source>Save gains</source>
+        <translation>Reglerparameter speichern</translation>
+    </message>
+    <message>
+        <source>nothing is running</source>
+        <translation>nichts läuft</translation>
+    </message>
+    <message>
+        <source>the current inverse belongs to axis {axis}</source>
+        <translation>die aktuelle Inverse gehört zu Achse {axis}</translation>
+    </message>
+    <message>
+        <source>desired</source>
+        <translation>Soll</translation>
+    </message>
+    <message>
+        <source>its inverse</source>
+        <translation>ihre Inverse</translation>
+    </message>
+    <message>
+        <source>Residual of each inverse on validation rows</source>
+        <translation>Restfehler jeder Inverse auf Prüfzeilen</translation>
+    </message>
+    <message>
+        <source>Validation rows, over the command [{unit}]</source>
+        <translation>Prüfzeilen, über dem Sollwert [{unit}]</translation>
+    </message>
+    <message>
+        <source>Click a point to simulate its step and triangle</source>
+        <translation>Einen Punkt anklicken, um seinen Sprung und sein Dreieck zu simulieren</translation>
+    </message>
+    <message>
+        <source>Piezo axis in open loop to be compensated</source>
+        <translation>Piezoachse im offenen Kreis, die kompensiert wird</translation>
+    </message>
+    <message>
+        <source>Inverse to apply</source>
+        <translation>Anzuwendende Inverse</translation>
+    </message>
+    <message>
+        <source>Trained inverse to apply</source>
+        <translation>Anzuwendende trainierte Inverse</translation>
+    </message>
+    <message>
+        <source>Save gains …</source>
+        <translation>Sichern …</translation>
+    </message>
+    <message>
+        <source>Train with</source>
+        <translation>Training mit</translation>
     </message>
 </context>
 <context>

@@ -8,10 +8,6 @@
         <translation>Treiber</translation>
     </message>
     <message>
-        <source>What the program drives: the simulator, boards, or a device of a plugin</source>
-        <translation>Was das Programm steuert: Simulator, Steuerkarten oder ein Gerät eines Plugins</translation>
-    </message>
-    <message>
         <source>{name} – cannot be used</source>
         <translation>{name} – nicht benutzbar</translation>
     </message>
@@ -54,10 +50,6 @@
     <message>
         <source>Stop and disconnect the device; it holds its position</source>
         <translation>Anhalten und das Gerät trennen; es hält seine Position</translation>
-    </message>
-    <message>
-        <source>Connect again to {name}, with the settings it had</source>
-        <translation>Wieder mit {name} verbinden, mit denselben Einstellungen</translation>
     </message>
     <message>
         <source>sample rate</source>
@@ -148,20 +140,12 @@
         <translation>Schlechtester</translation>
     </message>
     <message>
-        <source>Last stop handed over in</source>
-        <translation>Letzter Halt übergeben in</translation>
-    </message>
-    <message>
         <source>At rest after</source>
         <translation>In Ruhe nach</translation>
     </message>
     <message>
         <source>Line</source>
         <translation>Leitung</translation>
-    </message>
-    <message>
-        <source>{name} has no line, or has not opened it yet.</source>
-        <translation>{name} hat keine Leitung oder hat sie noch nicht geöffnet.</translation>
     </message>
     <message>
         <source>Stop latency</source>
@@ -200,26 +184,6 @@
         <translation>{count} Parameter weichen</translation>
     </message>
     <message>
-        <source>{are} from the robot file; nothing moves until that is settled.</source>
-        <translation>{are} von der Roboterdatei ab; nichts bewegt sich, bis das geklärt ist.</translation>
-    </message>
-    <message>
-        <source>{name} keeps no parameters of its own.</source>
-        <translation>{name} hat keine eigenen Parameter.</translation>
-    </message>
-    <message>
-        <source>Nothing differs from the robot file.</source>
-        <translation>Nichts weicht von der Roboterdatei ab.</translation>
-    </message>
-    <message>
-        <source>Write the robot file&apos;s values into the device, which keeps them</source>
-        <translation>Die Werte der Roboterdatei ins Gerät schreiben, das sie behält</translation>
-    </message>
-    <message>
-        <source>Move with the device&apos;s own values until it is opened again</source>
-        <translation>Mit den Werten des Geräts fahren, bis es neu geöffnet wird</translation>
-    </message>
-    <message>
         <source>Serial ports cannot be listed: {message}</source>
         <translation>Serielle Anschlüsse nicht auflistbar: {message}</translation>
     </message>
@@ -240,44 +204,16 @@
         <translation>Zurück</translation>
     </message>
     <message>
-        <source>Find the limit switches of all axes that have some</source>
-        <translation>Die Endschalter aller Achsen suchen, die welche haben</translation>
-    </message>
-    <message>
         <source>Find the limit switch of {label}</source>
         <translation>Den Endschalter von {label} suchen</translation>
-    </message>
-    <message>
-        <source>Confirm that the machine stands where it stood when the connection was lost</source>
-        <translation>Bestätigen, dass die Maschine dort steht, wo sie beim Verlust der Verbindung stand</translation>
-    </message>
-    <message>
-        <source>Go back to where the axes rested before the latest move: up, across, down</source>
-        <translation>Dorthin zurück, wo die Achsen vor der letzten Bewegung ruhten: hoch, quer, ab</translation>
-    </message>
-    <message>
-        <source>No axis is driven now.</source>
-        <translation>Jetzt wird keine Achse gefahren.</translation>
     </message>
     <message>
         <source>Home {label}</source>
         <translation>Referenzfahrt {label}</translation>
     </message>
     <message>
-        <source>Unknown, to be homed: {axes}</source>
-        <translation>Unbekannt, Referenzfahrt nötig: {axes}</translation>
-    </message>
-    <message>
         <source>All positions are known.</source>
         <translation>Alle Positionen sind bekannt.</translation>
-    </message>
-    <message>
-        <source>Nothing is known yet.</source>
-        <translation>Noch ist nichts bekannt.</translation>
-    </message>
-    <message>
-        <source>it is still connecting</source>
-        <translation>die Verbindung wird noch aufgebaut</translation>
     </message>
     <message>
         <source>not connected; connect first</source>
@@ -288,28 +224,12 @@
         <translation>die Maschine bewegt sich noch; anhalten oder warten</translation>
     </message>
     <message>
-        <source>it is connected with these settings</source>
-        <translation>es ist mit diesen Einstellungen verbunden</translation>
-    </message>
-    <message>
         <source>nothing is connected</source>
         <translation>nichts ist verbunden</translation>
     </message>
     <message>
-        <source>it is connected</source>
-        <translation>es ist verbunden</translation>
-    </message>
-    <message>
         <source>there is no fault</source>
         <translation>es liegt kein Fehler vor</translation>
-    </message>
-    <message>
-        <source>{name} has no switches to be found</source>
-        <translation>{name} hat keine Endschalter</translation>
-    </message>
-    <message>
-        <source>{latched} is latched; release it first</source>
-        <translation>{latched} ist eingerastet; erst freigeben</translation>
     </message>
     <message>
         <source>there is a fault; clear it first</source>
@@ -320,32 +240,8 @@
         <translation>das Gerät antwortet nicht</translation>
     </message>
     <message>
-        <source>the position is not known; home first</source>
-        <translation>die Position ist unbekannt; erst Referenzfahrt</translation>
-    </message>
-    <message>
-        <source>no lost connection makes the position doubtful</source>
-        <translation>keine verlorene Verbindung macht die Position zweifelhaft</translation>
-    </message>
-    <message>
-        <source>there is no move to undo</source>
-        <translation>keine Bewegung zum Zurücknehmen</translation>
-    </message>
-    <message>
-        <source>this robot has no tip that a floor could bound</source>
-        <translation>dieser Roboter hat keine Spitze, die ein Boden begrenzen könnte</translation>
-    </message>
-    <message>
-        <source>{name} keeps no parameters</source>
-        <translation>{name} hat keine Parameter</translation>
-    </message>
-    <message>
-        <source>the device&apos;s parameters are those of the robot file, or accepted</source>
-        <translation>die Parameter des Geräts sind die der Roboterdatei oder übernommen</translation>
-    </message>
-    <message>
         <source>{name} cannot set a voltage</source>
-        <translation>{name} kann keine Spannung ausgeben</translation>
+        <translation>{name} kann keine Spannung einstellen</translation>
     </message>
     <message>
         <source>there is no floor</source>
@@ -376,20 +272,8 @@
         <translation>Gesperrt: {locked}.</translation>
     </message>
     <message>
-        <source>{latched} is latched already</source>
-        <translation>{latched} ist schon eingerastet</translation>
-    </message>
-    <message>
-        <source>Stop all axes, and let nothing move until it is released</source>
-        <translation>Alle Achsen anhalten; nichts bewegt sich bis zur Freigabe</translation>
-    </message>
-    <message>
         <source>nothing is locked</source>
         <translation>nichts ist gesperrt</translation>
-    </message>
-    <message>
-        <source>Let the machine move again; it stands until it is told to</source>
-        <translation>Die Maschine wieder bewegen lassen; sie steht bis zum Befehl</translation>
     </message>
     <message>
         <source>Acknowledge the device&apos;s fault</source>
@@ -413,7 +297,7 @@
     </message>
     <message>
         <source>Teach floor …</source>
-        <translation>Boden lernen …</translation>
+        <translation>Boden setzen …</translation>
     </message>
     <message>
         <source>Remove floor …</source>
@@ -424,36 +308,8 @@
         <translation>unbekannt</translation>
     </message>
     <message>
-        <source>Set the floor where the tip is now; nothing moves below it</source>
-        <translation>Den Boden dorthin legen, wo die Spitze jetzt ist; darunter bewegt sich nichts</translation>
-    </message>
-    <message>
-        <source>Let the tip go as low as its axes can</source>
-        <translation>Die Spitze so tief lassen, wie ihre Achsen reichen</translation>
-    </message>
-    <message>
-        <source>The tip has moved: no floor was taught. Ask again where it rests.</source>
-        <translation>Die Spitze hat sich bewegt: Kein Boden wurde gelernt. Nochmals fragen, wenn sie ruht.</translation>
-    </message>
-    <message>
-        <source>there is none yet</source>
-        <translation>gibt es keinen</translation>
-    </message>
-    <message>
         <source>it is at {height}</source>
         <translation>liegt er bei {height}</translation>
-    </message>
-    <message>
-        <source>Put the floor at {height}, where the tip is now? So far {old}.</source>
-        <translation>Den Boden auf {height} legen, wo die Spitze jetzt ist? Bisher {old}.</translation>
-    </message>
-    <message>
-        <source>Teach</source>
-        <translation>Lernen</translation>
-    </message>
-    <message>
-        <source>Take the floor at {height} away? New floor: none; only the ranges of the axes hold the tip then.</source>
-        <translation>Den Boden bei {height} entfernen? Neuer Boden: keiner; dann begrenzen nur die Achsbereiche die Spitze.</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -476,10 +332,6 @@
         <translation>Anlegen …</translation>
     </message>
     <message>
-        <source>For service: apply this voltage slowly, whatever position it leads to</source>
-        <translation>Für den Service: diese Spannung langsam anlegen, zu welcher Position sie auch führt</translation>
-    </message>
-    <message>
         <source>{low} to {high} V</source>
         <translation>{low} bis {high} V</translation>
     </message>
@@ -490,6 +342,154 @@
     <message>
         <source>Apply</source>
         <translation>Anlegen</translation>
+    </message>
+    <message>
+        <source>Last stop sent within</source>
+        <translation>Letzter Halt gesendet in</translation>
+    </message>
+    <message>
+        <source>{name} has no open line.</source>
+        <translation>{name} hat keine offene Leitung.</translation>
+    </message>
+    <message>
+        <source>the connection is being opened</source>
+        <translation>die Verbindung wird aufgebaut</translation>
+    </message>
+    <message>
+        <source>already connected with these settings</source>
+        <translation>schon mit diesen Einstellungen verbunden</translation>
+    </message>
+    <message>
+        <source>already connected</source>
+        <translation>schon verbunden</translation>
+    </message>
+    <message>
+        <source>the position is unknown; home first</source>
+        <translation>die Position ist unbekannt; erst Referenzfahrt</translation>
+    </message>
+    <message>
+        <source>the position is certain: no connection was lost</source>
+        <translation>die Position ist sicher: keine Verbindung ging verloren</translation>
+    </message>
+    <message>
+        <source>there is no previous position</source>
+        <translation>es gibt keine frühere Position</translation>
+    </message>
+    <message>
+        <source>the parameters match the robot file or are accepted</source>
+        <translation>die Parameter stimmen mit der Roboterdatei überein oder sind übernommen</translation>
+    </message>
+    <message>
+        <source>this robot has no tip for a floor to limit</source>
+        <translation>dieser Roboter hat keine Spitze, die ein Boden begrenzen könnte</translation>
+    </message>
+    <message>
+        <source>{name} has no limit switches</source>
+        <translation>{name} hat keine Endschalter</translation>
+    </message>
+    <message>
+        <source>{latched} is locked; release it first</source>
+        <translation>{latched} ist gesperrt; erst freigeben</translation>
+    </message>
+    <message>
+        <source>{name} stores no parameters</source>
+        <translation>{name} speichert keine Parameter</translation>
+    </message>
+    <message>
+        <source>Store the values of the robot file in the device</source>
+        <translation>Die Werte der Roboterdatei im Gerät speichern</translation>
+    </message>
+    <message>
+        <source>Use the values of the device until the next connection</source>
+        <translation>Bis zur nächsten Verbindung die Werte des Geräts verwenden</translation>
+    </message>
+    <message>
+        <source>{name} stores no parameters.</source>
+        <translation>{name} speichert keine Parameter.</translation>
+    </message>
+    <message>
+        <source>The parameters match the robot file.</source>
+        <translation>Die Parameter stimmen mit der Roboterdatei überein.</translation>
+    </message>
+    <message>
+        <source>{are} from the robot file; the machine cannot move until you write or accept the values.</source>
+        <translation>{are} von der Roboterdatei ab; bis zum Schreiben oder Übernehmen bewegt sich nichts.</translation>
+    </message>
+    <message>
+        <source>Set the floor at the present height of the tip; nothing moves below it</source>
+        <translation>Den Boden auf die jetzige Höhe der Spitze setzen; darunter bewegt sich nichts</translation>
+    </message>
+    <message>
+        <source>Remove the lower limit of the tip; only the axis ranges remain</source>
+        <translation>Die untere Grenze der Spitze entfernen; nur die Achsbereiche bleiben</translation>
+    </message>
+    <message>
+        <source>there is none</source>
+        <translation>gibt es keinen</translation>
+    </message>
+    <message>
+        <source>Set floor</source>
+        <translation>Boden setzen</translation>
+    </message>
+    <message>
+        <source>The tip has moved, so no floor was set. Try again when it is at rest.</source>
+        <translation>Die Spitze hat sich bewegt, daher wurde kein Boden gesetzt. In Ruhe erneut versuchen.</translation>
+    </message>
+    <message>
+        <source>Set the floor at {height}, the present height of the tip? So far {old}.</source>
+        <translation>Den Boden auf {height} setzen, die jetzige Höhe der Spitze? Bisher {old}.</translation>
+    </message>
+    <message>
+        <source>Remove the floor at {height}? Without a floor only the axis ranges limit the tip.</source>
+        <translation>Den Boden bei {height} entfernen? Ohne Boden begrenzen nur die Achsbereiche die Spitze.</translation>
+    </message>
+    <message>
+        <source>Stop all axes and block motion until release</source>
+        <translation>Alle Achsen anhalten und Bewegung bis zur Freigabe sperren</translation>
+    </message>
+    <message>
+        <source>Release the lock; the machine stays at rest until the next command</source>
+        <translation>Die Sperre lösen; die Maschine bleibt bis zum nächsten Befehl in Ruhe</translation>
+    </message>
+    <message>
+        <source>{latched} is already locked</source>
+        <translation>{latched} ist schon gesperrt</translation>
+    </message>
+    <message>
+        <source>For service: apply this voltage slowly, regardless of the position</source>
+        <translation>Für den Service: diese Spannung langsam anlegen, ohne Rücksicht auf die Position</translation>
+    </message>
+    <message>
+        <source>No position is known.</source>
+        <translation>Keine Position ist bekannt.</translation>
+    </message>
+    <message>
+        <source>Find the limit switches of all axes with switches</source>
+        <translation>Die Endschalter aller Achsen suchen, die welche haben</translation>
+    </message>
+    <message>
+        <source>Confirm that the machine has not moved since the connection was lost</source>
+        <translation>Bestätigen, dass sich die Maschine seit dem Verlust der Verbindung nicht bewegt hat</translation>
+    </message>
+    <message>
+        <source>Return to the position before the latest move: up, across, down</source>
+        <translation>Zur Position vor der letzten Bewegung zurückfahren: hoch, quer, ab</translation>
+    </message>
+    <message>
+        <source>No axis is moving.</source>
+        <translation>Keine Achse bewegt sich.</translation>
+    </message>
+    <message>
+        <source>Not homed: {axes}</source>
+        <translation>Nicht referenziert: {axes}</translation>
+    </message>
+    <message>
+        <source>Device that the program controls: the simulator, boards, or a device of a plugin</source>
+        <translation>Gerät, das das Programm steuert: Simulator, Steuerkarten oder Gerät eines Plugins</translation>
+    </message>
+    <message>
+        <source>Connect to {name} again with the same settings</source>
+        <translation>Mit denselben Einstellungen wieder mit {name} verbinden</translation>
     </message>
 </context>
 <context>

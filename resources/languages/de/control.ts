@@ -49,11 +49,7 @@
     </message>
     <message>
         <source>Move?</source>
-        <translation>Sicher?</translation>
-    </message>
-    <message>
-        <source>while it is held</source>
-        <translation>solange gehalten</translation>
+        <translation>Fahren?</translation>
     </message>
     <message>
         <source>one step</source>
@@ -72,20 +68,8 @@
         <translation>{low} bis {high} {symbol}</translation>
     </message>
     <message>
-        <source>Where {name} is to go, {bounds}; Enter, or Go</source>
-        <translation>Wohin {name} fahren soll, {bounds}; Enter oder Los</translation>
-    </message>
-    <message>
-        <source>A large move: press once more to make it</source>
-        <translation>Eine große Bewegung: zum Ausführen nochmals drücken</translation>
-    </message>
-    <message>
         <source>Move {name} to the typed position</source>
         <translation>{name} zur eingegebenen Position fahren</translation>
-    </message>
-    <message>
-        <source>its position is not known</source>
-        <translation>die Position ist unbekannt</translation>
     </message>
     <message>
         <source>its reading is too old</source>
@@ -101,39 +85,19 @@
     </message>
     <message>
         <source>Meaning of the stick&apos;s position</source>
-        <translation>Bedeutung der Stellung des Joysticks</translation>
+        <translation>Bedeutung der Auslenkung des Joysticks</translation>
     </message>
     <message>
         <source>Step preset</source>
         <translation>Stufe</translation>
     </message>
     <message>
-        <source>Factor on way, speed and force of the stick</source>
-        <translation>Faktor auf Weg, Geschwindigkeit und Kraft des Knüppels</translation>
-    </message>
-    <message>
         <source>Take over</source>
         <translation>Übernehmen</translation>
     </message>
     <message>
-        <source>No axis is driven now.</source>
-        <translation>Keine Achse wird gefahren.</translation>
-    </message>
-    <message>
-        <source>nobody else drives an axis</source>
-        <translation>niemand sonst bewegt eine Achse</translation>
-    </message>
-    <message>
-        <source>Take over the axes that somebody else drives; they go on until you command them</source>
-        <translation>Achsen übernehmen, die jemand anders bewegt; sie fahren weiter, bis ein neuer Befehl kommt</translation>
-    </message>
-    <message>
         <source>Mode {text}</source>
         <translation>Modus {text}</translation>
-    </message>
-    <message>
-        <source>How the joystick stands</source>
-        <translation>Stand des Joysticks</translation>
     </message>
     <message>
         <source>Device, mode and scaling</source>
@@ -180,20 +144,8 @@
         <translation>Stufe {name}</translation>
     </message>
     <message>
-        <source>Prepare the penetration; nothing moves yet</source>
-        <translation>Die Penetration vorbereiten; noch bewegt sich nichts</translation>
-    </message>
-    <message>
-        <source>Begin the armed penetration</source>
-        <translation>Die scharfe Penetration beginnen</translation>
-    </message>
-    <message>
         <source>Phase of the penetration</source>
         <translation>Phase der Penetration</translation>
-    </message>
-    <message>
-        <source>it is in {phase}; stop it first</source>
-        <translation>sie läuft ({phase}); erst anhalten</translation>
     </message>
     <message>
         <source>Axis {axis}; parameters: see the Penetration panel.</source>
@@ -209,10 +161,6 @@
         <translation>Gespeicherte Positionen</translation>
     </message>
     <message>
-        <source>Places of all axes, by name</source>
-        <translation>Positionen aller Achsen, nach Namen</translation>
-    </message>
-    <message>
         <source>none saved yet</source>
         <translation>noch keine</translation>
     </message>
@@ -222,19 +170,11 @@
     </message>
     <message>
         <source>Skip</source>
-        <translation>Auslassen</translation>
-    </message>
-    <message>
-        <source>Leave this step out</source>
-        <translation>Diesen Schritt auslassen</translation>
+        <translation>Überspringen</translation>
     </message>
     <message>
         <source>Teach here?</source>
-        <translation>Hier lernen?</translation>
-    </message>
-    <message>
-        <source>no position {name!r} is saved; skip, or save it</source>
-        <translation>keine Position {name!r} ist gespeichert; auslassen oder speichern</translation>
+        <translation>Hier einlernen?</translation>
     </message>
     <message>
         <source>Retract: Z to its upper end</source>
@@ -269,20 +209,8 @@
         <translation>Halt und sperren</translation>
     </message>
     <message>
-        <source>Pin or dish is changed and hands are clear: release the lock</source>
-        <translation>Stift oder Schale ist gewechselt, keine Hand ist in der Nähe: Sperre lösen</translation>
-    </message>
-    <message>
         <source>Release</source>
         <translation>Freigeben</translation>
-    </message>
-    <message>
-        <source>Go above the work position, Z up</source>
-        <translation>Über die Arbeitsposition fahren, Z oben</translation>
-    </message>
-    <message>
-        <source>Find the tip in the microscope; come down by hand, slowly</source>
-        <translation>Die Spitze im Mikroskop suchen; langsam von Hand herunterfahren</translation>
     </message>
     <message>
         <source>Show the microscope</source>
@@ -290,11 +218,11 @@
     </message>
     <message>
         <source>Teach the floor where the tip touches</source>
-        <translation>Den Boden lernen, wo die Spitze berührt</translation>
+        <translation>Den Boden einlernen, wo die Spitze aufsetzt</translation>
     </message>
     <message>
         <source>Teach floor</source>
-        <translation>Boden lernen</translation>
+        <translation>Boden setzen</translation>
     </message>
     <message>
         <source>name of this position</source>
@@ -345,14 +273,6 @@
         <translation>keine Position ist gewählt</translation>
     </message>
     <message>
-        <source>Lift the tip above both places, go across, come down</source>
-        <translation>Die Spitze über beide Orte heben, verfahren, absenken</translation>
-    </message>
-    <message>
-        <source>Delete this position, after a question</source>
-        <translation>Diese Position nach einer Rückfrage löschen</translation>
-    </message>
-    <message>
         <source>Save the present target of all axes</source>
         <translation>Das jetzige Ziel aller Achsen speichern</translation>
     </message>
@@ -381,14 +301,6 @@
         <translation>Die Endschalter aller Achsen suchen</translation>
     </message>
     <message>
-        <source>Go back to where the axes rested before the latest move: up, across, down</source>
-        <translation>Dorthin zurück, wo die Achsen vor der letzten Bewegung ruhten: hoch, quer, ab</translation>
-    </message>
-    <message>
-        <source>Go to the position {name!r} by a safe way; to move it, save another one by that name</source>
-        <translation>Auf sicherem Weg zur Position {name!r} fahren; um sie zu verlegen, eine andere unter diesem Namen speichern</translation>
-    </message>
-    <message>
         <source>Set here?</source>
         <translation>Hier setzen?</translation>
     </message>
@@ -401,24 +313,12 @@
         <translation>Position {name!r} ist gespeichert.</translation>
     </message>
     <message>
-        <source>Delete it?</source>
-        <translation>Sicher?</translation>
-    </message>
-    <message>
-        <source>old</source>
-        <translation>alt</translation>
-    </message>
-    <message>
         <source>Step</source>
         <translation>Schritt</translation>
     </message>
     <message>
         <source>Speed of moves</source>
         <translation>Geschwindigkeit der Bewegungen</translation>
-    </message>
-    <message>
-        <source>Speed of steps, hold and go-to, of the axis&apos; greatest</source>
-        <translation>Tempo von Schritt, Halten und Anfahren, in Teilen des größten der Achse</translation>
     </message>
     <message>
         <source>angles</source>
@@ -431,10 +331,6 @@
     <message>
         <source>Jog step, {kind}</source>
         <translation>Tippschritt, {kind}</translation>
-    </message>
-    <message>
-        <source>How far one press of + or − moves an axis ({kind}); hold: while the button is held</source>
-        <translation>Weg einer Achse je Druck auf + oder − ({kind}); halten: solange der Knopf gehalten wird</translation>
     </message>
     <message>
         <source>hold</source>
@@ -490,51 +386,23 @@
     </message>
     <message>
         <source>{age:.1f} s old</source>
-        <translation>{age:.1f} s alt</translation>
+        <translation>vor {age:.1f} s</translation>
     </message>
     <message>
         <source>{age:.0f} min old</source>
-        <translation>{age:.0f} min alt</translation>
+        <translation>vor {age:.0f} min</translation>
     </message>
     <message>
         <source>{age:.0f} h old</source>
-        <translation>{age:.0f} h alt</translation>
+        <translation>vor {age:.0f} h</translation>
     </message>
     <message>
         <source>not homed</source>
         <translation>nicht referenziert</translation>
     </message>
     <message>
-        <source>H⁻¹: commands go through the inverse {name}; take it off in Compensation.</source>
-        <translation>H⁻¹: Sollwerte gehen durch die Inverse {name}; abnehmen im Panel Kompensation.</translation>
-    </message>
-    <message>
-        <source>{sign}: jogs and go-to end from below.</source>
-        <translation>{sign}: Schritte und Fahrten enden von unten.</translation>
-    </message>
-    <message>
-        <source>{sign}: jogs and go-to end from above.</source>
-        <translation>{sign}: Schritte und Fahrten enden von oben.</translation>
-    </message>
-    <message>
-        <source>In brackets: it did not come here so.</source>
-        <translation>In Klammern: hierher kam sie nicht so.</translation>
-    </message>
-    <message>
         <source>{label} range: {low} … {high}</source>
         <translation>Bereich {label}: {low} … {high}</translation>
-    </message>
-    <message>
-        <source>{range}; left: {down} down, {up} up</source>
-        <translation>{range}; noch: {down} abwärts, {up} aufwärts</translation>
-    </message>
-    <message>
-        <source>a point, no comma</source>
-        <translation>nur ein Komma, keine Tausenderpunkte</translation>
-    </message>
-    <message>
-        <source>no number</source>
-        <translation>keine Zahl</translation>
     </message>
     <message>
         <source>to {target}</source>
@@ -545,16 +413,8 @@
         <translation>{label}: {text!r} ist keine Position; eine Zahl in {symbol} mit Dezimalkomma eingeben.</translation>
     </message>
     <message>
-        <source>No tip: this robot has no chain of axes to one.</source>
-        <translation>Keine Spitze: bei diesem Roboter führt keine Achskette dorthin.</translation>
-    </message>
-    <message>
         <source>Tip: unknown.</source>
         <translation>Spitze: unbekannt.</translation>
-    </message>
-    <message>
-        <source>Tip {height} high; no floor is taught.</source>
-        <translation>Spitze auf {height}; kein Boden ist gelernt.</translation>
     </message>
     <message>
         <source>Tip {height} below its floor.</source>
@@ -574,19 +434,11 @@
     </message>
     <message>
         <source>No floor taught</source>
-        <translation>Kein Boden gelernt</translation>
+        <translation>Kein Boden gesetzt</translation>
     </message>
     <message>
         <source>Tip unknown</source>
         <translation>Spitze unbekannt</translation>
-    </message>
-    <message>
-        <source>Only the ranges of its axes bound this robot.</source>
-        <translation>Nur die Bereiche seiner Achsen begrenzen diesen Roboter.</translation>
-    </message>
-    <message>
-        <source>Only the ranges of the axes bound the tip. Teach a floor in Connection, Tip.</source>
-        <translation>Nur die Bereiche der Achsen begrenzen die Spitze. Unter Verbindung, Spitze einen Boden einlernen.</translation>
     </message>
     <message>
         <source>floor at {height}</source>
@@ -601,16 +453,8 @@
         <translation>höchstens {height} von der Mitte</translation>
     </message>
     <message>
-        <source> Within {height} above the floor it goes down at {speed} at most.</source>
-        <translation> Bis {height} über dem Boden sinkt sie mit höchstens {speed}.</translation>
-    </message>
-    <message>
         <source>Axis</source>
         <translation>Achse</translation>
-    </message>
-    <message>
-        <source>Whose range and approach</source>
-        <translation>Wessen Bereich und Anfahrt</translation>
     </message>
     <message>
         <source>Low end of the range</source>
@@ -621,12 +465,8 @@
         <translation>Oberes Ende des Bereichs</translation>
     </message>
     <message>
-        <source>Width of the approach</source>
-        <translation>Weite der Anfahrt</translation>
-    </message>
-    <message>
         <source>Narrow</source>
-        <translation>Einengen</translation>
+        <translation>Begrenzen</translation>
     </message>
     <message>
         <source>Whole</source>
@@ -653,36 +493,196 @@
         <translation>die Maschine bewegt sich</translation>
     </message>
     <message>
-        <source>Let the axis be sent nowhere else</source>
-        <translation>Die Achse nirgends sonst hinschicken lassen</translation>
-    </message>
-    <message>
-        <source>its range is whole</source>
-        <translation>ihr Bereich ist ganz</translation>
-    </message>
-    <message>
-        <source>Give back the range of the robot file</source>
-        <translation>Den Bereich der Roboterdatei zurückgeben</translation>
-    </message>
-    <message>
-        <source>only stepper axes have backlash to take up</source>
-        <translation>nur Schrittmotorachsen haben Spiel, das herauszunehmen ist</translation>
-    </message>
-    <message>
         <source>Within {ends}</source>
         <translation>Innerhalb {ends}</translation>
     </message>
     <message>
-        <source>From which side targets are come to</source>
-        <translation>Von welcher Seite Ziele angefahren werden</translation>
-    </message>
-    <message>
-        <source>How far beyond it goes first: more than the play</source>
-        <translation>Wie weit sie erst darüber hinaus fährt: mehr als das Spiel</translation>
-    </message>
-    <message>
         <source>Range</source>
         <translation>Bereich</translation>
+    </message>
+    <message>
+        <source>Speed of jogging and go-to, relative to the axis&apos; maximum</source>
+        <translation>Geschwindigkeit von Tippen und Anfahren, relativ zum Höchstwert der Achse</translation>
+    </message>
+    <message>
+        <source>Distance of one press of + or − ({kind}); hold: while the button is pressed</source>
+        <translation>Weg je Druck auf + oder − ({kind}); halten: solange der Knopf gedrückt ist</translation>
+    </message>
+    <message>
+        <source>outdated</source>
+        <translation>veraltet</translation>
+    </message>
+    <message>
+        <source>Saved positions of all axes</source>
+        <translation>Gespeicherte Positionen aller Achsen</translation>
+    </message>
+    <message>
+        <source>Raise the tip above both positions, move across, lower it</source>
+        <translation>Die Spitze über beide Positionen heben, verfahren, absenken</translation>
+    </message>
+    <message>
+        <source>Delete this position after confirmation</source>
+        <translation>Diese Position nach einer Rückfrage löschen</translation>
+    </message>
+    <message>
+        <source>Return to the position before the latest move: up, across, down</source>
+        <translation>Zur Position vor der letzten Bewegung zurückfahren: hoch, quer, ab</translation>
+    </message>
+    <message>
+        <source>Go to position {name!r} along a safe path; save a new one by this name to move it</source>
+        <translation>Auf sicherer Bahn zur Position {name!r} fahren; zum Verlegen unter diesem Namen neu speichern</translation>
+    </message>
+    <message>
+        <source>Delete?</source>
+        <translation>Löschen?</translation>
+    </message>
+    <message>
+        <source>Prepare the penetration without motion</source>
+        <translation>Die Penetration vorbereiten, ohne Bewegung</translation>
+    </message>
+    <message>
+        <source>Start the armed penetration</source>
+        <translation>Die vorbereitete Penetration starten</translation>
+    </message>
+    <message>
+        <source>the penetration is running ({phase}); stop it first</source>
+        <translation>die Penetration läuft ({phase}); erst anhalten</translation>
+    </message>
+    <message>
+        <source>State of the joystick</source>
+        <translation>Zustand des Joysticks</translation>
+    </message>
+    <message>
+        <source>Axis whose range and approach are set</source>
+        <translation>Achse, deren Bereich und Anfahrt gelten</translation>
+    </message>
+    <message>
+        <source>Overshoot of the approach</source>
+        <translation>Überfahrweg der Anfahrt</translation>
+    </message>
+    <message>
+        <source>Side from which targets are approached</source>
+        <translation>Seite, von der Ziele angefahren werden</translation>
+    </message>
+    <message>
+        <source>Limit the targets of the axis to this range</source>
+        <translation>Die Ziele der Achse auf diesen Bereich begrenzen</translation>
+    </message>
+    <message>
+        <source>Restore the range of the robot file</source>
+        <translation>Den Bereich der Roboterdatei wiederherstellen</translation>
+    </message>
+    <message>
+        <source>only stepper axes have backlash</source>
+        <translation>nur Schrittmotorachsen haben Spiel</translation>
+    </message>
+    <message>
+        <source>Distance beyond the target, more than the backlash</source>
+        <translation>Weg über das Ziel hinaus, mehr als das Spiel</translation>
+    </message>
+    <message>
+        <source>its range is not limited</source>
+        <translation>ihr Bereich ist nicht begrenzt</translation>
+    </message>
+    <message>
+        <source>its position is unknown</source>
+        <translation>die Position ist unbekannt</translation>
+    </message>
+    <message>
+        <source>while pressed</source>
+        <translation>solange gedrückt</translation>
+    </message>
+    <message>
+        <source>A large move: press again to confirm</source>
+        <translation>Eine große Bewegung: zur Bestätigung nochmals drücken</translation>
+    </message>
+    <message>
+        <source>Target of {name}, {bounds}; press Enter or Go</source>
+        <translation>Ziel von {name}, {bounds}; Enter oder Los</translation>
+    </message>
+    <message>
+        <source>H⁻¹: commands pass the inverse {name}; remove it in the panel Compensation.</source>
+        <translation>H⁻¹: Sollwerte durchlaufen die Inverse {name}; im Panel Kompensation abschalten.</translation>
+    </message>
+    <message>
+        <source>No tip: this robot has no kinematic chain to a tip.</source>
+        <translation>Keine Spitze: dieser Roboter hat keine kinematische Kette zu einer Spitze.</translation>
+    </message>
+    <message>
+        <source>Only the axis ranges limit this robot.</source>
+        <translation>Nur die Achsbereiche begrenzen diesen Roboter.</translation>
+    </message>
+    <message>
+        <source>Only the axis ranges limit the tip. Teach a floor in Connection, Tip.</source>
+        <translation>Nur die Achsbereiche begrenzen die Spitze. Unter Verbindung, Spitze einen Boden einlernen.</translation>
+    </message>
+    <message>
+        <source>{sign}: jogs and go-to approach from below.</source>
+        <translation>{sign}: Tippen und Anfahren nähern sich von unten.</translation>
+    </message>
+    <message>
+        <source>{sign}: jogs and go-to approach from above.</source>
+        <translation>{sign}: Tippen und Anfahren nähern sich von oben.</translation>
+    </message>
+    <message>
+        <source>{range}; remaining: {down} down, {up} up</source>
+        <translation>{range}; übrig: {down} abwärts, {up} aufwärts</translation>
+    </message>
+    <message>
+        <source>decimal point, no comma</source>
+        <translation>nur ein Komma, keine Tausenderpunkte</translation>
+    </message>
+    <message>
+        <source>not a number</source>
+        <translation>keine Zahl</translation>
+    </message>
+    <message>
+        <source>In brackets: the last approach was from the other side.</source>
+        <translation>In Klammern: die letzte Anfahrt kam von der anderen Seite.</translation>
+    </message>
+    <message>
+        <source>Tip at {height}; no floor is taught.</source>
+        <translation>Spitze auf {height}; kein Boden ist eingelernt.</translation>
+    </message>
+    <message>
+        <source> Within {height} above the floor it descends at {speed} at most.</source>
+        <translation> Bis {height} über dem Boden sinkt sie mit höchstens {speed}.</translation>
+    </message>
+    <message>
+        <source>Skip this step</source>
+        <translation>Diesen Schritt überspringen</translation>
+    </message>
+    <message>
+        <source>position {name!r} is not saved; skip the step or save the position</source>
+        <translation>Position {name!r} ist nicht gespeichert; den Schritt überspringen oder die Position speichern</translation>
+    </message>
+    <message>
+        <source>Pin or dish changed, hands clear: release the lock</source>
+        <translation>Nadel oder Schale gewechselt, Hände entfernt: Sperre lösen</translation>
+    </message>
+    <message>
+        <source>Move above the work position with Z raised</source>
+        <translation>Mit angehobenem Z über die Arbeitsposition fahren</translation>
+    </message>
+    <message>
+        <source>Find the tip in the microscope; lower it slowly by hand</source>
+        <translation>Die Spitze im Mikroskop suchen; langsam von Hand absenken</translation>
+    </message>
+    <message>
+        <source>Factor on distance, speed and force of the joystick</source>
+        <translation>Faktor auf Weg, Geschwindigkeit und Kraft des Joysticks</translation>
+    </message>
+    <message>
+        <source>Take over axes that another control moves; they continue until your first command</source>
+        <translation>Achsen übernehmen, die eine andere Steuerung bewegt; sie fahren bis zum ersten eigenen Befehl weiter</translation>
+    </message>
+    <message>
+        <source>No axis is moving.</source>
+        <translation>Keine Achse bewegt sich.</translation>
+    </message>
+    <message>
+        <source>no other control moves an axis</source>
+        <translation>keine andere Steuerung bewegt eine Achse</translation>
     </message>
 </context>
 <context>

@@ -4,24 +4,12 @@
 <context>
     <name>effects</name>
     <message>
-        <source>Add an effect, and tune it here while the simulator runs.</source>
-        <translation>Einen Effekt hinzufügen und hier einstellen, während der Simulator läuft.</translation>
-    </message>
-    <message>
         <source>Formulation</source>
         <translation>Ansatz</translation>
     </message>
     <message>
-        <source>Which equations the effect has; they stand below</source>
-        <translation>Welche Gleichungen der Effekt hat; sie stehen darunter</translation>
-    </message>
-    <message>
         <source>from</source>
         <translation>von</translation>
-    </message>
-    <message>
-        <source>The axis that the effect comes from</source>
-        <translation>Die Achse, von der der Effekt kommt</translation>
     </message>
     <message>
         <source>Must be {range}</source>
@@ -32,92 +20,40 @@
         <translation>Vorgabe {value}</translation>
     </message>
     <message>
-        <source>{name} back to its preset</source>
-        <translation>{name} zurück auf die Vorgabe</translation>
-    </message>
-    <message>
-        <source>Back to the preset, {value}</source>
-        <translation>Zurück auf die Vorgabe, {value}</translation>
-    </message>
-    <message>
         <source>not connected</source>
         <translation>nicht verbunden</translation>
-    </message>
-    <message>
-        <source>the simulator did not take the change</source>
-        <translation>der Simulator hat die Änderung nicht übernommen</translation>
     </message>
     <message>
         <source>Left out ({n})</source>
         <translation>Ausgelassen ({n})</translation>
     </message>
     <message>
-        <source>Effects belong to the simulator. A real machine has its own: connect to the simulator to switch and tune any.</source>
-        <translation>Effekte gehören zum Simulator. Eine echte Maschine hat ihre eigenen: mit dem Simulator verbinden, um Effekte zu schalten und einzustellen.</translation>
-    </message>
-    <message>
         <source>Add effect</source>
         <translation>Hinzufügen</translation>
-    </message>
-    <message>
-        <source>Choose an axis, an effect that it may have, and its formulation</source>
-        <translation>Eine Achse, einen möglichen Effekt und seinen Ansatz wählen</translation>
     </message>
     <message>
         <source>Machine</source>
         <translation>Maschine</translation>
     </message>
     <message>
-        <source>Let the simulator be as the robot file says, or worn, to demonstrate with</source>
-        <translation>Den Simulator so sein lassen, wie die Roboterdatei sagt, oder verschlissen, zur Vorführung</translation>
-    </message>
-    <message>
-        <source>Let the signal meet this effect earlier within its stage</source>
-        <translation>Diesen Effekt innerhalb seiner Stufe früher wirken lassen</translation>
-    </message>
-    <message>
-        <source>Let the signal meet this effect later within its stage</source>
-        <translation>Diesen Effekt innerhalb seiner Stufe später wirken lassen</translation>
-    </message>
-    <message>
         <source>Remove</source>
         <translation>Entfernen</translation>
-    </message>
-    <message>
-        <source>Take this effect away</source>
-        <translation>Diesen Effekt wegnehmen</translation>
     </message>
     <message>
         <source>Undo</source>
         <translation>Rückgängig</translation>
     </message>
     <message>
-        <source>Take back the last change of this list</source>
-        <translation>Die letzte Änderung dieser Liste zurücknehmen</translation>
-    </message>
-    <message>
         <source>All off</source>
         <translation>Alle aus</translation>
-    </message>
-    <message>
-        <source>Compare with the nominal machine: no effect acts until this is released</source>
-        <translation>Vergleich mit der nominellen Maschine: kein Effekt wirkt, bis dies gelöst wird</translation>
     </message>
     <message>
         <source>Load …</source>
         <translation>Laden …</translation>
     </message>
     <message>
-        <source>Take the effects of a robot file in place of these</source>
-        <translation>Die Effekte einer Roboterdatei anstelle dieser nehmen</translation>
-    </message>
-    <message>
         <source>Save robot …</source>
         <translation>Speichern …</translation>
-    </message>
-    <message>
-        <source>Write a robot file of this robot with these effects</source>
-        <translation>Eine Roboterdatei dieses Roboters mit diesen Effekten schreiben</translation>
     </message>
     <message>
         <source>{n} left out</source>
@@ -126,18 +62,6 @@
     <message>
         <source>Effects that cannot be loaded:</source>
         <translation>Effekte, die sich nicht laden lassen:</translation>
-    </message>
-    <message>
-        <source>As the robot file says</source>
-        <translation>Wie die Roboterdatei sagt</translation>
-    </message>
-    <message>
-        <source>Worn, to demonstrate with</source>
-        <translation>Verschlissen, zur Vorführung</translation>
-    </message>
-    <message>
-        <source>{path}: the robot file has no effects; these stay</source>
-        <translation>{path}: die Roboterdatei hat keine Effekte; diese bleiben</translation>
     </message>
     <message>
         <source>Reading {name} …</source>
@@ -200,18 +124,6 @@
         <translation>zwischen {low} und {high}</translation>
     </message>
     <message>
-        <source>{text} is no number; type one with a decimal point</source>
-        <translation>{text} ist keine Zahl; eine mit Dezimalkomma eingeben</translation>
-    </message>
-    <message>
-        <source>{text} is no number; type one in {unit} with a decimal point</source>
-        <translation>{text} ist keine Zahl; eine in {unit} mit Dezimalkomma eingeben</translation>
-    </message>
-    <message>
-        <source>{value} is refused: must be {range}</source>
-        <translation>{value} wird abgelehnt: muss {range} sein</translation>
-    </message>
-    <message>
         <source>On</source>
         <translation>An</translation>
     </message>
@@ -226,14 +138,6 @@
     <message>
         <source>Effect</source>
         <translation>Effekt</translation>
-    </message>
-    <message>
-        <source>Effects in place</source>
-        <translation>Vorhandene Effekte</translation>
-    </message>
-    <message>
-        <source>Whether the effect acts</source>
-        <translation>Ob der Effekt wirkt</translation>
     </message>
     <message>
         <source>{formulation}, from {axis}</source>
@@ -292,16 +196,8 @@
         <translation>Anstiegsbegrenzung</translation>
     </message>
     <message>
-        <source>Only large and fast motion suffers; it becomes a triangle.</source>
-        <translation>Nur große und schnelle Bewegung leidet; sie wird zum Dreieck.</translation>
-    </message>
-    <message>
         <source>Creep</source>
         <translation>Kriechen</translation>
-    </message>
-    <message>
-        <source>Goes on after a move, in proportion to it and with its sign, by the log of time.</source>
-        <translation>Geht nach einer Bewegung weiter, proportional zu ihr und mit ihrem Vorzeichen, mit dem Logarithmus der Zeit.</translation>
     </message>
     <message>
         <source>Gain error</source>
@@ -314,10 +210,6 @@
     <message>
         <source>Hysteresis</source>
         <translation>Hysterese</translation>
-    </message>
-    <message>
-        <source>Loops whose width grows faster than their amplitude, at any pace; odd distortion.</source>
-        <translation>Schleifen, deren Breite schneller wächst als ihre Amplitude, bei jedem Tempo; ungerade Verzerrung.</translation>
     </message>
     <message>
         <source>Lost steps</source>
@@ -348,16 +240,8 @@
         <translation>Umkehrspiel</translation>
     </message>
     <message>
-        <source>A dead band at each reversal, as wide at any amplitude and speed.</source>
-        <translation>Ein Totband bei jeder Umkehr, gleich breit bei jeder Amplitude und Geschwindigkeit.</translation>
-    </message>
-    <message>
         <source>Contact</source>
         <translation>Kontakt</translation>
-    </message>
-    <message>
-        <source>A stop or a membrane: acts beyond a position alone.</source>
-        <translation>Ein Anschlag oder eine Membran: wirkt nur jenseits einer Position.</translation>
     </message>
     <message>
         <source>Cross coupling</source>
@@ -396,32 +280,16 @@
         <translation>Resonanzabweichung</translation>
     </message>
     <message>
-        <source>Frequency or damping off: seen near the resonance alone.</source>
-        <translation>Frequenz oder Dämpfung falsch: nur nahe der Resonanz zu sehen.</translation>
-    </message>
-    <message>
         <source>Stiffness nonlinearity</source>
         <translation>Nichtlineare Steifigkeit</translation>
-    </message>
-    <message>
-        <source>A bowed static curve, and a resonance that moves with position.</source>
-        <translation>Eine gebogene statische Kennlinie und eine Resonanz, die mit der Position wandert.</translation>
     </message>
     <message>
         <source>Thermal drift</source>
         <translation>Thermische Drift</translation>
     </message>
     <message>
-        <source>Grows without motion and settles, whatever the command.</source>
-        <translation>Wächst ohne Bewegung und klingt ab, unabhängig vom Sollwert.</translation>
-    </message>
-    <message>
         <source>Vibration</source>
         <translation>Schwingung</translation>
-    </message>
-    <message>
-        <source>Periodic in time, whatever the position and the command.</source>
-        <translation>Periodisch in der Zeit, unabhängig von Position und Sollwert.</translation>
     </message>
     <message>
         <source>Clock skew</source>
@@ -436,16 +304,8 @@
         <translation>Interpolationsfehler</translation>
     </message>
     <message>
-        <source>Periodic in position with the grating&apos;s period, on the reading alone.</source>
-        <translation>Periodisch in der Position mit der Gitterperiode, nur im Messwert.</translation>
-    </message>
-    <message>
         <source>Sensor drift</source>
         <translation>Sensordrift</translation>
-    </message>
-    <message>
-        <source>The reading wanders slowly, at rest too; the reference does not.</source>
-        <translation>Der Messwert wandert langsam, auch in Ruhe; die Referenz nicht.</translation>
     </message>
     <message>
         <source>Sensor gain error</source>
@@ -468,10 +328,6 @@
         <translation>Sensorrauschen</translation>
     </message>
     <message>
-        <source>White scatter of the reading beyond the declared, without memory.</source>
-        <translation>Weiße Streuung des Messwerts über die angegebene hinaus, ohne Gedächtnis.</translation>
-    </message>
-    <message>
         <source>Sensor nonlinearity</source>
         <translation>Sensornichtlinearität</translation>
     </message>
@@ -482,10 +338,6 @@
     <message>
         <source>Sensor outliers</source>
         <translation>Sensorausreißer</translation>
-    </message>
-    <message>
-        <source>Single samples far off: spikes, or readings that drop out.</source>
-        <translation>Einzelne Werte weit daneben: Ausreißer oder Messwerte, die ausfallen.</translation>
     </message>
     <message>
         <source>Sensor quantization</source>
@@ -704,36 +556,12 @@
         <translation>weiß</translation>
     </message>
     <message>
-        <source>0: rigid; 1: taken up from the start on</source>
-        <translation>0: starr; 1: von Anfang an aufgenommen</translation>
-    </message>
-    <message>
-        <source>1/n; 0 is the hard one</source>
-        <translation>1/n; 0 ist die harte</translation>
-    </message>
-    <message>
-        <source>1: all plays weigh the same; more: wide ones do</source>
-        <translation>1: alle Spiele gleich schwer; mehr: breite schwerer</translation>
-    </message>
-    <message>
         <source>A, mean</source>
         <translation>A, Mittel</translation>
     </message>
     <message>
-        <source>A, where the drift ends</source>
-        <translation>A, wo die Drift endet</translation>
-    </message>
-    <message>
-        <source>Fc/σ₀, by which bristles yield</source>
-        <translation>Fc/σ₀, um das Borsten nachgeben</translation>
-    </message>
-    <message>
         <source>L, rms per factor e of frequency</source>
         <translation>L, rms je Faktor e der Frequenz</translation>
-    </message>
-    <message>
-        <source>L, where all slip</source>
-        <translation>L, wo alle gleiten</translation>
     </message>
     <message>
         <source>P, four full steps</source>
@@ -752,18 +580,6 @@
         <translation>S₂, mit seinem Kosinus: ungleiche Verstärkungen, Phase nicht 90°</translation>
     </message>
     <message>
-        <source>W, of a loop that is long beside ℓ</source>
-        <translation>W, einer Schleife, die lang gegen ℓ ist</translation>
-    </message>
-    <message>
-        <source>a, of its deflection</source>
-        <translation>a, ihrer Auslenkung</translation>
-    </message>
-    <message>
-        <source>a₁, a bow</source>
-        <translation>a₁, ein Bogen</translation>
-    </message>
-    <message>
         <source>b at mid-range, as a share of the range</source>
         <translation>b in Bereichsmitte, als Anteil des Bereichs</translation>
     </message>
@@ -772,28 +588,8 @@
         <translation>b, Fehler in Bereichsmitte</translation>
     </message>
     <message>
-        <source>b, of its speed over ω</source>
-        <translation>b, ihrer Geschwindigkeit durch ω</translation>
-    </message>
-    <message>
-        <source>c, greatest of the odd part</source>
-        <translation>c, Größtwert des ungeraden Teils</translation>
-    </message>
-    <message>
-        <source>c₁, greatest as the run begins</source>
-        <translation>c₁, am größten zu Beginn</translation>
-    </message>
-    <message>
-        <source>c₂, of the second harmonic</source>
-        <translation>c₂, der zweiten Oberwelle</translation>
-    </message>
-    <message>
         <source>c₂, twice a period</source>
         <translation>c₂, zweimal je Periode</translation>
-    </message>
-    <message>
-        <source>damping ratio on the bristles</source>
-        <translation>Dämpfungsgrad der Borsten</translation>
     </message>
     <message>
         <source>dry friction</source>
@@ -804,16 +600,8 @@
         <translation>trockene Reibung rückwärts</translation>
     </message>
     <message>
-        <source>dry friction backward over forward</source>
-        <translation>trockene Reibung rückwärts zu vorwärts</translation>
-    </message>
-    <message>
         <source>dry friction forward</source>
         <translation>trockene Reibung vorwärts</translation>
-    </message>
-    <message>
-        <source>e, of the sensitivity</source>
-        <translation>e, der Empfindlichkeit</translation>
     </message>
     <message>
         <source>e, relative</source>
@@ -824,42 +612,6 @@
         <translation>Zunahme der Steigung von Ende zu Ende</translation>
     </message>
     <message>
-        <source>how far inside the high end of the input&apos;s range the output ends</source>
-        <translation>wie weit vor dem oberen Ende des Eingangsbereichs der Ausgang endet</translation>
-    </message>
-    <message>
-        <source>how far inside the low end of the input&apos;s range the output ends</source>
-        <translation>wie weit vor dem unteren Ende des Eingangsbereichs der Ausgang endet</translation>
-    </message>
-    <message>
-        <source>how often it happens</source>
-        <translation>wie oft es geschieht</translation>
-    </message>
-    <message>
-        <source>motion here over motion there</source>
-        <translation>Bewegung hier zu Bewegung dort</translation>
-    </message>
-    <message>
-        <source>n; whole on a machine, any number here so that a fit can move it</source>
-        <translation>n; an der Maschine ganz, hier beliebig, damit eine Anpassung es ändern kann</translation>
-    </message>
-    <message>
-        <source>of a dropout; 0: one sample</source>
-        <translation>eines Ausfalls; 0: eine Abtastung</translation>
-    </message>
-    <message>
-        <source>of static over dry friction</source>
-        <translation>von Haft- zu Gleitreibung</translation>
-    </message>
-    <message>
-        <source>of the lag behind the field</source>
-        <translation>des Nachlaufs hinter dem Feld</translation>
-    </message>
-    <message>
-        <source>of the loop from end to end</source>
-        <translation>der Schleife von Ende zu Ende</translation>
-    </message>
-    <message>
         <source>of the mode</source>
         <translation>der Eigenform</translation>
     </message>
@@ -868,72 +620,20 @@
         <translation>des Spiels</translation>
     </message>
     <message>
-        <source>of the stretch</source>
-        <translation>des Abschnitts</translation>
-    </message>
-    <message>
-        <source>of the stretch, from the low end of the range</source>
-        <translation>des Abschnitts, vom unteren Bereichsende</translation>
-    </message>
-    <message>
-        <source>over the axis&apos; own; negative: met on the way down</source>
-        <translation>zu der eigenen der Achse; negativ: auf dem Weg abwärts getroffen</translation>
-    </message>
-    <message>
-        <source>p, of the grating</source>
-        <translation>p, des Gitters</translation>
-    </message>
-    <message>
         <source>peak of c, as a share of the range</source>
         <translation>Größtwert von c, als Anteil des Bereichs</translation>
-    </message>
-    <message>
-        <source>r, of both time constants</source>
-        <translation>r, beider Zeitkonstanten</translation>
-    </message>
-    <message>
-        <source>r, of the motion seen through the link</source>
-        <translation>r, der durch die Kopplung gesehenen Bewegung</translation>
-    </message>
-    <message>
-        <source>r, of the static motion that goes this way</source>
-        <translation>r, der statischen Bewegung auf diesem Weg</translation>
     </message>
     <message>
         <source>r, rms after one second</source>
         <translation>r, rms nach einer Sekunde</translation>
     </message>
     <message>
-        <source>r, the greatest; current over capacitance</source>
-        <translation>r, die größte; Strom durch Kapazität</translation>
-    </message>
-    <message>
-        <source>r; more than 0: readings come later</source>
-        <translation>r; über 0: Messwerte kommen später</translation>
-    </message>
-    <message>
-        <source>s, 0: all slip at once</source>
-        <translation>s, 0: alle gleiten zugleich</translation>
-    </message>
-    <message>
         <source>s₁, counted from mid-range xₘ</source>
         <translation>s₁, gezählt von der Bereichsmitte xₘ</translation>
     </message>
     <message>
-        <source>s₁, zero as the run begins</source>
-        <translation>s₁, null zu Beginn</translation>
-    </message>
-    <message>
-        <source>s₂, of the second harmonic</source>
-        <translation>s₂, der zweiten Oberwelle</translation>
-    </message>
-    <message>
         <source>s₂, twice a period</source>
         <translation>s₂, zweimal je Periode</translation>
-    </message>
-    <message>
-        <source>t₀, when the logarithm sets in</source>
-        <translation>t₀, wann der Logarithmus einsetzt</translation>
     </message>
     <message>
         <source>t₁, from the start of the run</source>
@@ -952,22 +652,6 @@
         <translation>viskose Reibung vorwärts</translation>
     </message>
     <message>
-        <source>where it is met, from the low end of the range</source>
-        <translation>wo er getroffen wird, vom unteren Bereichsende</translation>
-    </message>
-    <message>
-        <source>where it is straight, from mid-range</source>
-        <translation>wo sie gerade ist, von der Bereichsmitte</translation>
-    </message>
-    <message>
-        <source>where static friction fades</source>
-        <translation>wo die Haftreibung abklingt</translation>
-    </message>
-    <message>
-        <source>z, where in a step the zero lies</source>
-        <translation>z, wo in einer Stufe die Null liegt</translation>
-    </message>
-    <message>
         <source>β; 1/2: straight after a reversal</source>
         <translation>β; 1/2: gerade nach einer Umkehr</translation>
     </message>
@@ -976,64 +660,380 @@
         <translation>β; negativ: auf dem Weg abwärts getroffen</translation>
     </message>
     <message>
-        <source>γ, of a move, per decade of time</source>
-        <translation>γ, einer Bewegung, je Dekade der Zeit</translation>
-    </message>
-    <message>
-        <source>δ, of the natural frequency</source>
-        <translation>δ, der Eigenfrequenz</translation>
-    </message>
-    <message>
-        <source>δ, of the way up against the way down</source>
-        <translation>δ, des Hinwegs gegen den Rückweg</translation>
-    </message>
-    <message>
-        <source>ε, of the damping ratio</source>
-        <translation>ε, des Dämpfungsgrads</translation>
-    </message>
-    <message>
         <source>ε, share of further force at L from q₀</source>
         <translation>ε, Anteil der weiteren Kraft bei L von q₀</translation>
-    </message>
-    <message>
-        <source>ζ, of the contact</source>
-        <translation>ζ, des Kontakts</translation>
     </message>
     <message>
         <source>κ, logarithm of the slopes&apos; ratio</source>
         <translation>κ, Logarithmus des Steigungsverhältnisses</translation>
     </message>
     <message>
-        <source>μ, of its mass over the axis&apos;</source>
-        <translation>μ, ihrer Masse zu der der Achse</translation>
-    </message>
-    <message>
-        <source>μ, the same of the fifth power</source>
-        <translation>μ, dasselbe der fünften Potenz</translation>
-    </message>
-    <message>
-        <source>σ, beside the declared noise</source>
-        <translation>σ, neben dem angegebenen Rauschen</translation>
-    </message>
-    <message>
-        <source>σ, of the grid, in steps</source>
-        <translation>σ, des Rasters, in Stufen</translation>
-    </message>
-    <message>
-        <source>τ, of small changes</source>
-        <translation>τ, kleiner Änderungen</translation>
-    </message>
-    <message>
         <source>τ; the bandwidth is 1/(2πτ)</source>
         <translation>τ; die Bandbreite ist 1/(2πτ)</translation>
     </message>
     <message>
-        <source>ℓ, over which the loop bends</source>
-        <translation>ℓ, über die sich die Schleife biegt</translation>
+        <source>Reset {name} to its preset</source>
+        <translation>{name} zurück auf die Vorgabe</translation>
     </message>
     <message>
-        <source>{name}, of the play with threshold {threshold}</source>
-        <translation>{name}, des Spiels mit Schwelle {threshold}</translation>
+        <source>Reset to the preset, {value}</source>
+        <translation>Zurück auf die Vorgabe, {value}</translation>
+    </message>
+    <message>
+        <source>Limits only large, fast motion, which becomes a triangle.</source>
+        <translation>Begrenzt nur große, schnelle Bewegung, die zum Dreieck wird.</translation>
+    </message>
+    <message>
+        <source>Motion continues after a move, proportional to it, with the logarithm of time.</source>
+        <translation>Die Bewegung geht nach einer Fahrt weiter, proportional zu ihr, mit dem Logarithmus der Zeit.</translation>
+    </message>
+    <message>
+        <source>Loops whose width grows faster than their amplitude, at any speed; odd distortion.</source>
+        <translation>Schleifen, deren Breite schneller wächst als ihre Amplitude, bei jeder Geschwindigkeit; ungerade Verzerrung.</translation>
+    </message>
+    <message>
+        <source>A dead band at each reversal, equally wide at any amplitude and speed.</source>
+        <translation>Ein Totband bei jeder Umkehr, gleich breit bei jeder Amplitude und Geschwindigkeit.</translation>
+    </message>
+    <message>
+        <source>A stop or a membrane: acts only beyond a position.</source>
+        <translation>Ein Anschlag oder eine Membran: wirkt nur jenseits einer Position.</translation>
+    </message>
+    <message>
+        <source>Wrong frequency or damping: visible only near the resonance.</source>
+        <translation>Falsche Frequenz oder Dämpfung: nur nahe der Resonanz sichtbar.</translation>
+    </message>
+    <message>
+        <source>A curved static characteristic, and a resonance that shifts with position.</source>
+        <translation>Eine gekrümmte statische Kennlinie und eine Resonanz, die mit der Position wandert.</translation>
+    </message>
+    <message>
+        <source>Grows without motion and settles, regardless of the command.</source>
+        <translation>Wächst ohne Bewegung und klingt ab, unabhängig vom Sollwert.</translation>
+    </message>
+    <message>
+        <source>Periodic in time, regardless of position and command.</source>
+        <translation>Periodisch in der Zeit, unabhängig von Position und Sollwert.</translation>
+    </message>
+    <message>
+        <source>Periodic in position with the period of the grating, only in the reading.</source>
+        <translation>Periodisch in der Position mit der Gitterperiode, nur im Messwert.</translation>
+    </message>
+    <message>
+        <source>The reading drifts slowly, also at rest; the reference does not.</source>
+        <translation>Der Messwert driftet langsam, auch in Ruhe; die Referenz nicht.</translation>
+    </message>
+    <message>
+        <source>White noise of the reading above the declared level, without memory.</source>
+        <translation>Weißes Rauschen des Messwerts über dem angegebenen Pegel, ohne Gedächtnis.</translation>
+    </message>
+    <message>
+        <source>Single wrong samples: spikes or dropouts of the reading.</source>
+        <translation>Einzelne falsche Werte: Ausreißer oder Ausfälle des Messwerts.</translation>
+    </message>
+    <message>
+        <source>{text} is not a number; enter one with a decimal point</source>
+        <translation>{text} ist keine Zahl; eine mit Dezimalkomma eingeben</translation>
+    </message>
+    <message>
+        <source>{value} must be {range}</source>
+        <translation>{value} muss {range} sein</translation>
+    </message>
+    <message>
+        <source>{text} is not a number; enter one in {unit} with a decimal point</source>
+        <translation>{text} ist keine Zahl; eine in {unit} mit Dezimalkomma eingeben</translation>
+    </message>
+    <message>
+        <source>Only the simulator has adjustable effects. Connect to the simulator to switch and adjust them.</source>
+        <translation>Nur der Simulator hat einstellbare Effekte. Mit dem Simulator verbinden, um sie zu schalten und einzustellen.</translation>
+    </message>
+    <message>
+        <source>Choose an axis, an effect and its formulation</source>
+        <translation>Eine Achse, einen Effekt und seinen Ansatz wählen</translation>
+    </message>
+    <message>
+        <source>Simulate the machine of the robot file, or a worn one for demonstration</source>
+        <translation>Die Maschine der Roboterdatei simulieren oder eine verschlissene zur Vorführung</translation>
+    </message>
+    <message>
+        <source>Apply this effect earlier within its stage</source>
+        <translation>Diesen Effekt innerhalb seiner Stufe früher anwenden</translation>
+    </message>
+    <message>
+        <source>Apply this effect later within its stage</source>
+        <translation>Diesen Effekt innerhalb seiner Stufe später anwenden</translation>
+    </message>
+    <message>
+        <source>Remove this effect</source>
+        <translation>Diesen Effekt entfernen</translation>
+    </message>
+    <message>
+        <source>Undo the last change of this list</source>
+        <translation>Die letzte Änderung dieser Liste zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Compare with the nominal machine: disable all effects until this is released</source>
+        <translation>Vergleich mit der nominellen Maschine: alle Effekte aus, bis dies gelöst wird</translation>
+    </message>
+    <message>
+        <source>Replace these effects by those of a robot file</source>
+        <translation>Diese Effekte durch die einer Roboterdatei ersetzen</translation>
+    </message>
+    <message>
+        <source>Save a robot file of this robot with these effects</source>
+        <translation>Eine Roboterdatei dieses Roboters mit diesen Effekten speichern</translation>
+    </message>
+    <message>
+        <source>From the robot file</source>
+        <translation>Laut Roboterdatei</translation>
+    </message>
+    <message>
+        <source>Worn, for demonstration</source>
+        <translation>Verschlissen, zur Vorführung</translation>
+    </message>
+    <message>
+        <source>{path}: the robot file has no effects; the list is unchanged</source>
+        <translation>{path}: die Roboterdatei hat keine Effekte; die Liste bleibt unverändert</translation>
+    </message>
+    <message>
+        <source>the simulator did not accept the change</source>
+        <translation>der Simulator hat die Änderung nicht übernommen</translation>
+    </message>
+    <message>
+        <source>Add an effect and adjust it while the simulator runs.</source>
+        <translation>Einen Effekt hinzufügen und einstellen, während der Simulator läuft.</translation>
+    </message>
+    <message>
+        <source>Formulation of the effect; its equations appear below</source>
+        <translation>Ansatz des Effekts; seine Gleichungen stehen darunter</translation>
+    </message>
+    <message>
+        <source>Axis in which the effect originates</source>
+        <translation>Achse, von der der Effekt ausgeht</translation>
+    </message>
+    <message>
+        <source>List of effects</source>
+        <translation>Liste der Effekte</translation>
+    </message>
+    <message>
+        <source>Turn the effect on or off</source>
+        <translation>Den Effekt ein- oder ausschalten</translation>
+    </message>
+    <message>
+        <source>0: rigid; 1: absorbed from the start</source>
+        <translation>0: starr; 1: von Anfang an aufgenommen</translation>
+    </message>
+    <message>
+        <source>1/n; 0: hard</source>
+        <translation>1/n; 0: hart</translation>
+    </message>
+    <message>
+        <source>1: equal weights of all plays; more: larger weights of wide plays</source>
+        <translation>1: alle Spiele gleich gewichtet; mehr: breite stärker</translation>
+    </message>
+    <message>
+        <source>A, final drift</source>
+        <translation>A, Endwert der Drift</translation>
+    </message>
+    <message>
+        <source>Fc/σ₀, deflection of the bristles</source>
+        <translation>Fc/σ₀, Auslenkung der Borsten</translation>
+    </message>
+    <message>
+        <source>L, deflection where all springs slip</source>
+        <translation>L, Auslenkung, bei der alle gleiten</translation>
+    </message>
+    <message>
+        <source>W, width of a loop that is long compared with ℓ</source>
+        <translation>W, Breite einer Schleife, die lang gegen ℓ ist</translation>
+    </message>
+    <message>
+        <source>a, share of the mode&apos;s deflection</source>
+        <translation>a, Anteil der Auslenkung der Eigenform</translation>
+    </message>
+    <message>
+        <source>a₁, curvature</source>
+        <translation>a₁, Bogen</translation>
+    </message>
+    <message>
+        <source>b, share of the mode&apos;s speed over ω</source>
+        <translation>b, Anteil der Geschwindigkeit der Eigenform durch ω</translation>
+    </message>
+    <message>
+        <source>c, maximum of the odd part</source>
+        <translation>c, Größtwert des ungeraden Teils</translation>
+    </message>
+    <message>
+        <source>c₁, maximum at the start of the run</source>
+        <translation>c₁, am größten zu Beginn</translation>
+    </message>
+    <message>
+        <source>c₂, second harmonic</source>
+        <translation>c₂, zweite Oberwelle</translation>
+    </message>
+    <message>
+        <source>damping ratio of the bristles</source>
+        <translation>Dämpfungsgrad der Borsten</translation>
+    </message>
+    <message>
+        <source>ratio of dry friction, backward to forward</source>
+        <translation>Verhältnis der trockenen Reibung, rückwärts zu vorwärts</translation>
+    </message>
+    <message>
+        <source>e, error of the sensitivity</source>
+        <translation>e, Fehler der Empfindlichkeit</translation>
+    </message>
+    <message>
+        <source>distance of the output&apos;s limit from the high end of the input range</source>
+        <translation>Abstand der Ausgangsgrenze vom oberen Ende des Eingangsbereichs</translation>
+    </message>
+    <message>
+        <source>distance of the output&apos;s limit from the low end of the input range</source>
+        <translation>Abstand der Ausgangsgrenze vom unteren Ende des Eingangsbereichs</translation>
+    </message>
+    <message>
+        <source>rate of occurrence</source>
+        <translation>Häufigkeit</translation>
+    </message>
+    <message>
+        <source>ratio of the motion here to the motion there</source>
+        <translation>Verhältnis der Bewegung hier zur Bewegung dort</translation>
+    </message>
+    <message>
+        <source>n; an integer on a machine, any number here so that a fit can vary it</source>
+        <translation>n; an der Maschine ganz, hier beliebig, damit eine Anpassung es ändern kann</translation>
+    </message>
+    <message>
+        <source>duration of a dropout; 0: one sample</source>
+        <translation>Dauer eines Ausfalls; 0: eine Abtastung</translation>
+    </message>
+    <message>
+        <source>ratio of static to dry friction</source>
+        <translation>Verhältnis von Haft- zu Gleitreibung</translation>
+    </message>
+    <message>
+        <source>limit of the lag behind the field</source>
+        <translation>Grenze des Nachlaufs hinter dem Feld</translation>
+    </message>
+    <message>
+        <source>width of the loop from end to end</source>
+        <translation>Breite der Schleife von Ende zu Ende</translation>
+    </message>
+    <message>
+        <source>end of the section</source>
+        <translation>Ende des Abschnitts</translation>
+    </message>
+    <message>
+        <source>start of the section, from the low end of the range</source>
+        <translation>Anfang des Abschnitts, vom unteren Bereichsende</translation>
+    </message>
+    <message>
+        <source>relative to the axis&apos; own stiffness; negative: met on the way down</source>
+        <translation>relativ zur Steifigkeit der Achse; negativ: auf dem Weg abwärts getroffen</translation>
+    </message>
+    <message>
+        <source>p, period of the grating</source>
+        <translation>p, Periode des Gitters</translation>
+    </message>
+    <message>
+        <source>r, ratio of both time constants</source>
+        <translation>r, Verhältnis der Zeitkonstanten</translation>
+    </message>
+    <message>
+        <source>r, share of the motion seen through the link</source>
+        <translation>r, Anteil der durch die Kopplung gesehenen Bewegung</translation>
+    </message>
+    <message>
+        <source>r, share of the static motion along this path</source>
+        <translation>r, Anteil der statischen Bewegung auf diesem Weg</translation>
+    </message>
+    <message>
+        <source>r, maximum rate; current over capacitance</source>
+        <translation>r, größte Rate; Strom durch Kapazität</translation>
+    </message>
+    <message>
+        <source>r; above 0: readings come later</source>
+        <translation>r; über 0: Messwerte kommen später</translation>
+    </message>
+    <message>
+        <source>s, 0: all springs slip together</source>
+        <translation>s, 0: alle gleiten zugleich</translation>
+    </message>
+    <message>
+        <source>s₁, zero at the start of the run</source>
+        <translation>s₁, null zu Beginn</translation>
+    </message>
+    <message>
+        <source>s₂, second harmonic</source>
+        <translation>s₂, zweite Oberwelle</translation>
+    </message>
+    <message>
+        <source>t₀, start of the logarithm</source>
+        <translation>t₀, Beginn des Logarithmus</translation>
+    </message>
+    <message>
+        <source>position of the contact, from the low end of the range</source>
+        <translation>Position des Kontakts, vom unteren Bereichsende</translation>
+    </message>
+    <message>
+        <source>position of the straight part, from mid-range</source>
+        <translation>Position des geraden Teils, von der Bereichsmitte</translation>
+    </message>
+    <message>
+        <source>speed where static friction fades</source>
+        <translation>Geschwindigkeit, bei der die Haftreibung abklingt</translation>
+    </message>
+    <message>
+        <source>z, position of zero within a step</source>
+        <translation>z, Lage der Null in einer Stufe</translation>
+    </message>
+    <message>
+        <source>γ, share of a move per decade of time</source>
+        <translation>γ, Anteil einer Bewegung je Dekade der Zeit</translation>
+    </message>
+    <message>
+        <source>δ, error of the natural frequency</source>
+        <translation>δ, Fehler der Eigenfrequenz</translation>
+    </message>
+    <message>
+        <source>δ, asymmetry of the way up and the way down</source>
+        <translation>δ, Asymmetrie von Hin- und Rückweg</translation>
+    </message>
+    <message>
+        <source>ε, error of the damping ratio</source>
+        <translation>ε, Fehler des Dämpfungsgrads</translation>
+    </message>
+    <message>
+        <source>ζ, damping ratio of the contact</source>
+        <translation>ζ, Dämpfungsgrad des Kontakts</translation>
+    </message>
+    <message>
+        <source>μ, ratio of its mass to the axis&apos; mass</source>
+        <translation>μ, Verhältnis ihrer Masse zu der der Achse</translation>
+    </message>
+    <message>
+        <source>μ, the same for the fifth power</source>
+        <translation>μ, dasselbe für die fünfte Potenz</translation>
+    </message>
+    <message>
+        <source>σ, in addition to the declared noise</source>
+        <translation>σ, zusätzlich zum angegebenen Rauschen</translation>
+    </message>
+    <message>
+        <source>σ, shift of the grid, in steps</source>
+        <translation>σ, Verschiebung des Rasters, in Stufen</translation>
+    </message>
+    <message>
+        <source>τ, for small changes</source>
+        <translation>τ, für kleine Änderungen</translation>
+    </message>
+    <message>
+        <source>ℓ, length over which the loop bends</source>
+        <translation>ℓ, Länge, über die sich die Schleife biegt</translation>
+    </message>
+    <message>
+        <source>{name}, weight of the play with threshold {threshold}</source>
+        <translation>{name}, Gewicht des Spiels mit Schwelle {threshold}</translation>
     </message>
 </context>
 <context>

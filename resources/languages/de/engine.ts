@@ -25,10 +25,6 @@
         <translation>das Gerät meldet einen Fehler</translation>
     </message>
     <message>
-        <source>the inverse of axis {axes} is off: where the axis is sent is what it is told</source>
-        <translation>die Inverse der Achse {axes} ist abgenommen: die Achse wird dorthin geschickt, wohin sie soll, ohne Kompensation</translation>
-    </message>
-    <message>
         <source>unexpected {name} from the driver: {error}</source>
         <translation>unerwartet {name} vom Treiber: {error}</translation>
     </message>
@@ -72,11 +68,6 @@
     <message>
         <source>another device is being connected; wait</source>
         <translation>ein anderes Gerät wird verbunden; bitte warten</translation>
-    </message>
-    <message>
-        <source>{stop} is latched; release it first</source>
-        <extracomment>Why no motion is accepted on any path; None while it is. Host time of the latest stop, whoever asked for it; None before the first.</extracomment>
-        <translation>{stop} ist eingerastet; erst freigeben</translation>
     </message>
     <message>
         <source>not connected</source>
@@ -131,10 +122,6 @@
         <translation>die Achse hat sich seit dem Scharfstellen bewegt; erneut scharfstellen</translation>
     </message>
     <message>
-        <source>the held tip cannot be moved: {locked}</source>
-        <translation>die gehaltene Spitze kann nicht bewegt werden: {locked}</translation>
-    </message>
-    <message>
         <source>the axes are not the penetration&apos;s any more; move them by hand</source>
         <translation>die Achsen gehören nicht mehr der Penetration; von Hand bewegen</translation>
     </message>
@@ -143,16 +130,8 @@
         <translation>per Taste zurückgezogen; zuvor: {reason}</translation>
     </message>
     <message>
-        <source>axis {axis}: only {nano} can be moved back while the tip stays; move {axis} back yourself, or shorten the way</source>
-        <translation>Achse {axis}: nur {nano} kann zurückgefahren werden, während die Spitze stehen bleibt; fahren Sie {axis} selbst zurück, oder kürzen Sie den Weg</translation>
-    </message>
-    <message>
         <source>axis {axis}: {needed} are needed, its whole range is {range}; shorten approach_distance or depth</source>
         <translation>Achse {axis}: {needed} werden gebraucht, ihr ganzer Bereich ist {range}; approach_distance oder depth verkürzen</translation>
-    </message>
-    <message>
-        <source>driver {driver} cannot run profiles by itself; a thrust needs that</source>
-        <translation>Treiber {driver} kann keine Profile selbst ausführen; ein Einstich braucht das</translation>
     </message>
     <message>
         <source>driver {driver} cannot move at a speed; the approach needs that</source>
@@ -165,10 +144,6 @@
     <message>
         <source>robot {name} has no axis {axis} to penetrate with; it has {axes}</source>
         <translation>Roboter {name} hat keine Achse {axis} für die Penetration; er hat {axes}</translation>
-    </message>
-    <message>
-        <source>axis {axis} of {robot} turns; a penetration needs a way in m</source>
-        <translation>Achse {axis} von {robot} dreht; eine Penetration braucht einen Weg in m</translation>
     </message>
     <message>
         <source>approach_speed = {approach_speed}: axis {name} goes at {max_speed} at most</source>
@@ -252,10 +227,6 @@
         <translation>es gibt keine Position {name}</translation>
     </message>
     <message>
-        <source>{where}{name} is no name for a position; use 1 to {longest} letters without blanks at the ends</source>
-        <translation>{where}{name} ist kein Name für eine Position; 1 bis {longest} Zeichen ohne Leerzeichen an den Enden verwenden</translation>
-    </message>
-    <message>
         <source>axis {missing} is missing</source>
         <translation>Achse {missing} fehlt</translation>
     </message>
@@ -320,10 +291,6 @@
         <translation>ein anderes Gerät ist weg ({why}): loslassen</translation>
     </message>
     <message>
-        <source>{reason}: let go of it first</source>
-        <translation>{reason}: zuerst loslassen</translation>
-    </message>
-    <message>
         <source>the machine is being stopped</source>
         <translation>die Maschine wird angehalten</translation>
     </message>
@@ -353,7 +320,7 @@
     </message>
     <message>
         <source>no stick is active: let go of it, and hold its dead-man switch if it has one</source>
-        <translation>kein verlässlicher Knüppel: loslassen; Zustimmtaster halten, falls vorhanden</translation>
+        <translation>kein verlässlicher Joystick: loslassen; Zustimmtaster halten, falls vorhanden</translation>
     </message>
     <message>
         <source>axes are moved by {owner}</source>
@@ -361,7 +328,7 @@
     </message>
     <message>
         <source>axis {axis} does not follow the stick</source>
-        <translation>Achse {axis} folgt dem Knüppel nicht</translation>
+        <translation>Achse {axis} folgt dem Joystick nicht</translation>
     </message>
     <message>
         <source>slowed: the tip is close to its bounds</source>
@@ -397,10 +364,6 @@
         <translation>Profil {name}: jedes Gerät hat seat = &apos;trainee&apos;; eines muss &apos;trainer&apos; haben</translation>
     </message>
     <message>
-        <source>profile {name} is for {gone}, not plugged in; plugged in: {present}. Plug it in, or choose or make a profile for what is there</source>
-        <translation>Profil {name} ist für {gone}, nicht angesteckt; angesteckt: {present}. Anstecken oder ein Profil für das Vorhandene wählen oder anlegen</translation>
-    </message>
-    <message>
         <source>an axis needs at = …</source>
         <translation>eine Achse braucht at = …</translation>
     </message>
@@ -429,36 +392,12 @@
         <translation>nichts</translation>
     </message>
     <message>
-        <source>not yet seen at rest: let go of it</source>
-        <translation>noch nicht in Ruhe gesehen: loslassen</translation>
-    </message>
-    <message>
-        <source>has said nothing yet: move it, and let go of it</source>
-        <translation>hat noch nichts gemeldet: bewegen und loslassen</translation>
-    </message>
-    <message>
-        <source>says {raw}, which is not in −1 to 1: disconnect it and look at it</source>
-        <translation>meldet {raw}, nicht in −1 bis 1: abstecken und prüfen</translation>
-    </message>
-    <message>
         <source>jitters from end to end: its potentiometer or cable is bad</source>
         <translation>springt von Ende zu Ende: Potentiometer oder Kabel schadhaft</translation>
     </message>
     <message>
-        <source>has stood at its end from the first moment: free it; if it rests there, calibrate it as one-sided</source>
-        <translation>steht von Anfang an am Ende: lösen; ruht sie dort, als einseitig kalibrieren</translation>
-    </message>
-    <message>
         <source>axis {axis}: the device has none of that name; it has {value}</source>
         <translation>Achse {axis}: das Gerät hat keine dieses Namens; vorhanden: {value}</translation>
-    </message>
-    <message>
-        <source>axis {axis} has said nothing at rest; move it once, let go, and begin again</source>
-        <translation>Achse {axis} hat in Ruhe nichts gemeldet; einmal bewegen, loslassen, neu beginnen</translation>
-    </message>
-    <message>
-        <source>axis {axis} hardly moved: {low} to {high} of −1 to 1, at least {least} is needed; move it to all its ends</source>
-        <translation>Achse {axis} kaum bewegt: {low} bis {high} von −1 bis 1, mindestens {least} nötig; an alle Enden bewegen</translation>
     </message>
     <message>
         <source>rest {centre}, ends {low} and {high}</source>
@@ -466,7 +405,7 @@
     </message>
     <message>
         <source>axis {axis} does not rest at an end: {where}; calibrate it as a stick</source>
-        <translation>Achse {axis} ruht nicht am Ende: {where}; als Knüppel kalibrieren</translation>
+        <translation>Achse {axis} ruht nicht am Ende: {where}; als Joystick kalibrieren</translation>
     </message>
     <message>
         <source>axis {axis} rests at an end: {where}; move it both ways, or declare it one-sided (a trigger)</source>
@@ -477,24 +416,12 @@
         <translation>Achse {axis} zittert in Ruhe oder wurde bewegt: {low} bis {high} verlangt eine Totzone von {zone}, gut ist höchstens {most}; ruhen lassen, und wenn es so bleibt, reparieren lassen</translation>
     </message>
     <message>
-        <source>axis {axis} is driven by {other}; stop it, or take over first</source>
-        <translation>Achse {axis} wird von {other} bewegt; erst anhalten oder übernehmen</translation>
-    </message>
-    <message>
         <source>driver {name} closes no loop: its samples come too seldom and too late for one; use feed-forward, or the simulator</source>
         <translation>Treiber {name} schließt keinen Regelkreis: seine Messwerte kommen dafür zu selten und zu spät; Vorsteuerung oder den Simulator verwenden</translation>
     </message>
     <message>
-        <source>axis {axis} is under no loop that could be taken off</source>
-        <translation>Achse {axis} hat keinen Regelkreis, der sich abschalten ließe</translation>
-    </message>
-    <message>
         <source>{name}: tuned for robot {robot}, not for {this}; tune on this robot</source>
         <translation>{name}: für Roboter {robot} eingestellt, nicht für {this}; an diesem Roboter einstellen</translation>
-    </message>
-    <message>
-        <source>{name}: axis {axis} is no piezo in open loop of robot {this}; a loop is for one that is</source>
-        <translation>{name}: Achse {axis} ist kein ungeregeltes Piezo des Roboters {this}; nur ein solches bekommt einen Regelkreis</translation>
     </message>
     <message>
         <source>{name}: tuned for outputs that come {delay} intervals late, and a device&apos;s loop puts them out at once; tune with a delay of 0</source>
@@ -505,25 +432,12 @@
         <translation>{number}: {error}</translation>
     </message>
     <message>
-        <source>robot {name} has no tip that a floor could hold</source>
-        <extracomment>To what ranges of axes were narrowed; replaced as a whole.</extracomment>
-        <translation>Roboter {name} hat keine Spitze, für die ein Boden gelten könnte</translation>
-    </message>
-    <message>
-        <source>{out}; axis {axes} brings it no nearer that way</source>
-        <translation>{out}; Achse {axes} bringt sie so nicht näher heran</translation>
-    </message>
-    <message>
         <source>tip: a profile at {speed} within {height} of its floor: {most} at most; only an armed penetration may be faster there</source>
         <translation>Spitze: ein Profil mit {speed} weniger als {height} über dem Boden: höchstens {most}; schneller darf dort nur eine scharfe Penetration sein</translation>
     </message>
     <message>
         <source>tip: a thrust of {way} within {height} of its floor: {most} at most</source>
         <translation>Spitze: ein Stoß von {way} weniger als {height} über dem Boden: höchstens {most}</translation>
-    </message>
-    <message>
-        <source>tip: too fast so close above its floor; go slower</source>
-        <translation>Spitze: so dicht über dem Boden zu schnell; langsamer fahren</translation>
     </message>
     <message>
         <source>{much} below its floor</source>
@@ -538,24 +452,8 @@
         <translation>{much} außerhalb ihres Radius</translation>
     </message>
     <message>
-        <source>tip: {told}, as commanded or as read: it only moves back in, slowly and confirmed, by axes that each bring it nearer; bring it back, or mend the sensor that reads wrong</source>
-        <translation>Spitze: {told}, nach Sollwert oder Messwert: sie bewegt sich nur noch zurück, langsam und bestätigt, mit Achsen, von denen jede sie näher bringt; zurückfahren oder den falsch messenden Sensor instand setzen</translation>
-    </message>
-    <message>
-        <source>this is a replay; nothing moves</source>
-        <translation>dies ist eine Wiedergabe; nichts bewegt sich</translation>
-    </message>
-    <message>
         <source>driver {name} is a real machine: its effects are its own; connect to the simulator</source>
         <translation>Treiber {name} ist eine echte Maschine mit eigenen Effekten; mit dem Simulator verbinden</translation>
-    </message>
-    <message>
-        <source>driver {name} keeps no parameters</source>
-        <translation>Treiber {name} speichert keine Parameter</translation>
-    </message>
-    <message>
-        <source>the device failed ({fault}); reconnect, then check where it stands</source>
-        <translation>das Gerät ist ausgefallen ({fault}); wieder verbinden, dann prüfen, wo es steht</translation>
     </message>
     <message>
         <source>the device reports a fault ({fault}); clear it first</source>
@@ -586,33 +484,12 @@
         <translation>die Verbindung ging verloren</translation>
     </message>
     <message>
-        <source>axis {axis} has no inverse that could be taken off</source>
-        <translation>Achse {axis} hat kein inverses Modell, das sich abschalten ließe</translation>
-    </message>
-    <message>
         <source>axis {axis}: target {target} is beyond {low} to {high}, which its inverse was trained on; stay inside, or switch the compensation off</source>
         <translation>Achse {axis}: Ziel {target} liegt außerhalb von {low} bis {high}, worauf ihr inverses Modell trainiert ist; innerhalb bleiben oder die Kompensation abschalten</translation>
     </message>
     <message>
-        <source>compensated trajectory: {error}; what brings the wanted path about is beyond a limit: make it slower, smoother, or smaller</source>
-        <translation>kompensierte Trajektorie: {error}; was die gewünschte Bahn bewirkt, überschreitet eine Grenze: langsamer, glatter oder kleiner machen</translation>
-    </message>
-    <message>
         <source>{name}: it was trained for robot {robot}, not for {this}; train one on this robot</source>
         <translation>{name}: für Roboter {robot} trainiert, nicht für {this}; eines an diesem Roboter trainieren</translation>
-    </message>
-    <message>
-        <source>{name}: axis {axis} is no piezo in open loop of robot {this}</source>
-        <translation>{name}: Achse {axis} ist kein ungeregeltes Piezo des Roboters {this}</translation>
-    </message>
-    <message>
-        <source>{name}: axis {axis} had another range; train it anew</source>
-        <translation>{name}: Achse {axis} hatte einen anderen Bereich; neu trainieren</translation>
-    </message>
-    <message>
-        <source>the input devices are let go of</source>
-        <extracomment>What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man of the pad would only keep it from acting. What is wrong with files of the user&apos;s, told at the start. Calibrations of sensors: those that are on correct readings from the start. The pad on the screen and its keys: a device like any other.</extracomment>
-        <translation>die Eingabegeräte werden losgelassen</translation>
     </message>
     <message>
         <source>motion is locked: {locked}</source>
@@ -626,10 +503,6 @@
     <message>
         <source>the machine is still moving; release the stick first</source>
         <translation>die Maschine bewegt sich noch; erst den Joystick loslassen</translation>
-    </message>
-    <message>
-        <source>the machine has moved meanwhile; ask once more</source>
-        <translation>die Maschine hat sich inzwischen bewegt; noch einmal anfordern</translation>
     </message>
     <message>
         <source>{what}: {error}</source>
@@ -668,20 +541,12 @@
         <translation>Treiber {name} kann nicht mit einer Geschwindigkeit fahren; Ziele senden</translation>
     </message>
     <message>
-        <source>driver {name} has no switches to be found</source>
-        <translation>Treiber {name} hat keine Schalter für eine Referenzfahrt</translation>
-    </message>
-    <message>
         <source>the machine is still moving; stop it or wait before homing</source>
         <translation>die Maschine bewegt sich noch; vor der Referenzfahrt anhalten oder warten</translation>
     </message>
     <message>
         <source>driver {name} cannot play trajectories</source>
         <translation>Treiber {name} kann keine Trajektorien abspielen</translation>
-    </message>
-    <message>
-        <source>the machine or the tip&apos;s bounds have changed; play once more</source>
-        <translation>die Maschine oder die Grenzen der Spitze haben sich geändert; noch einmal abspielen</translation>
     </message>
     <message>
         <source>tip: a floor {clearance} m below the tip: must be a finite number, 0 or more</source>
@@ -716,24 +581,12 @@
         <translation>Treiber {name} kann keine Spannung ausgeben</translation>
     </message>
     <message>
-        <source>axis {axis} has no amplifier that could be given a voltage</source>
-        <translation>Achse {axis} hat keinen Verstärker, der eine Spannung annehmen könnte</translation>
-    </message>
-    <message>
         <source>axis {axis}: {voltage} V: must be {low} to {high} V</source>
         <translation>Achse {axis}: {voltage} V: muss {low} bis {high} V sein</translation>
     </message>
     <message>
         <source>axis {axis}: a voltage acts at once, too fast so close above the tip&apos;s floor; move it instead</source>
         <translation>Achse {axis}: eine Spannung wirkt sofort, so dicht über dem Boden der Spitze zu schnell; stattdessen verfahren</translation>
-    </message>
-    <message>
-        <source>driver {name} has no tool that could be switched</source>
-        <translation>Treiber {name} hat kein Werkzeug, das sich schalten ließe</translation>
-    </message>
-    <message>
-        <source>driver {name} cannot run profiles by itself</source>
-        <translation>Treiber {name} kann Profile nicht selbst ausführen</translation>
     </message>
     <message>
         <source>deviation: there is no axis {axis}</source>
@@ -764,10 +617,6 @@
         <translation>Treiber {name} kann nicht schneller als in Echtzeit abspielen; den Simulator verwenden</translation>
     </message>
     <message>
-        <source>nothing plays that could be paused</source>
-        <translation>es läuft nichts, was sich anhalten ließe</translation>
-    </message>
-    <message>
         <source>the playback is paused</source>
         <translation>das Abspielen ist angehalten</translation>
     </message>
@@ -780,16 +629,8 @@
         <translation>das Abspielen ist beendet</translation>
     </message>
     <message>
-        <source>nothing is paused that one could {what}</source>
-        <translation>nichts ist pausiert, was sich {what} ließe</translation>
-    </message>
-    <message>
         <source>the camera is {state}: {reason}</source>
         <translation>Kamera {state}: {reason}</translation>
-    </message>
-    <message>
-        <source>it was stopped</source>
-        <translation>es wurde angehalten</translation>
     </message>
     <message>
         <source>measure: a pixel is not a finite number; draw the line again</source>
@@ -804,21 +645,12 @@
         <translation>Das Mikroskop ist ausgefallen: {name}: {error}</translation>
     </message>
     <message>
-        <source>the tip is {distance} px from where it should be, must be at most {most} px after a move; the calibration does not hold: calibrate anew</source>
-        <translation>die Spitze ist {distance} px von ihrem Sollort, nach einer Fahrt höchstens {most} px; die Kalibrierung stimmt nicht: neu kalibrieren</translation>
-    </message>
-    <message>
         <source>the tip is still {distance} px off after {n} corrections, must be at most {most} px; the stage resolves no finer, or drifts</source>
         <translation>die Spitze liegt nach {n} Korrekturen noch {distance} px daneben, höchstens {most} px; der Tisch löst nicht feiner auf oder driftet</translation>
     </message>
     <message>
         <source>the tip is not seen near {column}, {row} px, where it should be; nothing more is moved: look at the picture</source>
         <translation>die Spitze ist nahe {column}, {row} px, wo sie sein sollte, nicht zu sehen; nichts wird mehr bewegt: Bild prüfen</translation>
-    </message>
-    <message>
-        <source>{trouble}; nothing is moved</source>
-        <extracomment>Why the latest run was ended from here; empty if it was not.</extracomment>
-        <translation>{trouble}; nichts wird bewegt</translation>
     </message>
     <message>
         <source>there is no picture; open a camera and wait for the first one</source>
@@ -1560,16 +1392,8 @@
         <translation>{samples} Abtastwerte und {others} andere Einträge fehlen</translation>
     </message>
     <message>
-        <source>{name}: nothing more can be recorded ({reason}): motion goes on, what was recorded until now is safe in {path}; make room</source>
-        <translation>{name}: es kann nichts mehr aufgezeichnet werden ({reason}): die Bewegung geht weiter, das bisher Aufgezeichnete ist sicher in {path}; Platz schaffen</translation>
-    </message>
-    <message>
         <source>nothing is missing</source>
         <translation>es fehlt nichts</translation>
-    </message>
-    <message>
-        <source>{file}: recording goes on; {what}</source>
-        <translation>{file}: die Aufzeichnung geht weiter; {what}</translation>
     </message>
     <message>
         <source>{name}: the disk took {took_s} s for a segment: a crash or a power cut now could lose more than a second; record to a faster one</source>
@@ -1581,20 +1405,12 @@
         <translation>{path}: in diesem Abschnitt wurde keine Achse bewegt</translation>
     </message>
     <message>
-        <source>{path}: the device was connected anew {at_s} s after the begin, with a time of its own; choose what is before or after that</source>
-        <translation>{path}: das Gerät wurde {at_s} s nach dem Beginn neu verbunden und hat seitdem eine eigene Zeit; den Teil davor oder danach wählen</translation>
-    </message>
-    <message>
         <source>{path}: no samples from there to there; it lasts {whole_s} s</source>
         <translation>{path}: keine Abtastwerte in diesem Abschnitt; sie dauert {whole_s} s</translation>
     </message>
     <message>
         <source>{path}: axis {axes} moves at the {end}; every axis must stand there for {rest_s} s: choose {advice}</source>
         <translation>{path}: Achse {axes} bewegt sich am Rand ({end}); dort muss jede Achse {rest_s} s stehen: {advice} wählen</translation>
-    </message>
-    <message>
-        <source>{path}: {steps_s} ms of samples are missing in mid-move {at_s} s after the begin: at most {rest_s} ms; choose what is before or after that</source>
-        <translation>{path}: mitten in der Bewegung, {at_s} s nach dem Beginn, fehlen {steps_s} ms an Abtastwerten: höchstens {rest_s} ms; den Teil davor oder danach wählen</translation>
     </message>
     <message>
         <source>{path}: it is there already, being recorded or left by a crash; record to another name, or recover it</source>
@@ -1675,10 +1491,6 @@
         <translation>keine Position ist bekannt; erst die Maschine verbinden</translation>
     </message>
     <message>
-        <source>the camera shows {width} × {height} px from {left}, {top}, calibrated is {view_width} × {view_height} px from {view_left}, {view_top}; set the camera back, or calibrate anew</source>
-        <translation>die Kamera zeigt {width} × {height} px ab {left}, {top}, kalibriert sind {view_width} × {view_height} px ab {view_left}, {view_top}; die Kamera zurückstellen oder neu kalibrieren</translation>
-    </message>
-    <message>
         <source>the click at {x}, {y} px is outside the calibrated field, 0 to {width} and 0 to {height} px; click inside</source>
         <translation>der Klick bei {x}, {y} px liegt außerhalb des kalibrierten Felds, 0 bis {width} und 0 bis {height} px; innerhalb klicken</translation>
     </message>
@@ -1687,20 +1499,12 @@
         <translation>der Tisch {name} ist für Objektiv {objective} an Kamera {camera} nicht kalibriert; erst kalibrieren</translation>
     </message>
     <message>
-        <source>{path}: it is of camera {camera} with objective {objective}, not of {other_camera} with {other_objective}; move it away and calibrate anew</source>
-        <translation>{path}: gehört zu Kamera {camera} mit Objektiv {objective}, nicht zu {other_camera} mit {other_objective}; verschieben und neu kalibrieren</translation>
-    </message>
-    <message>
         <source>every target has been visited; mark further ones</source>
         <translation>alle Ziele wurden besucht; weitere markieren</translation>
     </message>
     <message>
         <source>there is no target {index}; there are {count}</source>
         <translation>das Ziel {index} gibt es nicht; vorhanden: {count}</translation>
-    </message>
-    <message>
-        <source>the tip is on its way to a target; wait, or stop it first</source>
-        <translation>die Spitze ist unterwegs zu einem Ziel; warten oder erst anhalten</translation>
     </message>
     <message>
         <source>axis {axis}: the microscope tells the places of {names} only; depth has no zero</source>
@@ -1794,10 +1598,6 @@
         <translation>Zustandskarte: die Aufzeichnung hat kein {axis}.{tap}</translation>
     </message>
     <message>
-        <source>health card: the record tells no figure of {axis}: {names}</source>
-        <translation>Zustandskarte: die Aufzeichnung liefert keinen Wert von {axis}: {names}</translation>
-    </message>
-    <message>
         <source>a model of second order fits {fit_percent} % alone</source>
         <translation>ein Modell zweiter Ordnung allein passt zu {fit_percent} %</translation>
     </message>
@@ -1812,18 +1612,6 @@
     <message>
         <source>{path}: unit = {unit}: axis {axis} has another</source>
         <translation>{path}: unit = {unit}: Achse {axis} hat eine andere</translation>
-    </message>
-    <message>
-        <source>setting {name}: {text} is no switch; write true or false</source>
-        <translation>Einstellung {name}: {text} ist kein Schalter; true oder false schreiben</translation>
-    </message>
-    <message>
-        <source>setting {name}: {text} is no whole number</source>
-        <translation>Einstellung {name}: {text} ist keine ganze Zahl</translation>
-    </message>
-    <message>
-        <source>setting {name}: {text} is no number; write one with a decimal point</source>
-        <translation>Einstellung {name}: {text} ist keine Zahl; mit Dezimalpunkt schreiben</translation>
     </message>
     <message>
         <source>--set {text}: write it as name=value, such as baud=9600</source>
@@ -1970,10 +1758,6 @@
         <translation>{who}: brauchte länger als {limit_s} s, {what}; Kabel und Versorgung prüfen</translation>
     </message>
     <message>
-        <source>{where}: what comes from there at {baud} baud is no frame of a board; is the baud rate another one ({others}), or the device at this port no MC68HC11 board?</source>
-        <translation>{where}: was dort mit {baud} Baud ankommt, ist kein Rahmen einer Karte; ist die Baudrate eine andere ({others}), oder das Gerät an diesem Anschluss keine MC68HC11-Karte?</translation>
-    </message>
-    <message>
         <source>{where}: nobody answers at {baud} baud; is the board switched on, its cable at this port and not at the other board&apos;s, the baud rate another one ({others})?</source>
         <translation>{where}: bei {baud} Baud antwortet niemand; ist die Karte eingeschaltet, ihr Kabel an diesem Anschluss und nicht an dem der anderen Karte, die Baudrate eine andere ({others})?</translation>
     </message>
@@ -2022,10 +1806,6 @@
         <translation>das Profil konnte nicht gefahren werden</translation>
     </message>
     <message>
-        <source>a set-point was farther away than the axis goes in that time; it was refused</source>
-        <translation>ein Sollwert war weiter entfernt, als die Achse in dieser Zeit kommt; er wurde abgelehnt</translation>
-    </message>
-    <message>
         <source>board {address} on {url}</source>
         <translation>Karte {address} an {url}</translation>
     </message>
@@ -2064,10 +1844,6 @@
     <message>
         <source>homing speed</source>
         <translation>Geschwindigkeit beim Referenzieren</translation>
-    </message>
-    <message>
-        <source>way from the low switch to zero</source>
-        <translation>Weg vom unteren Schalter bis null</translation>
     </message>
     <message>
         <source>voltage at code 0</source>
@@ -2130,20 +1906,12 @@
         <translation>{url}: nimmt keine Bytes mehr an; ist die Leitung blockiert?</translation>
     </message>
     <message>
-        <source>{url}: the port is gone ({error}); is it unplugged? Plug it in and connect again, then check where the machine stands</source>
-        <translation>{url}: der Anschluss ist weg ({error}); abgesteckt? Anstecken und wieder verbinden, dann prüfen, wo die Maschine steht</translation>
-    </message>
-    <message>
         <source>{url}: no permission to open it; add the user to the group that owns the device (dialout on most systems) and log in again</source>
         <translation>{url}: keine Berechtigung zum Öffnen; den Benutzer in die Gruppe des Geräts aufnehmen (meist dialout) und neu anmelden</translation>
     </message>
     <message>
         <source>{url}: another program uses it; close that program</source>
         <translation>{url}: ein anderes Programm verwendet ihn; jenes Programm schließen</translation>
-    </message>
-    <message>
-        <source>{url}: there is no such port ({said}); is the adapter plugged in, the name right?</source>
-        <translation>{url}: diesen Anschluss gibt es nicht ({said}); ist der Adapter angesteckt, der Name richtig?</translation>
     </message>
     <message>
         <source>{url}: it cannot be opened: {said}</source>
@@ -2164,14 +1932,6 @@
     <message>
         <source>a motion was not sent: {error}</source>
         <translation>eine Bewegung wurde nicht gesendet: {error}</translation>
-    </message>
-    <message>
-        <source>{where} was reset: it does not know where it stands; connect again, and home it</source>
-        <translation>{where} wurde zurückgesetzt und weiß nicht, wo sie steht; wieder verbinden und referenzieren</translation>
-    </message>
-    <message>
-        <source>{where} has said nothing for {quiet_s} s; check cable and supply, connect again, then check where the machine stands</source>
-        <translation>{where} hat seit {quiet_s} s nichts gesagt; Kabel und Versorgung prüfen, wieder verbinden, dann prüfen, wo die Maschine steht</translation>
     </message>
     <message>
         <source>{name}: {where} cannot play trajectories</source>
@@ -2330,10 +2090,6 @@
         <translation>{name}: Fokus bei {focus_m} µm: muss {low} bis {high} µm sein</translation>
     </message>
     <message>
-        <source>{name}: there is no simulated machine to look at; connect the simulator</source>
-        <translation>{name}: keine simulierte Maschine zum Ansehen; den Simulator verbinden</translation>
-    </message>
-    <message>
         <source>{name}: robot {robot_name} is in use now, not the one that it was opened on; close it and open it again</source>
         <translation>{name}: jetzt ist Roboter {robot_name} in Gebrauch, nicht der, mit dem sie geöffnet wurde; schließen und wieder öffnen</translation>
     </message>
@@ -2380,10 +2136,6 @@
     <message>
         <source>{address}: there is no such file; choose another one</source>
         <translation>{address}: diese Datei gibt es nicht; eine andere wählen</translation>
-    </message>
-    <message>
-        <source>{address}: it is no video, or one that was cut off or is of an unknown kind; choose another file</source>
-        <translation>{address}: kein Video, ein abgeschnittenes oder eines von unbekannter Art; eine andere Datei wählen</translation>
     </message>
     <message>
         <source>{address}: no video came from there within {timeout_ms} s; check the address and the network</source>
@@ -2449,10 +2201,6 @@
     <message>
         <source>{path}: there is no such folder or file; choose another one</source>
         <translation>{path}: diesen Ordner oder diese Datei gibt es nicht; eine andere Angabe wählen</translation>
-    </message>
-    <message>
-        <source>{path}: it is no picture; choose a TIFF or PNG file</source>
-        <translation>{path}: kein Bild; eine TIFF- oder PNG-Datei wählen</translation>
     </message>
     <message>
         <source>is it cut off, or gone?</source>
@@ -2628,20 +2376,12 @@
         <translation>keine Antwort auf {line} in {limit_s} s</translation>
     </message>
     <message>
-        <source>{port}: the controller has said nothing for {seconds} s; it ends what it was told within half a second and braking. Look at the machine, then connect again</source>
-        <translation>{port}: die Steuerung hat seit {seconds} s nichts gesagt; sie beendet binnen einer halben Sekunde und des Bremswegs, was ihr gesagt wurde. Nach der Maschine sehen, dann wieder verbinden</translation>
-    </message>
-    <message>
         <source>gcode: {name} = {value}: must be {low} to {high}</source>
         <translation>gcode: {name} = {value}: muss {low} bis {high} sein</translation>
     </message>
     <message>
         <source>simulator: robot {name} has an axis moved by a force that no controller holds; give it one in the robot file</source>
         <translation>Simulator: Roboter {name} hat eine Achse, die von einer Kraft bewegt und von keinem Regler gehalten wird; ihr in der Roboterdatei einen geben</translation>
-    </message>
-    <message>
-        <source>{name}: axis {axis} is no piezo in open loop; {what} is for one that is</source>
-        <translation>{name}: Achse {axis} ist kein ungeregelter Piezo; nur für einen solchen ist {what}</translation>
     </message>
     <message>
         <source>simulator: setting {name} = {value} is not between {least} and {greatest}</source>
@@ -2787,10 +2527,6 @@
         <translation>{name}: von ihm und seinem Joystick kam eine Weile nichts</translation>
     </message>
     <message>
-        <source>{name}: no joystick has told anything; is one plugged in?</source>
-        <translation>{name}: kein Joystick hat etwas gemeldet; ist einer angesteckt?</translation>
-    </message>
-    <message>
         <source>{name} ({key}): it is not plugged in</source>
         <translation>{name} ({key}): nicht angesteckt</translation>
     </message>
@@ -2829,10 +2565,6 @@
     <message>
         <source>no reason given</source>
         <translation>kein Grund genannt</translation>
-    </message>
-    <message>
-        <source>{where}: it is there no more; plug it in again</source>
-        <translation>{where}: nicht mehr da; wieder anstecken</translation>
     </message>
     <message>
         <source>{where}: {permission} ({said})</source>
@@ -2919,10 +2651,6 @@
         <translation>{where}: {count} Werte: müssen {columns} sein wie in Zeile 1</translation>
     </message>
     <message>
-        <source>{where}, column {column}: {strip} is no number</source>
-        <translation>{where}, Spalte {column}: {strip} ist keine Zahl</translation>
-    </message>
-    <message>
         <source>{where}, column {column}: {value}: must be 0 or 1</source>
         <translation>{where}, Spalte {column}: {value}: muss 0 oder 1 sein</translation>
     </message>
@@ -2983,10 +2711,6 @@
         <translation>Inverse von Achse {axis}: gewünschte Position {desired} beim Abtastwert {at} liegt außerhalb von {low} bis {high}, wo die Inverse gelernt wurde; innerhalb bleiben oder auf einer weiteren Aufzeichnung lernen</translation>
     </message>
     <message>
-        <source>inverse of axis {axis}: the axis stands at command {command}; the inverse reaches {low} to {high}: move the axis there first, or train it on a wider record</source>
-        <translation>Inverse von Achse {axis}: die Achse steht beim Befehl {command}; die Inverse reicht von {low} bis {high}: die Achse erst dorthin fahren oder auf einer weiteren Aufzeichnung lernen</translation>
-    </message>
-    <message>
         <source>axis {axis}: robot {name} has no such piezo axis</source>
         <translation>Achse {axis}: Roboter {name} hat keine solche Piezoachse</translation>
     </message>
@@ -3021,10 +2745,6 @@
     <message>
         <source>axis {axis}: the trajectory went through an inverse before ({metadata}); take the one that was wanted at first</source>
         <translation>Achse {axis}: die Trajektorie ging schon durch eine Inverse ({metadata}); die ursprünglich gewünschte nehmen</translation>
-    </message>
-    <message>
-        <source>inverse of axis {axis}: row {row} of the trajectory asks for a command beyond {low} to {high}, which is all the machine can be told; stay farther from the ends of the range</source>
-        <translation>Inverse von Achse {axis}: Zeile {row} der Trajektorie verlangt einen Befehl außerhalb von {low} bis {high}, mehr kann der Maschine nicht befohlen werden; von den Enden des Bereichs wegbleiben</translation>
     </message>
     <message>
         <source>trajectory: it has one row; an inverse needs a path of several</source>
@@ -3081,10 +2801,6 @@
     <message>
         <source>axis {axis}: it would take more than {most_rows} rows at {rate} Hz; shorten it, move faster or lower the rate</source>
         <translation>Achse {axis}: es wären mehr als {most_rows} Zeilen bei {rate} Hz; kürzen, schneller fahren oder die Rate senken</translation>
-    </message>
-    <message>
-        <source>{text} is no amount; write it like 200urad, 5um or 30%</source>
-        <translation>{text} ist keine Größe; schreiben wie 200urad, 5um oder 30%</translation>
     </message>
     <message>
         <source>{text} is not a finite number</source>
@@ -3260,10 +2976,6 @@
         <translation>{name} = {value} liegt nicht zwischen {least} und {most}</translation>
     </message>
     <message>
-        <source>axis {axis}: it is moved by a force and keeps no position by itself; give it a cascade controller in the robot file</source>
-        <translation>Achse {axis}: eine Kraft bewegt sie, und sie hält von selbst keine Position; ihr in der Roboterdatei einen Kaskadenregler geben</translation>
-    </message>
-    <message>
         <source>loop rate {rate_hz} Hz: must be more than 0, at most {fastest_hz} Hz</source>
         <translation>Rate des Regelkreises {rate_hz} Hz: muss größer als 0 und höchstens {fastest_hz} Hz sein</translation>
     </message>
@@ -3278,10 +2990,6 @@
     <message>
         <source>axis {axis}: effect delay of {delay_s} s is {intervals} intervals of a loop at {rate_hz} Hz, and must be a whole number of them; choose another rate or delay</source>
         <translation>Achse {axis}: die Totzeit {delay_s} s ihres Effekts ist das {intervals}-Fache des Intervalls eines Regelkreises mit {rate_hz} Hz und muss ein ganzes Vielfaches sein; eine andere Rate oder Totzeit wählen</translation>
-    </message>
-    <message>
-        <source>its sensor is {much} away from where it should be ({share} of the range at most)</source>
-        <translation>ihr Sensor liegt {much} von der Sollposition entfernt (höchstens {share} des Bereichs)</translation>
     </message>
     <message>
         <source>it has added {much} ({share} of the range at most)</source>
@@ -3588,10 +3296,6 @@
     <message>
         <source>{name}:{line}:byte {start}: {data} is not UTF-8; save the file as UTF-8</source>
         <translation>{name}:{line}:Byte {start}: {data} ist kein UTF-8; die Datei als UTF-8 speichern</translation>
-    </message>
-    <message>
-        <source>{name}:{line}: a carriage return stands inside of the line; end lines with LF or CRLF</source>
-        <translation>{name}:{line}: in der Zeile steht ein Wagenrücklauf; Zeilen mit LF oder CRLF beenden</translation>
     </message>
     <message>
         <source>the value is missing; a sensor dropout is a finite wrong value, never an empty field</source>
@@ -4227,10 +3931,6 @@
         <translation>die Aufzeichnung enthält keinen gemessenen Kanal (u, ref oder meas) zum Vergleichen; vorhanden: {names}</translation>
     </message>
     <message>
-        <source>the record has {rows} rows, {most} of them in motion: it takes {least_moving} or more to compare; was it cut off when it began? Play it once more</source>
-        <translation>die Aufzeichnung hat {rows} Zeilen, davon {most} in Bewegung: ein Vergleich braucht mindestens {least_moving}; wurde sie am Anfang abgeschnitten? Noch einmal abspielen</translation>
-    </message>
-    <message>
         <source>{path}: a picture&apos;s name ends in {names}</source>
         <translation>{path}: der Name eines Bildes endet auf {names}</translation>
     </message>
@@ -4712,22 +4412,8 @@
         <translation>Trajektorie: geprüft für Roboter {name} mit anderen Achsen oder Grenzen als {robot_name}; für diesen prüfen</translation>
     </message>
     <message>
-        <source>the model expects it to swing out by more than {margin} (1 % of the range): smooth or stretch the trajectory, or keep it away from the end of the range</source>
-        <extracomment>How far beyond its range, in shares of it, an axis may be predicted to swing.</extracomment>
-        <translation>das Modell erwartet, dass sie um mehr als {margin} hinausschwingt (1 % des Bereichs): die Trajektorie glätten, strecken oder vom Ende des Bereichs fernhalten</translation>
-    </message>
-    <message>
-        <source>inverse of axis {axis}: the axis stands at {at}; the inverse saw {low} to {high}: move the axis there first</source>
-        <extracomment>In what each axis that has an inverse has gone beyond it; replaced as a whole.</extracomment>
-        <translation>Inverse von Achse {axis}: die Achse steht bei {at}; die Inverse kennt {low} bis {high}: die Achse erst dorthin fahren</translation>
-    </message>
-    <message>
         <source>axis {axis}: a sweep from {start}: it must begin between {low} and {high}, its range as far as its inverse saw it</source>
         <translation>Achse {axis}: ein Hub ab {start}: er muss zwischen {low} und {high} beginnen, ihrem Bereich, soweit ihre Inverse ihn kennt</translation>
-    </message>
-    <message>
-        <source>axis {axis}: no sweep between {low} and {high} is free of commands that the machine cannot be told; move the axis to mid-range first</source>
-        <translation>Achse {axis}: kein Hub zwischen {low} und {high} kommt ohne Befehle aus, die der Maschine nicht gegeben werden können; die Achse erst in die Mitte fahren</translation>
     </message>
     <message>
         <source>{name}: a way of {way} on a spring of {spring_hz} Hz is more than the axes can accelerate; use at most {most}, or at most {other} Hz</source>
@@ -4736,14 +4422,6 @@
     <message>
         <source>{name}: {speed} within a time constant of {time_constant_s} s is more than the axes can accelerate; use at most {most}, or at least {other} s</source>
         <translation>{name}: {speed} innerhalb einer Zeitkonstante von {time_constant_s} s ist mehr, als die Achsen beschleunigen können; höchstens {most} verwenden oder mindestens {other} s</translation>
-    </message>
-    <message>
-        <source>there is no move to undo</source>
-        <translation>keine Bewegung zum Zurücknehmen</translation>
-    </message>
-    <message>
-        <source>axis {axis} is no stepper axis; only these have backlash to take up</source>
-        <translation>Achse {axis} ist keine Schrittmotorachse; nur diese haben Spiel, das herauszunehmen ist</translation>
     </message>
     <message>
         <source>axis {axis}: a width of {width}: must be above 0 and at most {most}, a hundredth of the range</source>
@@ -4777,10 +4455,6 @@
     <message>
         <source>cells: the list has {most}; remove one</source>
         <translation>Zellen: die Liste hat {most}; eine entfernen</translation>
-    </message>
-    <message>
-        <source>axis {axis} stands at {at}, outside of {low} to {high}; move it there first</source>
-        <translation>Achse {axis} steht bei {at}, außerhalb von {low} bis {high}; sie erst dorthin fahren</translation>
     </message>
     <message>
         <source>axis {axis}: a range from {low} to {high}: its low end must be lower</source>
@@ -4853,6 +4527,540 @@
     <message>
         <source>profile of {count} ticks: a board counts {most} at most; make it shorter</source>
         <translation>Profil von {count} Takten: eine Karte zählt höchstens {most}; verkürzen</translation>
+    </message>
+    <message>
+        <source>{folder}: there is no such folder; make it, or name another one</source>
+        <translation>{folder}: diesen Ordner gibt es nicht; anlegen oder einen anderen nennen</translation>
+    </message>
+    <message>
+        <source>{place}: it is there already and is not overwritten; choose another name or folder</source>
+        <translation>{place}: gibt es schon und wird nicht überschrieben; einen anderen Namen oder Ordner wählen</translation>
+    </message>
+    <message>
+        <source>{name} cannot be the name of a plugin: it must be small letters, digits and single underscores, a letter first, at most {longest} signs, such as &apos;glass_stage&apos;</source>
+        <translation>{name} kann kein Plugin heißen: erlaubt sind Kleinbuchstaben, Ziffern und einzelne Unterstriche, zuerst ein Buchstabe, höchstens {longest} Zeichen, etwa &apos;glass_stage&apos;</translation>
+    </message>
+    <message>
+        <source>the {kind} {name} is there already{package}; choose another name</source>
+        <translation>{kind} {name} gibt es schon{package}; einen anderen Namen wählen</translation>
+    </message>
+    <message>
+        <source>{place}: it cannot be written ({reason}); choose another folder or make room</source>
+        <translation>{place}: kann nicht geschrieben werden ({reason}); einen anderen Ordner wählen oder Platz schaffen</translation>
+    </message>
+    <message>
+        <source>{filename}: this file of the 3-D view cannot be read: {strerror}; install RoTeMiNa again</source>
+        <translation>{filename}: diese Datei der 3D-Ansicht kann nicht gelesen werden: {strerror}; RoTeMiNa neu installieren</translation>
+    </message>
+    <message>
+        <source>the 3-D view cannot listen on {host}: {strerror}; a firewall or a limit of open files may forbid it</source>
+        <translation>die 3D-Ansicht kann an {host} nicht lauschen: {strerror}; vielleicht verbietet es eine Firewall oder eine Grenze für offene Dateien</translation>
+    </message>
+    <message>
+        <source>reading before</source>
+        <translation>Messwert vorher</translation>
+    </message>
+    <message>
+        <source>after</source>
+        <translation>nachher</translation>
+    </message>
+    <message>
+        <source>position reached</source>
+        <translation>erreichte Position</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {runs} runs from {low} to {high}</source>
+        <translation>Achse {axis}: {runs} Durchläufe von {low} bis {high}</translation>
+    </message>
+    <message>
+        <source>error in the validation runs, rms: {before} before, {after} after</source>
+        <translation>Fehler in den Prüfdurchläufen, Effektivwert: {before} vorher, {after} nachher</translation>
+    </message>
+    <message>
+        <source>note: {note}</source>
+        <translation>Hinweis: {note}</translation>
+    </message>
+    <message>
+        <source>refused: {reason}</source>
+        <translation>abgelehnt: {reason}</translation>
+    </message>
+    <message>
+        <source>signal</source>
+        <translation>Signal</translation>
+    </message>
+    <message>
+        <source>rms</source>
+        <translation>Effektivwert</translation>
+    </message>
+    <message>
+        <source>peak</source>
+        <translation>Spitze</translation>
+    </message>
+    <message>
+        <source>of range</source>
+        <translation>vom Bereich</translation>
+    </message>
+    <message>
+        <source>rel. error</source>
+        <translation>rel. Fehler</translation>
+    </message>
+    <message>
+        <source>noise floor</source>
+        <translation>Rauschgrenze</translation>
+    </message>
+    <message>
+        <source>re-fitted</source>
+        <translation>neu angepasst</translation>
+    </message>
+    <message>
+        <source>tip path: the joints of a tip were not all measured in both runs</source>
+        <translation>Bahn der Spitze: nicht alle Gelenke einer Spitze wurden in beiden Läufen gemessen</translation>
+    </message>
+    <message>
+        <source>tip path: {rms} rms, {peak} peak apart</source>
+        <translation>Bahn der Spitze: Abstand {rms} effektiv, {peak} Spitze</translation>
+    </message>
+    <message>
+        <source>there is no previous position</source>
+        <translation>es gibt keine frühere Position</translation>
+    </message>
+    <message>
+        <source>setting {name}: {text} is not a number; enter one with a decimal point</source>
+        <translation>Einstellung {name}: {text} ist keine Zahl; eine mit Dezimalpunkt eingeben</translation>
+    </message>
+    <message>
+        <source>setting {name}: {text} is not a switch; enter true or false</source>
+        <translation>Einstellung {name}: {text} ist kein Schalter; true oder false eingeben</translation>
+    </message>
+    <message>
+        <source>setting {name}: {text} is not an integer</source>
+        <translation>Einstellung {name}: {text} ist keine ganze Zahl</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>angehalten</translation>
+    </message>
+    <message>
+        <source>the camera shows {width} × {height} px from {left}, {top}, but the calibration is for {view_width} × {view_height} px from {view_left}, {view_top}; restore the region of the camera, or calibrate again</source>
+        <translation>die Kamera zeigt {width} × {height} px ab {left}, {top}, kalibriert sind {view_width} × {view_height} px ab {view_left}, {view_top}; den Ausschnitt wiederherstellen oder neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>{path}: this calibration is for camera {camera} with objective {objective}, not for {other_camera} with {other_objective}; move the file away and calibrate again</source>
+        <translation>{path}: diese Kalibrierung gilt für Kamera {camera} mit Objektiv {objective}, nicht für {other_camera} mit {other_objective}; die Datei verschieben und neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>the tip is {distance} px from its target, but at most {most} px are permitted after a move; the calibration is no longer valid: calibrate again</source>
+        <translation>die Spitze ist {distance} px vom Ziel entfernt, nach einer Fahrt sind höchstens {most} px erlaubt; die Kalibrierung gilt nicht mehr: neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>the tip is moving to a target; wait, or stop it first</source>
+        <translation>die Spitze ist unterwegs zu einem Ziel; warten oder erst anhalten</translation>
+    </message>
+    <message>
+        <source>{trouble}; nothing moves</source>
+        <extracomment>Why the latest run was ended from here; empty if it was not.</extracomment>
+        <translation>{trouble}; nichts bewegt sich</translation>
+    </message>
+    <message>
+        <source>axis {axis} is not a stepper axis; only these have backlash</source>
+        <translation>Achse {axis} ist keine Schrittmotorachse; nur diese haben Spiel</translation>
+    </message>
+    <message>
+        <source>the inverse of axis {axes} is off: the axis receives its targets as commands</source>
+        <translation>die Inverse der Achse {axes} ist abgeschaltet: die Achse erhält ihre Ziele als Sollwerte</translation>
+    </message>
+    <message>
+        <source>driver {name} stores no parameters</source>
+        <translation>Treiber {name} speichert keine Parameter</translation>
+    </message>
+    <message>
+        <source>the machine or the bounds of the tip have changed; play again</source>
+        <translation>die Maschine oder die Grenzen der Spitze haben sich geändert; noch einmal abspielen</translation>
+    </message>
+    <message>
+        <source>driver {name} has no limit switches</source>
+        <translation>Treiber {name} hat keine Endschalter</translation>
+    </message>
+    <message>
+        <source>axis {axis} has no amplifier for a voltage</source>
+        <translation>Achse {axis} hat keinen Verstärker für eine Spannung</translation>
+    </message>
+    <message>
+        <source>{where}{name} is not a valid name of a position; use 1 to {longest} letters without blanks at the ends</source>
+        <translation>{where}{name} ist kein gültiger Name einer Position; 1 bis {longest} Zeichen ohne Leerzeichen an den Enden verwenden</translation>
+    </message>
+    <message>
+        <source>{other} controls axis {axis}; stop it, or take over first</source>
+        <translation>{other} steuert Achse {axis}; erst anhalten oder übernehmen</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} of robot {this} is not a piezo in open loop, which the loop needs</source>
+        <translation>{name}: Achse {axis} des Roboters {this} ist kein Piezo im offenen Kreis, den der Regelkreis braucht</translation>
+    </message>
+    <message>
+        <source>axis {axis} has no loop to open</source>
+        <translation>Achse {axis} hat keinen Regelkreis, der sich abschalten ließe</translation>
+    </message>
+    <message>
+        <source>robot {name} has no tip for a floor to limit</source>
+        <extracomment>To what ranges of axes were narrowed; replaced as a whole.</extracomment>
+        <translation>Roboter {name} hat keine Spitze, für die ein Boden gelten könnte</translation>
+    </message>
+    <message>
+        <source>tip: too fast this close to its floor; move more slowly</source>
+        <translation>Spitze: so dicht über dem Boden zu schnell; langsamer fahren</translation>
+    </message>
+    <message>
+        <source>{out}; axis {axes} does not bring it nearer in this direction</source>
+        <translation>{out}; Achse {axes} bringt sie in dieser Richtung nicht näher</translation>
+    </message>
+    <message>
+        <source>the device failed ({fault}); reconnect, then check its position</source>
+        <translation>das Gerät ist ausgefallen ({fault}); neu verbinden, dann seine Position prüfen</translation>
+    </message>
+    <message>
+        <source>driver {name} cannot execute profiles</source>
+        <translation>Treiber {name} kann keine Profile ausführen</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} of robot {this} is not a piezo in open loop</source>
+        <translation>{name}: Achse {axis} des Roboters {this} ist kein Piezo im offenen Kreis</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} had another range; train the inverse again</source>
+        <translation>{name}: Achse {axis} hatte einen anderen Bereich; neu trainieren</translation>
+    </message>
+    <message>
+        <source>axis {axis} has no inverse to remove</source>
+        <translation>Achse {axis} hat keine Inverse zum Abschalten</translation>
+    </message>
+    <message>
+        <source>compensated trajectory: {error}; the commands for the desired path exceed a limit: make it slower, smoother, or smaller</source>
+        <translation>kompensierte Trajektorie: {error}; die Sollwerte für die gewünschte Bahn überschreiten eine Grenze: langsamer, glatter oder kleiner fahren</translation>
+    </message>
+    <message>
+        <source>{stop} is active; release it first</source>
+        <extracomment>Why no motion is accepted on any path; None while it is. Host time of the latest stop, whoever asked for it; None before the first.</extracomment>
+        <translation>{stop} ist aktiv; erst freigeben</translation>
+    </message>
+    <message>
+        <source>the input devices are released</source>
+        <extracomment>What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man of the pad would only keep it from acting. What is wrong with files of the user&apos;s, told at the start. Calibrations of sensors: those that are on correct readings from the start. The pad on the screen and its keys: a device like any other.</extracomment>
+        <translation>die Eingabegeräte werden losgelassen</translation>
+    </message>
+    <message>
+        <source>the machine has moved in the meantime; try again</source>
+        <translation>die Maschine hat sich inzwischen bewegt; erneut versuchen</translation>
+    </message>
+    <message>
+        <source>driver {name} has no switchable tool</source>
+        <translation>Treiber {name} hat kein Werkzeug, das sich schalten ließe</translation>
+    </message>
+    <message>
+        <source>nothing is playing</source>
+        <translation>es läuft nichts, was sich anhalten ließe</translation>
+    </message>
+    <message>
+        <source>nothing is paused to {what}</source>
+        <translation>nichts ist pausiert, was sich {what} ließe</translation>
+    </message>
+    <message>
+        <source>axis {axis} is at {at}, outside {low} to {high}; move it inside first</source>
+        <translation>Achse {axis} ist bei {at}, außerhalb von {low} bis {high}; sie erst hineinfahren</translation>
+    </message>
+    <message>
+        <source>tip: {told}, by command or by reading: it may only move back inside, slowly and with confirmation, by axes that bring it nearer. Move it back, or repair the wrong sensor</source>
+        <translation>Spitze: {told}, nach Sollwert oder Messwert: sie darf nur langsam und bestätigt zurück, mit Achsen, die sie näher bringen. Zurückfahren oder den falschen Sensor instand setzen</translation>
+    </message>
+    <message>
+        <source>the tip cannot be moved: {locked}</source>
+        <translation>die Spitze kann nicht bewegt werden: {locked}</translation>
+    </message>
+    <message>
+        <source>axis {axis}: only {nano} can be moved back while the tip stays in place; move {axis} back manually, or shorten the distance</source>
+        <translation>Achse {axis}: nur {nano} kann zurückfahren, während die Spitze am Ort bleibt; {axis} von Hand zurückfahren oder den Weg kürzen</translation>
+    </message>
+    <message>
+        <source>driver {driver} cannot execute profiles; a thrust needs that</source>
+        <translation>Treiber {driver} kann keine Profile selbst ausführen; ein Einstich braucht das</translation>
+    </message>
+    <message>
+        <source>axis {axis} of {robot} rotates; a penetration needs a linear axis</source>
+        <translation>Achse {axis} von {robot} dreht; eine Penetration braucht eine lineare Achse</translation>
+    </message>
+    <message>
+        <source>profile {name} needs {gone}, which is not connected; connected: {present}. Connect it, or choose or create another profile</source>
+        <translation>Profil {name} braucht {gone}, nicht angeschlossen; angeschlossen: {present}. Anschließen oder ein anderes Profil wählen oder anlegen</translation>
+    </message>
+    <message>
+        <source>not at rest yet: release it</source>
+        <translation>noch nicht in Ruhe: loslassen</translation>
+    </message>
+    <message>
+        <source>has not reported yet: move and release it</source>
+        <translation>hat noch nichts gemeldet: bewegen und loslassen</translation>
+    </message>
+    <message>
+        <source>has been at its end from the start: free it; if it rests there, calibrate it as one-sided</source>
+        <translation>steht von Anfang an am Ende: lösen; ruht sie dort, als einseitig kalibrieren</translation>
+    </message>
+    <message>
+        <source>reports {raw}, outside −1 to 1: disconnect and check it</source>
+        <translation>meldet {raw}, außerhalb von −1 bis 1: abstecken und prüfen</translation>
+    </message>
+    <message>
+        <source>axis {axis} reported nothing at rest; move it once, release it, and start again</source>
+        <translation>Achse {axis} hat in Ruhe nichts gemeldet; einmal bewegen, loslassen, neu beginnen</translation>
+    </message>
+    <message>
+        <source>axis {axis} hardly moved: {low} to {high} of −1 to 1, at least {least} is needed; move it to both ends</source>
+        <translation>Achse {axis} kaum bewegt: {low} bis {high} von −1 bis 1, mindestens {least} nötig; an beide Enden bewegen</translation>
+    </message>
+    <message>
+        <source>this is a replay; the machine does not move</source>
+        <translation>dies ist eine Wiedergabe; nichts bewegt sich</translation>
+    </message>
+    <message>
+        <source>{name}: the recording has failed ({reason}); the data so far are safe in {path}. Free disk space; the motion continues</source>
+        <translation>{name}: die Aufnahme ist fehlgeschlagen ({reason}); die bisherigen Daten sind sicher in {path}. Speicherplatz schaffen; die Bewegung läuft weiter</translation>
+    </message>
+    <message>
+        <source>{file}: the recording continues; {what}</source>
+        <translation>{file}: die Aufnahme läuft weiter; {what}</translation>
+    </message>
+    <message>
+        <source>{path}: {steps_s} ms of samples are missing during a move {at_s} s after the start, at most {rest_s} ms are permitted; choose a section before or after that</source>
+        <translation>{path}: {at_s} s nach dem Beginn fehlen während einer Bewegung Messwerte für {steps_s} ms, höchstens {rest_s} ms sind erlaubt; einen Abschnitt davor oder danach wählen</translation>
+    </message>
+    <message>
+        <source>{path}: the device was reconnected {at_s} s after the start, with a new clock; choose a section before or after that</source>
+        <translation>{path}: das Gerät wurde {at_s} s nach dem Beginn neu verbunden, mit neuer Uhr; einen Abschnitt davor oder danach wählen</translation>
+    </message>
+    <message>
+        <source>health card: the record gives no figure of {axis}: {names}</source>
+        <translation>Zustandskarte: die Aufzeichnung liefert keinen Wert von {axis}: {names}</translation>
+    </message>
+    <message>
+        <source>{name}:{line}: a carriage return is inside the line; end lines with LF or CRLF</source>
+        <translation>{name}:{line}: in der Zeile steht ein Wagenrücklauf; Zeilen mit LF oder CRLF beenden</translation>
+    </message>
+    <message>
+        <source>axis {axis}: a force moves this axis, so it holds no position; give it a cascade controller in the robot file</source>
+        <translation>Achse {axis}: eine Kraft bewegt diese Achse, daher hält sie keine Position; ihr in der Roboterdatei einen Kaskadenregler geben</translation>
+    </message>
+    <message>
+        <source>its sensor deviates by {much} from the expected position (at most {share} of the range)</source>
+        <translation>ihr Sensor weicht um {much} von der erwarteten Position ab (höchstens {share} des Bereichs)</translation>
+    </message>
+    <message>
+        <source>the model predicts an overshoot beyond the range of more than {margin} (1 % of the range): smooth or stretch the trajectory, or keep it away from the end of the range</source>
+        <extracomment>How far beyond its range, in shares of it, an axis may be predicted to swing.</extracomment>
+        <translation>das Modell sagt ein Überschwingen um mehr als {margin} (1 % des Bereichs) über den Bereich hinaus voraus: die Trajektorie glätten, strecken oder vom Ende des Bereichs fernhalten</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: the command is {command}, but the inverse covers {low} to {high}: move the axis there first, or train with a wider record</source>
+        <translation>Inverse von Achse {axis}: der Sollwert ist {command}, die Inverse reicht von {low} bis {high}: die Achse erst dorthin fahren oder mit einer weiteren Aufzeichnung trainieren</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: row {row} of the trajectory needs a command outside {low} to {high}, the limits of the machine; stay farther from the ends of the range</source>
+        <translation>Inverse von Achse {axis}: Zeile {row} der Trajektorie braucht einen Sollwert außerhalb von {low} bis {high}, den Grenzen der Maschine; von den Enden des Bereichs fernbleiben</translation>
+    </message>
+    <message>
+        <source>axis {axis}: every sweep between {low} and {high} needs commands outside the limits of the machine; move the axis to mid-range first</source>
+        <translation>Achse {axis}: jeder Durchlauf zwischen {low} und {high} braucht Sollwerte außerhalb der Grenzen der Maschine; die Achse erst in die Mitte fahren</translation>
+    </message>
+    <message>
+        <source>the record has {rows} rows, {most} of them in motion; a comparison needs at least {least_moving}. Play the motion again</source>
+        <translation>die Aufzeichnung hat {rows} Zeilen, davon {most} in Bewegung; ein Vergleich braucht mindestens {least_moving}. Die Bewegung noch einmal abspielen</translation>
+    </message>
+    <message>
+        <source>{text} is not an amount; enter one such as 200urad, 5um or 30%</source>
+        <translation>{text} ist keine Größe; eine wie 200urad, 5um oder 30% eingeben</translation>
+    </message>
+    <message>
+        <source>{where}: at {baud} baud no valid frame of a board arrives; check the baud rate (others: {others}), and whether an MC68HC11 board is connected to this port</source>
+        <translation>{where}: mit {baud} Baud kommt kein gültiger Rahmen einer Karte an; die Baudrate prüfen (andere: {others}) und ob an diesem Anschluss eine MC68HC11-Karte hängt</translation>
+    </message>
+    <message>
+        <source>a set-point was farther away than the axis can move in that time; it was refused</source>
+        <translation>ein Sollwert war weiter entfernt, als die Achse in dieser Zeit fahren kann; er wurde abgelehnt</translation>
+    </message>
+    <message>
+        <source>distance from the low switch to zero</source>
+        <translation>Weg vom unteren Schalter bis null</translation>
+    </message>
+    <message>
+        <source>{url}: there is no such port ({said}); check the name, and whether the adapter is plugged in</source>
+        <translation>{url}: diesen Anschluss gibt es nicht ({said}); den Namen prüfen und ob der Adapter angesteckt ist</translation>
+    </message>
+    <message>
+        <source>{url}: the port has disappeared ({error}). Plug it in and reconnect, then check the position of the machine</source>
+        <translation>{url}: der Anschluss ist verschwunden ({error}). Anstecken und neu verbinden, dann die Position der Maschine prüfen</translation>
+    </message>
+    <message>
+        <source>{where} was reset and has lost its position; reconnect and home</source>
+        <translation>{where} wurde zurückgesetzt und hat ihre Position verloren; neu verbinden und referenzieren</translation>
+    </message>
+    <message>
+        <source>{where} has not answered for {quiet_s} s; check cable and supply, reconnect, then check the position of the machine</source>
+        <translation>{where} antwortet seit {quiet_s} s nicht; Kabel und Versorgung prüfen, neu verbinden, dann die Position der Maschine prüfen</translation>
+    </message>
+    <message>
+        <source>{name}: there is no simulated machine; connect the simulator</source>
+        <translation>{name}: keine simulierte Maschine; den Simulator verbinden</translation>
+    </message>
+    <message>
+        <source>{address}: not a video, or a truncated or unknown one; choose another file</source>
+        <translation>{address}: kein Video, oder ein unvollständiges oder unbekanntes; eine andere Datei wählen</translation>
+    </message>
+    <message>
+        <source>{path}: not a picture; choose a TIFF or PNG file</source>
+        <translation>{path}: kein Bild; eine TIFF- oder PNG-Datei wählen</translation>
+    </message>
+    <message>
+        <source>{port}: the controller has not answered for {seconds} s; it ends its motion within half a second plus braking. Check the machine, then reconnect</source>
+        <translation>{port}: die Steuerung antwortet seit {seconds} s nicht; sie beendet ihre Bewegung binnen einer halben Sekunde und des Bremswegs. Die Maschine prüfen, dann neu verbinden</translation>
+    </message>
+    <message>
+        <source>{name}: axis {axis} is not a piezo in open loop, which {what} needs</source>
+        <translation>{name}: Achse {axis} ist kein Piezo im offenen Kreis, wie ihn {what} braucht</translation>
+    </message>
+    <message>
+        <source>inverse of axis {axis}: the axis is at {at}, but the inverse covers {low} to {high}: move the axis there first</source>
+        <extracomment>In what each axis that has an inverse has gone beyond it; replaced as a whole.</extracomment>
+        <translation>Inverse von Achse {axis}: die Achse ist bei {at}, die Inverse reicht von {low} bis {high}: die Achse erst dorthin fahren</translation>
+    </message>
+    <message>
+        <source>{name}: no joystick reports; check whether one is plugged in</source>
+        <translation>{name}: kein Joystick meldet sich; prüfen, ob einer angesteckt ist</translation>
+    </message>
+    <message>
+        <source>{where}, column {column}: {strip} is not a number</source>
+        <translation>{where}, Spalte {column}: {strip} ist keine Zahl</translation>
+    </message>
+    <message>
+        <source>{where}: no longer connected; plug it in again</source>
+        <translation>{where}: nicht mehr angeschlossen; wieder anstecken</translation>
+    </message>
+    <message>
+        <source>{reason}: release it first</source>
+        <translation>{reason}: zuerst loslassen</translation>
+    </message>
+    <message>
+        <source>Plots need no GPU; the 3-D view is slower. A graphics driver speeds it up.</source>
+        <translation>Diagramme brauchen keine GPU; die 3-D-Ansicht ist langsamer. Ein Grafiktreiber beschleunigt sie.</translation>
+    </message>
+    <message>
+        <source>pip install &apos;rotemina[view3d]&apos;, or open the 3-D view in the browser.</source>
+        <translation>pip install &apos;rotemina[view3d]&apos;, oder die 3-D-Ansicht im Browser öffnen.</translation>
+    </message>
+    <message>
+        <source>the clock stands still</source>
+        <translation>die Uhr steht still</translation>
+    </message>
+    <message>
+        <source>Install again: pip install --upgrade rotemina (in its folder: pip install .).</source>
+        <translation>Neu installieren: pip install --upgrade rotemina (in seinem Ordner: pip install .).</translation>
+    </message>
+    <message>
+        <source>Without a display: QT_QPA_PLATFORM=offscreen. Otherwise see the Qt libraries above; with QT_DEBUG_PLUGINS=1 Qt names the missing plugin.</source>
+        <translation>Ohne Anzeige: QT_QPA_PLATFORM=offscreen. Sonst siehe die Qt-Bibliotheken oben; mit QT_DEBUG_PLUGINS=1 nennt Qt das fehlende Plugin.</translation>
+    </message>
+    <message>
+        <source>Commands work anyway. Start the window from a desktop.</source>
+        <translation>Befehle funktionieren trotzdem. Das Fenster von einem Desktop aus starten.</translation>
+    </message>
+    <message>
+        <source>not installed</source>
+        <translation>nicht installiert</translation>
+    </message>
+    <message>
+        <source>See &apos;When a joystick is missing&apos; in docs/inputs.md.</source>
+        <translation>Siehe „When a joystick is missing“ in docs/inputs.md.</translation>
+    </message>
+    <message>
+        <source>Give the user permission to write there, or set HOME or XDG_*_HOME elsewhere.</source>
+        <translation>Dem Benutzer dort Schreibrecht geben oder HOME bzw. XDG_*_HOME anders setzen.</translation>
+    </message>
+    <message>
+        <source>{count} packages, versions as required</source>
+        <translation>{count} Pakete, Versionen wie verlangt</translation>
+    </message>
+    <message>
+        <source>all for the platform {platform}</source>
+        <translation>alle für die Plattform {platform}</translation>
+    </message>
+    <message>
+        <source>it ended without a message</source>
+        <translation>es endete ohne Meldung</translation>
+    </message>
+    <message>
+        <source>by software ({renderer})</source>
+        <translation>durch Software ({renderer})</translation>
+    </message>
+    <message>
+        <source>installed</source>
+        <translation>installiert</translation>
+    </message>
+    <message>
+        <source>none connected</source>
+        <translation>keine angeschlossen</translation>
+    </message>
+    <message>
+        <source>{free} GB free for {folder}</source>
+        <translation>{free} GB frei für {folder}</translation>
+    </message>
+    <message>
+        <source>Install Python &gt;= {version}.</source>
+        <translation>Python &gt;= {version} installieren.</translation>
+    </message>
+    <message>
+        <source>missing: {names}</source>
+        <translation>es fehlen: {names}</translation>
+    </message>
+    <message>
+        <source>Qt does not start on {platform}: {reason}</source>
+        <translation>Qt startet auf {platform} nicht: {reason}</translation>
+    </message>
+    <message>
+        <source>{platform}: no display for a window</source>
+        <translation>{platform}: keine Anzeige für ein Fenster</translation>
+    </message>
+    <message>
+        <source>no OpenGL</source>
+        <translation>kein OpenGL</translation>
+    </message>
+    <message>
+        <source>sudo usermod -aG {group} $USER, then log in again.</source>
+        <translation>sudo usermod -aG {group} $USER, dann neu anmelden.</translation>
+    </message>
+    <message>
+        <source>no permission for {names}</source>
+        <translation>keine Berechtigung für {names}</translation>
+    </message>
+    <message>
+        <source>Free at least {least} MB.</source>
+        <translation>Mindestens {least} MB freigeben.</translation>
+    </message>
+    <message>
+        <source>An hour at 1 kHz takes 0.8 GB; {ample} GB are ample.</source>
+        <translation>Eine Stunde bei 1 kHz braucht 0,8 GB; {ample} GB reichen gut.</translation>
+    </message>
+    <message>
+        <source>steps of {step}</source>
+        <translation>Schritte von {step}</translation>
+    </message>
+    <message>
+        <source>Times are wrong by more than {bound} ms: use Python &gt;= 3.13.</source>
+        <translation>Zeiten sind um mehr als {bound} ms falsch: Python &gt;= 3.13 verwenden.</translation>
+    </message>
+    <message>
+        <source>{name} {found}, {needed} needed</source>
+        <translation>{name} {found}, nötig ist {needed}</translation>
+    </message>
+    <message>
+        <source>no answer within {limit} s</source>
+        <translation>keine Antwort binnen {limit} s</translation>
     </message>
 </context>
 </TS>

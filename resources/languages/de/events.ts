@@ -4,16 +4,8 @@
 <context>
     <name>events</name>
     <message>
-        <source>Recording {name} begins</source>
-        <translation>Aufzeichnung {name} beginnt</translation>
-    </message>
-    <message>
-        <source>Recording {name} ends</source>
-        <translation>Aufzeichnung {name} endet</translation>
-    </message>
-    <message>
         <source>Model in use: {name}</source>
-        <translation>Modell im Einsatz: {name}</translation>
+        <translation>Verwendetes Modell: {name}</translation>
     </message>
     <message>
         <source>Connected: {name}</source>
@@ -24,20 +16,16 @@
         <translation>Getrennt</translation>
     </message>
     <message>
-        <source>The lock is released</source>
-        <translation>Die Sperre ist aufgehoben</translation>
-    </message>
-    <message>
         <source>Stopped and locked by the operator</source>
-        <translation>Vom Bediener gestoppt und gesperrt</translation>
+        <translation>Vom Bediener angehalten und gesperrt</translation>
     </message>
     <message>
         <source>Stopped by the operator</source>
-        <translation>Vom Bediener gestoppt</translation>
+        <translation>Vom Bediener angehalten</translation>
     </message>
     <message>
         <source>Stopped by the program</source>
-        <translation>Vom Programm gestoppt</translation>
+        <translation>Vom Programm angehalten</translation>
     </message>
     <message>
         <source>Locked: {why}</source>
@@ -52,20 +40,8 @@
         <translation>eine Trajektorie</translation>
     </message>
     <message>
-        <source>Plays {name}</source>
-        <translation>Spielt {name}</translation>
-    </message>
-    <message>
         <source>{name} is paused at row {row}</source>
         <translation>{name}: Pause bei Zeile {row}</translation>
-    </message>
-    <message>
-        <source>{name} has ended</source>
-        <translation>{name} ist beendet</translation>
-    </message>
-    <message>
-        <source>{name} goes on at row {row}</source>
-        <translation>{name} geht bei Zeile {row} weiter</translation>
     </message>
     <message>
         <source>Penetration: {phase}</source>
@@ -84,8 +60,32 @@
         <translation>Protokoll zeigen</translation>
     </message>
     <message>
-        <source>All that the program told, to be filtered and copied (Ctrl+L)</source>
-        <translation>Alles, was das Programm gemeldet hat, zum Filtern und Kopieren (Strg+L)</translation>
+        <source>All messages of the program, with filter and copy (Ctrl+L)</source>
+        <translation>Alle Meldungen des Programms, zum Filtern und Kopieren (Strg+L)</translation>
+    </message>
+    <message>
+        <source>{name} resumed at row {row}</source>
+        <translation>{name}: weiter bei Zeile {row}</translation>
+    </message>
+    <message>
+        <source>Lock released</source>
+        <translation>Sperre gelöst</translation>
+    </message>
+    <message>
+        <source>Playing {name}</source>
+        <translation>Spielt {name} ab</translation>
+    </message>
+    <message>
+        <source>{name} ended</source>
+        <translation>{name} beendet</translation>
+    </message>
+    <message>
+        <source>Recording {name} started</source>
+        <translation>Aufnahme {name} begonnen</translation>
+    </message>
+    <message>
+        <source>Recording {name} ended</source>
+        <translation>Aufnahme {name} beendet</translation>
     </message>
 </context>
 <context>

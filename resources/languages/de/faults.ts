@@ -56,20 +56,8 @@
         <translation>Bytes</translation>
     </message>
     <message>
-        <source>The next bytes are lost, come twice, or with a wrong bit; or some that nobody sent</source>
-        <translation>Die nächsten Bytes gehen verloren, kommen doppelt oder mit einem falschen Bit; oder es kommen welche, die niemand gesendet hat</translation>
-    </message>
-    <message>
-        <source>What</source>
-        <translation>Was</translation>
-    </message>
-    <message>
         <source>Delay</source>
-        <translation>Totzeit</translation>
-    </message>
-    <message>
-        <source>From now on bytes come this much later; 0 ends it</source>
-        <translation>Ab jetzt kommen Bytes um diese Zeit später; 0 beendet es</translation>
+        <translation>Verzögerung</translation>
     </message>
     <message>
         <source>delay</source>
@@ -78,10 +66,6 @@
     <message>
         <source>Cable</source>
         <translation>Kabel</translation>
-    </message>
-    <message>
-        <source>Nothing comes through, both ways; held at space, the boards hear a stop first</source>
-        <translation>Nichts kommt durch, in beiden Richtungen; auf Dauer-Null gehalten hören die Steuerkarten zuerst einen Halt</translation>
     </message>
     <message>
         <source>silent</source>
@@ -100,14 +84,6 @@
         <translation>Karte</translation>
     </message>
     <message>
-        <source>A board restarts and does not know where its steppers are</source>
-        <translation>Eine Karte startet neu und weiß nicht, wo ihre Schrittmotoren stehen</translation>
-    </message>
-    <message>
-        <source>A sensor repeats one reading until it is thawed</source>
-        <translation>Ein Sensor wiederholt einen Messwert, bis er freigegeben wird</translation>
-    </message>
-    <message>
         <source>reset</source>
         <translation>Reset</translation>
     </message>
@@ -124,10 +100,6 @@
         <translation>einfrieren</translation>
     </message>
     <message>
-        <source>thaw</source>
-        <translation>freigeben</translation>
-    </message>
-    <message>
         <source>Microsteps</source>
         <translation>Mikroschritte</translation>
     </message>
@@ -138,10 +110,6 @@
     <message>
         <source>Stepper</source>
         <translation>Stepper</translation>
-    </message>
-    <message>
-        <source>It stays behind its command</source>
-        <translation>Er bleibt hinter seinem Sollwert zurück</translation>
     </message>
     <message>
         <source>Axis</source>
@@ -165,7 +133,7 @@
     </message>
     <message>
         <source>recovered</source>
-        <translation>wieder da</translation>
+        <translation>behoben</translation>
     </message>
     <message>
         <source>stop and lock</source>
@@ -188,10 +156,6 @@
         <translation>freigegeben</translation>
     </message>
     <message>
-        <source>{about} latched</source>
-        <translation>verriegelt: {about}</translation>
-    </message>
-    <message>
         <source>connected</source>
         <translation>verbunden</translation>
     </message>
@@ -200,28 +164,12 @@
         <translation>getrennt</translation>
     </message>
     <message>
-        <source>the device says nothing for a short while</source>
-        <translation>das Gerät schweigt eine kurze Zeit</translation>
-    </message>
-    <message>
         <source>the device answers again</source>
         <translation>das Gerät antwortet wieder</translation>
     </message>
     <message>
         <source>cleared: {about}</source>
         <translation>quittiert: {about}</translation>
-    </message>
-    <message>
-        <source>For training. The simulator inside this program has neither line nor board that could fail; what its machine does wrong is in the panel Effects. A virtual board is a process of its own: start it, connect to its ports, and let things go wrong.</source>
-        <translation>Zum Üben. Der Simulator in diesem Programm hat weder Leitung noch Steuerkarte, die ausfallen könnten; was seine Maschine falsch macht, steht im Fenster Effekte. Eine virtuelle Steuerkarte ist ein eigener Prozess: starten, mit ihren Anschlüssen verbinden und Fehler einspeisen.</translation>
-    </message>
-    <message>
-        <source>no virtual board runs; start it first</source>
-        <translation>keine virtuelle Steuerkarte läuft; zuerst starten</translation>
-    </message>
-    <message>
-        <source>on this system a virtual board takes no commands</source>
-        <translation>auf diesem System nimmt eine virtuelle Steuerkarte keine Befehle an</translation>
     </message>
     <message>
         <source>Inject</source>
@@ -260,10 +208,6 @@
         <translation>Position bekannt</translation>
     </message>
     <message>
-        <source>Begin homed and without a fault, as no real board does</source>
-        <translation>Referenziert und ohne Fehler beginnen, wie es keine echte Steuerkarte tut</translation>
-    </message>
-    <message>
         <source>Start virtual board</source>
         <translation>Virtuelle Steuerkarte starten</translation>
     </message>
@@ -292,28 +236,12 @@
         <translation>virtuelle Steuerkarte beendet: {about}</translation>
     </message>
     <message>
-        <source>Listening on {ports}: connect to it.</source>
-        <translation>Wartet an {ports}: damit verbinden.</translation>
-    </message>
-    <message>
         <source>Starting …</source>
         <translation>Startet …</translation>
     </message>
     <message>
-        <source>No virtual board runs.</source>
-        <translation>Keine virtuelle Steuerkarte läuft.</translation>
-    </message>
-    <message>
-        <source>it runs already</source>
-        <translation>sie läuft schon</translation>
-    </message>
-    <message>
         <source>Start boards of this robot</source>
         <translation>Steuerkarten dieses Roboters starten</translation>
-    </message>
-    <message>
-        <source>End it: a line that falls silent</source>
-        <translation>Beenden: wie eine Leitung, die verstummt</translation>
     </message>
     <message>
         <source>Clear fault</source>
@@ -325,11 +253,7 @@
     </message>
     <message>
         <source>Save …</source>
-        <translation>Sichern …</translation>
-    </message>
-    <message>
-        <source>Empty</source>
-        <translation>Leeren</translation>
+        <translation>Speichern …</translation>
     </message>
     <message>
         <source>Writing {name} …</source>
@@ -344,20 +268,8 @@
         <translation>Den Fehler des Geräts quittieren</translation>
     </message>
     <message>
-        <source>there is nothing yet</source>
-        <translation>es gibt noch nichts</translation>
-    </message>
-    <message>
-        <source>Copy the chosen rows, or all, as text (Ctrl+C)</source>
-        <translation>Die gewählten Zeilen, oder alle, als Text kopieren (Strg+C)</translation>
-    </message>
-    <message>
         <source>Write all rows into a text file</source>
         <translation>Alle Zeilen in eine Textdatei schreiben</translation>
-    </message>
-    <message>
-        <source>Forget all rows</source>
-        <translation>Alle Zeilen verwerfen</translation>
     </message>
     <message>
         <source>Save faults</source>
@@ -369,7 +281,7 @@
     </message>
     <message>
         <source>not connected; reconnect in the panel Connection</source>
-        <translation>nicht verbunden; im Fenster Verbindung neu verbinden</translation>
+        <translation>nicht verbunden; im Panel Verbindung neu verbinden</translation>
     </message>
     <message>
         <source>there is no fault</source>
@@ -384,8 +296,96 @@
         <translation>Grund</translation>
     </message>
     <message>
-        <source>What went wrong, newest first</source>
-        <translation>Was schiefging, Neuestes zuerst</translation>
+        <source>For training: start a virtual board, connect to its ports, and inject faults. The virtual board is a process of its own. The built-in simulator has neither lines nor boards that could fail; the panel Effects sets the effects of its machine.</source>
+        <translation>Zum Üben: eine virtuelle Steuerkarte starten, mit ihren Anschlüssen verbinden und Fehler einspeisen. Sie ist ein eigener Prozess. Der eingebaute Simulator hat weder Leitungen noch Karten, die ausfallen könnten; die Effekte seiner Maschine stellt das Panel Effekte ein.</translation>
+    </message>
+    <message>
+        <source>no virtual board is running; start it first</source>
+        <translation>keine virtuelle Steuerkarte läuft; zuerst starten</translation>
+    </message>
+    <message>
+        <source>on this system a virtual board accepts no commands</source>
+        <translation>auf diesem System nimmt eine virtuelle Steuerkarte keine Befehle an</translation>
+    </message>
+    <message>
+        <source>Start homed and without a fault, unlike a real board</source>
+        <translation>Referenziert und ohne Fehler beginnen, anders als eine echte Karte</translation>
+    </message>
+    <message>
+        <source>End the virtual board; its lines fall silent</source>
+        <translation>Die virtuelle Karte beenden; ihre Leitungen verstummen</translation>
+    </message>
+    <message>
+        <source>No virtual board is running.</source>
+        <translation>Keine virtuelle Steuerkarte läuft.</translation>
+    </message>
+    <message>
+        <source>it is already running</source>
+        <translation>sie läuft schon</translation>
+    </message>
+    <message>
+        <source>Listening on {ports}; connect to it.</source>
+        <translation>Lauscht an {ports}; damit verbinden.</translation>
+    </message>
+    <message>
+        <source>{about} locked</source>
+        <translation>gesperrt: {about}</translation>
+    </message>
+    <message>
+        <source>the device is silent for a short time</source>
+        <translation>das Gerät schweigt kurz</translation>
+    </message>
+    <message>
+        <source>The next bytes are lost, doubled or corrupted by one bit, or extra bytes arrive</source>
+        <translation>Die nächsten Bytes gehen verloren, kommen doppelt oder mit einem falschen Bit, oder es kommen zusätzliche</translation>
+    </message>
+    <message>
+        <source>Delay all bytes by this time; 0 ends the delay</source>
+        <translation>Alle Bytes um diese Zeit verzögern; 0 beendet es</translation>
+    </message>
+    <message>
+        <source>The line transmits nothing in either direction; held at space, the boards receive a stop first</source>
+        <translation>Die Leitung überträgt in keiner Richtung; auf Dauer-Null empfangen die Karten zuerst einen Halt</translation>
+    </message>
+    <message>
+        <source>A board restarts and loses the positions of its steppers</source>
+        <translation>Eine Karte startet neu und verliert die Positionen ihrer Schrittmotoren</translation>
+    </message>
+    <message>
+        <source>A sensor repeats one reading until released</source>
+        <translation>Ein Sensor wiederholt einen Messwert, bis er freigegeben wird</translation>
+    </message>
+    <message>
+        <source>Fault</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>The stepper falls behind its command</source>
+        <translation>Der Schrittmotor bleibt hinter seinem Sollwert zurück</translation>
+    </message>
+    <message>
+        <source>release</source>
+        <translation>freigeben</translation>
+    </message>
+    <message>
+        <source>Clear</source>
+        <translation>Leeren</translation>
+    </message>
+    <message>
+        <source>the list is empty</source>
+        <translation>die Liste ist leer</translation>
+    </message>
+    <message>
+        <source>Copy the selected rows, or all rows, as text (Ctrl+C)</source>
+        <translation>Die gewählten oder alle Zeilen als Text kopieren (Strg+C)</translation>
+    </message>
+    <message>
+        <source>Clear all rows</source>
+        <translation>Alle Zeilen löschen</translation>
+    </message>
+    <message>
+        <source>Faults, newest first</source>
+        <translation>Fehler, die neuesten zuerst</translation>
     </message>
 </context>
 <context>

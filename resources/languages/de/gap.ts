@@ -36,18 +36,6 @@
         <translation>{name} wird geschrieben …</translation>
     </message>
     <message>
-        <source>{path}: nothing here opens it; open it in a browser</source>
-        <translation>{path}: nichts hier öffnet es; in einem Browser öffnen</translation>
-    </message>
-    <message>
-        <source>1  Choose records of the real machine: files, or play a trajectory, whose record is taken.
-2  Diagnose: the program looks where the model departs from them, and why.
-3  Use the answer: add what was found to the model, check it on a new motion, keep the report.</source>
-        <translation>1  Aufzeichnungen der echten Maschine wählen: Dateien, oder eine Trajektorie abspielen, deren Aufzeichnung genommen wird.
-2  Diagnose: das Programm sucht, wo das Modell davon abweicht und warum.
-3  Die Antwort nutzen: das Gefundene ins Modell übernehmen, an einer neuen Bewegung prüfen, den Bericht behalten.</translation>
-    </message>
-    <message>
         <source>One record is chosen.</source>
         <translation>Eine Aufzeichnung ist gewählt.</translation>
     </message>
@@ -56,54 +44,18 @@
         <translation>{n} Aufzeichnungen sind gewählt.</translation>
     </message>
     <message>
-        <source>Press Diagnose: the program looks where the model departs from what was measured, which effect the model lacks, and how far the gap shrinks with it. It takes about half a minute for each axis with a gap, and can be stopped at any time.</source>
-        <translation>Diagnose drücken: das Programm sucht, wo das Modell vom Gemessenen abweicht, welcher Effekt dem Modell fehlt und wie weit die Abweichung damit schrumpft. Es dauert etwa eine halbe Minute je Achse mit einer Abweichung und lässt sich jederzeit anhalten.</translation>
-    </message>
-    <message>
         <source>This page shows how far the gap shrinks on a motion that the diagnosis has not seen.
 Press “New motion …”, or play any trajectory of the diagnosed axes.</source>
-        <translation>Hier steht, wie weit die Abweichung bei einer Bewegung schrumpft, die die Diagnose nicht gesehen hat.
-„Neue Bewegung …“ drücken oder irgendeine Trajektorie der diagnostizierten Achsen abspielen.</translation>
-    </message>
-    <message>
-        <source>The model does what the machine does, as far as these motions show.</source>
-        <translation>Das Modell tut, was die Maschine tut, soweit diese Bewegungen es zeigen.</translation>
+        <translation>Diese Seite zeigt, wie weit die Abweichung bei einer Bewegung schrumpft, die die Diagnose nicht gesehen hat.
+„Neue Bewegung …“ drücken oder eine Trajektorie der diagnostizierten Achsen abspielen.</translation>
     </message>
     <message>
         <source>Use the model as it is. Effects that these motions do not excite are not ruled out.</source>
         <translation>Das Modell so verwenden. Effekte, die diese Bewegungen nicht anregen, sind nicht ausgeschlossen.</translation>
     </message>
     <message>
-        <source>The model lacks what is named below; with it, the model follows the machine.</source>
-        <translation>Dem Modell fehlt, was unten genannt ist; damit folgt es der Maschine.</translation>
-    </message>
-    <message>
-        <source>Press “Play next experiment …” to tell them apart.</source>
-        <translation>„Nächstes Experiment spielen …“ drücken, um sie zu unterscheiden.</translation>
-    </message>
-    <message>
         <source>Press “Use corrected model”; then “New motion …” shows how far the gap shrinks.</source>
-        <translation>Drücken Sie „Korrigiertes Modell verwenden“; dann zeigt „Neue Bewegung …“, wie weit die Abweichung schrumpft.</translation>
-    </message>
-    <message>
-        <source>What is named below is present; no effect of the catalogue explains the rest of the gap.</source>
-        <translation>Was unten genannt ist, liegt vor; den Rest der Abweichung erklärt kein Effekt des Katalogs.</translation>
-    </message>
-    <message>
-        <source>Press “Use corrected model”: it follows the machine better. Look under Where what the rest depends on.</source>
-        <translation>Drücken Sie „Korrigiertes Modell verwenden“: Es folgt der Maschine besser. Sehen Sie unter Wo nach, wovon der Rest abhängt.</translation>
-    </message>
-    <message>
-        <source>The gap is real, but no effect of the catalogue accounts for it. Nothing is guessed.</source>
-        <translation>Die Abweichung ist echt, aber kein Effekt des Katalogs erklärt sie. Nichts wird geraten.</translation>
-    </message>
-    <message>
-        <source>Look under Where what it depends on; check cables, clamps and sensor; record once more, slower and faster. Keep what the report says for whoever maintains the model.</source>
-        <translation>Unter Wo ansehen, wovon sie abhängt; Kabel, Klemmen und Sensor prüfen; noch einmal aufzeichnen, langsamer und schneller. Den Bericht für die Pflege des Modells behalten.</translation>
-    </message>
-    <message>
-        <source>These motions cannot tell one effect from another: they are too short, too small or too much alike.</source>
-        <translation>Diese Bewegungen können Effekte nicht voneinander trennen: sie sind zu kurz, zu klein oder zu ähnlich.</translation>
+        <translation>„Korrigiertes Modell verwenden“ drücken; dann zeigt „Neue Bewegung …“, wie weit die Abweichung schrumpft.</translation>
     </message>
     <message>
         <source>Press “Play next experiment …”, or add records of other motions (multisine, staircase, swings), and diagnose them together.</source>
@@ -114,10 +66,6 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Was es bedeutet: {meaning}</translation>
     </message>
     <message>
-        <source>Not settled: {effects} would do as well on these records. Take the whole set as the answer.</source>
-        <translation>Nicht entschieden: {effects} täte es bei diesen Aufzeichnungen ebenso. Die ganze Menge als Antwort nehmen.</translation>
-    </message>
-    <message>
         <source>What to do: {advice}</source>
         <translation>Was zu tun ist: {advice}</translation>
     </message>
@@ -126,26 +74,12 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Abweichung: {bars}</translation>
     </message>
     <message>
-        <source>Machines are drawn by equations that the diagnosis does not know, each with hidden effects. The name of what is hidden is sealed until the diagnosis has answered; then it is opened and compared. A case takes about half a minute. It runs beside everything else and can be stopped and gone on with: what is done stays.</source>
-        <translation>Maschinen werden nach Gleichungen gezogen, die die Diagnose nicht kennt, jede mit verborgenen Effekten. Der Name des Verborgenen ist versiegelt, bis die Diagnose geantwortet hat; dann wird er geöffnet und verglichen. Ein Fall dauert etwa eine halbe Minute. Der Test läuft neben allem anderen, lässt sich anhalten und fortsetzen: was fertig ist, bleibt.</translation>
-    </message>
-    <message>
-        <source>No case is scored yet.
-Press Start: figures and confusion matrix come when all cases are done; or press Stop at any time, then “Score what is done”.</source>
-        <translation>Noch kein Fall ist bewertet.
-Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fertig sind; oder jederzeit Anhalten drücken, dann „Fertiges bewerten“.</translation>
-    </message>
-    <message>
         <source>no gap</source>
         <translation>keine Abweichung</translation>
     </message>
     <message>
         <source>unknown</source>
         <translation>unbekannt</translation>
-    </message>
-    <message>
-        <source>cannot tell</source>
-        <translation>nicht zu sagen</translation>
     </message>
     <message>
         <source>failed</source>
@@ -160,14 +94,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Blindtest der Diagnose</translation>
     </message>
     <message>
-        <source>How many machines are drawn, 1 to 9999</source>
-        <translation>Wie viele Maschinen gezogen werden, 1 bis 9999</translation>
-    </message>
-    <message>
-        <source>Which machines: the same seed draws the same ones</source>
-        <translation>Welche Maschinen: derselbe Startwert zieht dieselben</translation>
-    </message>
-    <message>
         <source>Start</source>
         <translation>Starten</translation>
     </message>
@@ -176,20 +102,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Anhalten</translation>
     </message>
     <message>
-        <source>Score what is done</source>
-        <translation>Fertiges bewerten</translation>
-    </message>
-    <message>
         <source>%v of %m</source>
         <translation>%v von %m</translation>
-    </message>
-    <message>
-        <source>Figures beside the levels that they are to reach</source>
-        <translation>Kennwerte neben den Werten, die sie erreichen sollen</translation>
-    </message>
-    <message>
-        <source>What is there, and what was named first</source>
-        <translation>Was da ist und was zuerst genannt wurde</translation>
     </message>
     <message>
         <source>Cases</source>
@@ -204,64 +118,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Kennwerte, jeder mit seinem 95-%-Intervall</translation>
     </message>
     <message>
-        <source>Confusion matrix, cases with one effect at most: a row is what is there, a column what was named first</source>
-        <translation>Verwechslungsmatrix, Fälle mit höchstens einem Effekt: eine Zeile ist, was da ist, eine Spalte, was zuerst genannt wurde</translation>
-    </message>
-    <message>
-        <source>stopped; what is done stays</source>
-        <translation>angehalten; was fertig ist, bleibt</translation>
-    </message>
-    <message>
-        <source>{folder}: it cannot be made ({reason})</source>
-        <translation>{folder}: lässt sich nicht anlegen ({reason})</translation>
-    </message>
-    <message>
-        <source>being scored</source>
-        <translation>wird bewertet</translation>
-    </message>
-    <message>
-        <source>the first machine is drawn</source>
-        <translation>die erste Maschine wird gezogen</translation>
-    </message>
-    <message>
-        <source>being stopped</source>
-        <translation>wird angehalten</translation>
-    </message>
-    <message>
         <source>{done} of {count} cases done</source>
         <translation>{done} von {count} Fällen fertig</translation>
     </message>
     <message>
-        <source>it runs already</source>
-        <translation>er läuft schon</translation>
-    </message>
-    <message>
-        <source>write cases and seed</source>
-        <translation>Fälle und Startwert eingeben</translation>
-    </message>
-    <message>
-        <source>Run the cases that are not done yet, then score them</source>
-        <translation>Die noch nicht fertigen Fälle rechnen, dann bewerten</translation>
-    </message>
-    <message>
-        <source>Score the cases that are done, without running more</source>
-        <translation>Die fertigen Fälle bewerten, ohne weitere zu rechnen</translation>
-    </message>
-    <message>
-        <source>nothing runs</source>
-        <translation>nichts läuft</translation>
-    </message>
-    <message>
-        <source>End it; what is done stays</source>
-        <translation>Beenden; was fertig ist, bleibt</translation>
-    </message>
-    <message>
         <source>{done} of {count} cases scored</source>
         <translation>{done} von {count} Fällen bewertet</translation>
-    </message>
-    <message>
-        <source>what is there</source>
-        <translation>was da ist</translation>
     </message>
     <message>
         <source>{truth} named {told}: {share} of its cases</source>
@@ -284,10 +146,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Fälle</translation>
     </message>
     <message>
-        <source>{path}: the result of the blind test cannot be read ({reason}); run it once more</source>
-        <translation>{path}: das Ergebnis des Blindtests lässt sich nicht lesen ({reason}); noch einmal starten</translation>
-    </message>
-    <message>
         <source>The blind test has ended: {reason}</source>
         <translation>Der Blindtest wurde beendet: {reason}</translation>
     </message>
@@ -308,28 +166,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Aufzeichnung</translation>
     </message>
     <message>
-        <source>Records by what they hold of this place, the most first</source>
-        <translation>Aufzeichnungen nach ihrem Anteil an dieser Stelle, der größte zuerst</translation>
-    </message>
-    <message>
-        <source>No record has a row of this place.</source>
-        <translation>Keine Aufzeichnung hat eine Zeile an dieser Stelle.</translation>
-    </message>
-    <message>
-        <source>gap [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;the whole&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in this band meanwhile&lt;/span&gt;: {rms} rms in {time:.3g} s</source>
-        <translation>Abweichung [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;ganz&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in diesem Band dabei&lt;/span&gt;: {rms} rms in {time:.3g} s</translation>
-    </message>
-    <message>
         <source>{doing}, about {time:.0f} s left</source>
         <translation>{doing}, noch etwa {time:.0f} s</translation>
-    </message>
-    <message>
-        <source>Rms of the gap on data that no fit has seen: as the model is, with its own parameters re-tuned, then with one effect after the other. No model gets below the noise floor; the black box is what no explanation can be expected to beat by far.</source>
-        <translation>Effektivwert der Abweichung auf Daten, die keine Anpassung gesehen hat: wie das Modell ist, mit neu abgestimmten eigenen Parametern, dann mit einem Effekt nach dem anderen. Kein Modell kommt unter die Rauschgrenze; die Blackbox ist, was keine Erklärung weit übertreffen kann.</translation>
-    </message>
-    <message>
-        <source>No gap to close was found on this axis.</source>
-        <translation>Auf dieser Achse ist keine Abweichung zu schließen.</translation>
     </message>
     <message>
         <source>re-tuned</source>
@@ -360,18 +198,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>{times:.3g} × größer</translation>
     </message>
     <message>
-        <source>It is off by a constant: the axis has a past that the records do not share. Swing it once through its range, and play the motion again.</source>
-        <translation>Es liegt um eine Konstante daneben: Die Achse hat eine Vorgeschichte, die die Aufzeichnungen nicht teilen. Fahren Sie einmal ihren ganzen Bereich ab und spielen Sie die Bewegung noch einmal.</translation>
-    </message>
-    <message>
-        <source>The motion goes where no record has been: choose this record too, and diagnose them together.</source>
-        <translation>Die Bewegung führt dorthin, wo keine Aufzeichnung war: Wählen Sie auch diese Aufzeichnung und diagnostizieren Sie alle zusammen.</translation>
-    </message>
-    <message>
-        <source>The motion does what no record did: choose this record too, and diagnose them together.</source>
-        <translation>Die Bewegung tut, was keine Aufzeichnung tat: Wählen Sie auch diese Aufzeichnung und diagnostizieren Sie alle zusammen.</translation>
-    </message>
-    <message>
         <source>Where</source>
         <translation>Wo</translation>
     </message>
@@ -392,36 +218,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Achse, Kanal, Frequenzen und Bewegungsart, in denen die Abweichung liegt</translation>
     </message>
     <message>
-        <source>nothing of what was found can be predicted from commands</source>
-        <translation>nichts vom Gefundenen lässt sich aus Befehlen vorhersagen</translation>
-    </message>
-    <message>
-        <source>Play the motion that best tells what these records cannot, and diagnose its record with them</source>
-        <translation>Die Bewegung abspielen, die am besten verrät, was diese Aufzeichnungen nicht können, und ihre Aufzeichnung mit ihnen diagnostizieren</translation>
-    </message>
-    <message>
-        <source>Stop the diagnosis; motion goes on</source>
-        <translation>Die Diagnose abbrechen; die Bewegung geht weiter</translation>
-    </message>
-    <message>
         <source>New motion</source>
         <translation>Neue Bewegung</translation>
     </message>
     <message>
-        <source>The candidates with their probabilities, what is said of them and what to do</source>
-        <translation>Die Kandidaten mit ihren Wahrscheinlichkeiten, was über sie gesagt wird und was zu tun ist</translation>
-    </message>
-    <message>
-        <source>How far the gap shrinks with what was found, down to the noise floor</source>
-        <translation>Wie weit die Abweichung mit dem Gefundenen schrumpft, bis zur Rauschgrenze</translation>
-    </message>
-    <message>
         <source>How far it shrinks on a motion that the diagnosis has not seen</source>
         <translation>Wie weit sie bei einer Bewegung schrumpft, die die Diagnose nicht gesehen hat</translation>
-    </message>
-    <message>
-        <source>there is no answer yet; diagnose records first</source>
-        <translation>es gibt noch keine Antwort; zuerst Aufzeichnungen diagnostizieren</translation>
     </message>
     <message>
         <source>Diagnose</source>
@@ -448,10 +250,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Mehr</translation>
     </message>
     <message>
-        <source>Save the diagnosis as JSON; test how often the diagnosis is right</source>
-        <translation>Die Diagnose als JSON speichern; testen, wie oft die Diagnose stimmt</translation>
-    </message>
-    <message>
         <source>Save JSON …</source>
         <translation>JSON speichern …</translation>
     </message>
@@ -468,10 +266,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Aufdecken</translation>
     </message>
     <message>
-        <source>What is shown</source>
-        <translation>Was gezeigt wird</translation>
-    </message>
-    <message>
         <source>Play next experiment …</source>
         <translation>Nächstes Experiment …</translation>
     </message>
@@ -484,64 +278,24 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Achse</translation>
     </message>
     <message>
-        <source>Nominal → corrected, on data that no fit has seen</source>
-        <translation>Nominal → korrigiert, an Daten, die keine Anpassung gesehen hat</translation>
-    </message>
-    <message>
         <source>There are no records to diagnose: choose some.</source>
         <translation>Es gibt keine Aufzeichnungen zu diagnostizieren: welche wählen.</translation>
-    </message>
-    <message>
-        <source>waiting for the end of what was stopped</source>
-        <translation>wartet auf das Ende des Angehaltenen</translation>
     </message>
     <message>
         <source>The diagnosis was stopped.</source>
         <translation>Die Diagnose wurde angehalten.</translation>
     </message>
     <message>
-        <source>The diagnosis failed; the notice above says why.</source>
-        <translation>Die Diagnose ist fehlgeschlagen; die Meldung oben sagt warum.</translation>
-    </message>
-    <message>
         <source>Diagnose …</source>
         <translation>Diagnose …</translation>
-    </message>
-    <message>
-        <source>Find what the model lacks</source>
-        <translation>Suchen, was dem Modell fehlt</translation>
-    </message>
-    <message>
-        <source>Choose records, diagnose them</source>
-        <translation>Aufzeichnungen wählen und diagnostizieren</translation>
-    </message>
-    <message>
-        <source>a diagnosis runs</source>
-        <translation>eine Diagnose läuft</translation>
     </message>
     <message>
         <source>no effect was found</source>
         <translation>kein Effekt wurde gefunden</translation>
     </message>
     <message>
-        <source>Write a robot file of the model with what was found</source>
-        <translation>Eine Roboterdatei des Modells mit dem Gefundenen schreiben</translation>
-    </message>
-    <message>
-        <source>Play a motion that no record holds, and see how far it is off</source>
-        <translation>Eine Bewegung abspielen, die keine Aufzeichnung enthält, und die Abweichung sehen</translation>
-    </message>
-    <message>
-        <source>Write the report, a page with all figures, and open it</source>
-        <translation>Den Bericht schreiben, eine Seite mit allen Kennwerten, und öffnen</translation>
-    </message>
-    <message>
         <source>the machine is still moving</source>
         <translation>die Maschine bewegt sich noch</translation>
-    </message>
-    <message>
-        <source>Predictions only. What is sent to the machine does not change; Compensate does that.</source>
-        <translation>Nur Vorhersagen. Was an die Maschine geht, ändert sich nicht; das tut „Kompensieren“.</translation>
     </message>
     <message>
         <source>Use anyway …</source>
@@ -554,10 +308,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>Next experiment</source>
         <translation>Nächstes Experiment</translation>
-    </message>
-    <message>
-        <source>Making a motion …</source>
-        <translation>Eine Bewegung wird erstellt …</translation>
     </message>
     <message>
         <source>Comparing with the twin …</source>
@@ -577,16 +327,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Nicht jetzt</translation>
     </message>
     <message>
-        <source>It takes {time:.3g} s, after the way to its first row.</source>
-        <translation>Sie dauert {time:.3g} s, nach dem Weg zur ersten Zeile.</translation>
-    </message>
-    <message>
         <source>rests at {low} {unit}</source>
         <translation>ruht bei {low} {unit}</translation>
-    </message>
-    <message>
-        <source>axis, tap</source>
-        <translation>Achse, Abgriff</translation>
     </message>
     <message>
         <source>record</source>
@@ -595,10 +337,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>nominal</source>
         <translation>nominal</translation>
-    </message>
-    <message>
-        <source>with what was found</source>
-        <translation>mit dem Gefundenen</translation>
     </message>
     <message>
         <source>unseen motion</source>
@@ -615,10 +353,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>about the same</source>
         <translation>etwa gleich</translation>
-    </message>
-    <message>
-        <source>Rms of what was measured less what the model says, its offset included, over what moves and 0.5 s after; intervals by drawing blocks of the record anew</source>
-        <translation>Effektivwert der Messung minus Modell, mit Versatz, über alles, was sich bewegt, und 0,5 s danach; Intervalle durch neues Ziehen von Blöcken der Aufzeichnung</translation>
     </message>
     <message>
         <source>How far the gap shrinks on the new motion</source>
@@ -657,16 +391,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Aufzeichn. …</translation>
     </message>
     <message>
-        <source>Three records of different motions or more tell best.</source>
-        <translation>Drei Aufzeichnungen verschiedener Bewegungen oder mehr sagen am meisten.</translation>
-    </message>
-    <message>
         <source>Choose the records of the real machine</source>
         <translation>Die Aufzeichnungen der echten Maschine wählen</translation>
-    </message>
-    <message>
-        <source>Records that are diagnosed:</source>
-        <translation>Aufzeichnungen, die diagnostiziert werden:</translation>
     </message>
     <message>
         <source>Add records …</source>
@@ -679,14 +405,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>gap</source>
         <translation>Abweichung</translation>
-    </message>
-    <message>
-        <source>Gap from the model in use: of the axis with most noise floors</source>
-        <translation>Abweichung vom verwendeten Modell: die der Achse mit den meisten Rauschgrenzen</translation>
-    </message>
-    <message>
-        <source>{name}: it has no header; add it by itself to name its columns</source>
-        <translation>{name}: ohne Kopfzeile; allein hinzufügen, um die Spalten zu benennen</translation>
     </message>
     <message>
         <source>Reading {name} …</source>
@@ -705,16 +423,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Modell</translation>
     </message>
     <message>
-        <source>The model whose gap is looked for; at first the nominal one</source>
-        <translation>Das Modell, dessen Abweichung gesucht wird; zunächst das nominale</translation>
-    </message>
-    <message>
         <source>{robot}, nominal</source>
         <translation>{robot}, nominal</translation>
-    </message>
-    <message>
-        <source>What remains beyond the model in use</source>
-        <translation>Was über das Modell im Einsatz hinaus bleibt</translation>
     </message>
     <message>
         <source>Robot file …</source>
@@ -725,40 +435,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Roboterdatei</translation>
     </message>
     <message>
-        <source>The records are read.</source>
-        <translation>Die Aufzeichnungen werden gelesen.</translation>
-    </message>
-    <message>
-        <source>The likeliest candidates are fitted to the records, one beside the other.</source>
-        <translation>Die wahrscheinlichsten Kandidaten werden an die Aufzeichnungen angepasst, nebeneinander.</translation>
-    </message>
-    <message>
-        <source>Where does the gap lie: on which axis, in which channel, at which frequencies?</source>
-        <translation>Wo liegt die Abweichung: auf welcher Achse, in welchem Kanal, bei welchen Frequenzen?</translation>
-    </message>
-    <message>
-        <source>Screening every effect that the axis may have.</source>
-        <translation>Alle Effekte, die die Achse haben kann, werden gesichtet.</translation>
-    </message>
-    <message>
-        <source>Which of them holds on data that its fit has not seen?</source>
-        <translation>Welcher davon besteht auf Daten, die seine Anpassung nicht gesehen hat?</translation>
-    </message>
-    <message>
         <source>Drawing the result.</source>
         <translation>Das Ergebnis wird gezeichnet.</translation>
     </message>
     <message>
         <source>Axis {axis}.</source>
         <translation>Achse {axis}.</translation>
-    </message>
-    <message>
-        <source>A bar is the share of the gap that a candidate closes: an outline at a first look, light once it is fitted, full once it is judged by data that its fit has not seen. The answer also asks which causes are needed beside each other, and may be another.</source>
-        <translation>Balken: Anteil der Abweichung, den ein Kandidat schließt. Umriss: erster Blick; hell: angepasst; voll: auf ungesehenen Daten beurteilt. Die Antwort prüft auch, welche Ursachen zusammen nötig sind, und kann anders sein.</translation>
-    </message>
-    <message>
-        <source>Record and tap</source>
-        <translation>Aufzeichnung und Abgriff</translation>
     </message>
     <message>
         <source>Record and channel</source>
@@ -793,28 +475,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>95 % des Anteils</translation>
     </message>
     <message>
-        <source>Where it was read: u is the voltage, ref the reference sensor, meas the machine&apos;s own sensor</source>
-        <translation>Wo gelesen wurde: u ist die Spannung, ref der Referenzsensor, meas der eigene Sensor der Maschine</translation>
-    </message>
-    <message>
-        <source>The band that holds most of it</source>
-        <translation>Das Band, das am meisten davon enthält</translation>
-    </message>
-    <message>
-        <source>What the axis was doing where the gap is largest</source>
-        <translation>Was die Achse tat, wo die Abweichung am größten ist</translation>
-    </message>
-    <message>
         <source>Share of the gap above the noise floors of all axes and channels</source>
         <translation>Anteil an der Abweichung über den Rauschgrenzen aller Achsen und Kanäle</translation>
     </message>
     <message>
         <source>Measured minus model, mean removed</source>
         <translation>Gemessen minus Modell, ohne Mittelwert</translation>
-    </message>
-    <message>
-        <source>Rms of the sensor&apos;s noise and rounding, which no model explains</source>
-        <translation>Effektivwert von Rauschen und Rundung des Sensors, die kein Modell erklärt</translation>
     </message>
     <message>
         <source>95 % interval of the share</source>
@@ -833,24 +499,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>{axis} {tap}, {regime}, {low:g} bis {high:g} Hz</translation>
     </message>
     <message>
-        <source>{place}: no record is sampled evenly and long enough for a map</source>
-        <translation>{place}: keine Aufzeichnung ist gleichmäßig und lang genug für eine Karte</translation>
-    </message>
-    <message>
-        <source>{place}: gap rms [noise floors], by what the axis did and by frequency from … Hz on. Click a cell to see its traces.</source>
-        <translation>{place}: Abweichung rms [Rauschgrenzen], nach Bewegungsart und Frequenz ab … Hz. Eine Zelle anklicken, um die Verläufe zu sehen.</translation>
-    </message>
-    <message>
         <source>{low} to {high} Hz</source>
         <translation>{low} bis {high} Hz</translation>
     </message>
     <message>
         <source>{regime}, {low} to {high} Hz: {floors} noise floors rms</source>
         <translation>{regime}, {low} bis {high} Hz: {floors} Rauschgrenzen rms</translation>
-    </message>
-    <message>
-        <source>{share} of the gap of the whole path</source>
-        <translation>{share} der Abweichung des ganzen Wegs</translation>
     </message>
     <message>
         <source>Click to see the traces</source>
@@ -869,20 +523,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Wahrscheinl.</translation>
     </message>
     <message>
-        <source>What was tried in place of the leading cause, the likeliest first; those that may be it stand out</source>
-        <translation>Was anstelle der führenden Ursache geprüft wurde, das Wahrscheinlichste zuerst; was es sein kann, tritt hervor</translation>
-    </message>
-    <message>
-        <source>How likely it is the cause, of those tried and what is not among them</source>
-        <translation>Wie wahrscheinlich es die Ursache ist, unter den geprüften und dem, was nicht dabei ist</translation>
-    </message>
-    <message>
         <source>remainder (noise floors)</source>
         <translation>Rest (Rauschgrenzen)</translation>
-    </message>
-    <message>
-        <source>Rms of the remaining gap on data that its fit did not see, in noise floors; noise alone is 1</source>
-        <translation>Effektivwert der restlichen Abweichung auf Daten, die die Anpassung nicht sah, in Rauschgrenzen; Rauschen allein ist 1</translation>
     </message>
     <message>
         <source>95 % interval of the remainder, in noise floors</source>
@@ -893,24 +535,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Kandidaten, der wahrscheinlichste zuerst</translation>
     </message>
     <message>
-        <source>What is said of the axis</source>
-        <translation>Was über die Achse gesagt wird</translation>
-    </message>
-    <message>
-        <source>What the diagnosis says of the axis</source>
-        <translation>Was die Diagnose über die Achse sagt</translation>
-    </message>
-    <message>
         <source>Next experiment: {why}</source>
         <translation>Nächstes Experiment: {why}</translation>
     </message>
     <message>
         <source>{effect}: {share} likely; {before} rms without it, {after} with it at {tap}, on unseen data; closes {closed} ({interval}).</source>
         <translation>{effect}: zu {share} wahrscheinlich; {before} rms ohne, {after} damit bei {tap}, auf ungesehenen Daten; schließt {closed} ({interval}).</translation>
-    </message>
-    <message>
-        <source>    These records cannot tell it from {effects}.</source>
-        <translation>    Diese Aufzeichnungen können es nicht trennen von: {effects}.</translation>
     </message>
     <message>
         <source>{parameter}, at its low bound</source>
@@ -933,28 +563,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Erklärt: die Effekte unten erklären die Abweichung</translation>
     </message>
     <message>
-        <source>Explained in part: what causes the rest is not known</source>
-        <translation>Zum Teil erklärt: was den Rest verursacht, ist nicht bekannt</translation>
-    </message>
-    <message>
-        <source>Unknown: there is a gap that no effect of the catalogue explains</source>
-        <translation>Unbekannt: es gibt eine Abweichung, die kein Effekt des Katalogs erklärt</translation>
-    </message>
-    <message>
-        <source>The records cannot tell: the excitation is insufficient</source>
-        <translation>Die Aufzeichnungen reichen nicht: die Anregung ist ungenügend</translation>
-    </message>
-    <message>
         <source>No gap of its own</source>
         <translation>Keine eigene Abweichung</translation>
     </message>
     <message>
         <source>Explained</source>
         <translation>Erklärt</translation>
-    </message>
-    <message>
-        <source>Explained in part</source>
-        <translation>Zum Teil erklärt</translation>
     </message>
     <message>
         <source>rest</source>
@@ -990,23 +604,23 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     </message>
     <message>
         <source>large swing</source>
-        <translation>große Schwingung</translation>
+        <translation>große Amplitude</translation>
     </message>
     <message>
         <source>small swing</source>
-        <translation>kleine Schwingung</translation>
+        <translation>kleine Amplitude</translation>
     </message>
     <message>
         <source>low end of travel</source>
-        <translation>unteres Wegende</translation>
+        <translation>unteres Ende des Bereichs</translation>
     </message>
     <message>
         <source>middle of travel</source>
-        <translation>Wegmitte</translation>
+        <translation>Mitte des Bereichs</translation>
     </message>
     <message>
         <source>high end of travel</source>
-        <translation>oberes Wegende</translation>
+        <translation>oberes Ende des Bereichs</translation>
     </message>
     <message>
         <source>first quarter of a turn</source>
@@ -1049,10 +663,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Zeichnen</translation>
     </message>
     <message>
-        <source>first cause right, one effect</source>
-        <translation>erste Ursache richtig, ein Effekt</translation>
-    </message>
-    <message>
         <source>… where the gap is ≥ 5 floors</source>
         <translation>… wo die Abweichung ≥ 5 Grenzen ist</translation>
     </message>
@@ -1061,44 +671,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>… wo sie kleiner ist</translation>
     </message>
     <message>
-        <source>one effect exactly, nothing beside it</source>
-        <translation>ein Effekt genau, nichts daneben</translation>
-    </message>
-    <message>
         <source>truth in the reported set</source>
         <translation>Wahrheit in der genannten Menge</translation>
     </message>
     <message>
         <source>mean size of the set</source>
         <translation>mittlere Größe der Menge</translation>
-    </message>
-    <message>
-        <source>two effects exactly</source>
-        <translation>zwei Effekte genau</translation>
-    </message>
-    <message>
-        <source>three effects exactly</source>
-        <translation>drei Effekte genau</translation>
-    </message>
-    <message>
-        <source>a cause that is not there</source>
-        <translation>eine Ursache, die nicht da ist</translation>
-    </message>
-    <message>
-        <source>verdict explained or partly</source>
-        <translation>Urteil erklärt oder teilweise</translation>
-    </message>
-    <message>
-        <source>healthy machines accused</source>
-        <translation>gesunde Maschinen beschuldigt</translation>
-    </message>
-    <message>
-        <source>unknown effects called unknown</source>
-        <translation>Unbekanntes unbekannt genannt</translation>
-    </message>
-    <message>
-        <source>poor excitation called so</source>
-        <translation>schlechte Anregung so genannt</translation>
     </message>
     <message>
         <source>gap closed on unseen data, median</source>
@@ -1113,18 +691,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>erwarteter Kalibrierfehler</translation>
     </message>
     <message>
-        <source>seconds a case, median</source>
-        <translation>Sekunden je Fall, Median</translation>
-    </message>
-    <message>
-        <source>seconds a case, greatest</source>
-        <translation>Sekunden je Fall, größte</translation>
-    </message>
-    <message>
-        <source>seconds a healthy case, median</source>
-        <translation>Sekunden je gesundem Fall, Median</translation>
-    </message>
-    <message>
         <source>or</source>
         <translation>oder</translation>
     </message>
@@ -1137,14 +703,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>die Aufzeichnungen nennen keine Achse des Roboters</translation>
     </message>
     <message>
-        <source>Its numbers fail, so that no cause can be found: {error}.</source>
-        <translation>Die Rechnung scheitert, sodass sich keine Ursache finden lässt: {error}.</translation>
-    </message>
-    <message>
-        <source>Its gap comes from what was found on other axes.</source>
-        <translation>Ihre Abweichung kommt von dem, was auf anderen Achsen gefunden wurde.</translation>
-    </message>
-    <message>
         <source>It is coupled to axis {axis}, whose gap is larger and not explained.</source>
         <translation>Sie ist mit Achse {axis} gekoppelt, deren Abweichung größer und nicht erklärt ist.</translation>
     </message>
@@ -1153,20 +711,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>{group} ({percent})</translation>
     </message>
     <message>
-        <source>What is left depends on {groups}, as far as simple features predict it.</source>
-        <translation>Der Rest hängt ab von {groups}, soweit einfache Merkmale ihn vorhersagen.</translation>
-    </message>
-    <message>
-        <source>{n} sudden jumps by whole multiples of four full steps were taken back.</source>
-        <translation>{n} plötzliche Sprünge um ganze Vielfache von vier Vollschritten wurden zurückgenommen.</translation>
-    </message>
-    <message>
         <source>{n} spikes or dropouts of the sensor were left out.</source>
         <translation>{n} Ausreißer oder Ausfälle des Sensors wurden ausgelassen.</translation>
-    </message>
-    <message>
-        <source>A vibration of {frequencies}, whatever the axis did, was set aside.</source>
-        <translation>Eine Schwingung von {frequencies}, unabhängig von der Achse, wurde beiseitegelegt.</translation>
     </message>
     <message>
         <source>The sensor reads in steps of {step}.</source>
@@ -1205,32 +751,12 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>{name}: Achse {quoted} wird von einer Kraft bewegt, und keine Spalte {axis}.u sagt, von welcher: hinzufügen, oder &apos;# mode: closed_loop&apos; schreiben und der Roboterdatei ihren Regler geben</translation>
     </message>
     <message>
-        <source>The axis was commanded but not measured: nothing is said of it.</source>
-        <translation>Die Achse bekam Sollwerte, wurde aber nicht gemessen: über sie wird nichts gesagt.</translation>
-    </message>
-    <message>
-        <source>The axis was never commanded to move: only what acts without motion can show.</source>
-        <translation>Die Achse sollte sich nie bewegen: nur was ohne Bewegung wirkt, kann sich zeigen.</translation>
-    </message>
-    <message>
-        <source>The axis&apos; own sensor was not recorded: nothing is said of that sensor.</source>
-        <translation>Der eigene Sensor der Achse wurde nicht aufgezeichnet: über ihn wird nichts gesagt.</translation>
-    </message>
-    <message>
-        <source>No independent reference (ref) was recorded: effects of the sensor cannot be told from those of the axis.</source>
-        <translation>Keine unabhängige Referenz (ref) wurde aufgezeichnet: Effekte des Sensors lassen sich nicht von denen der Achse trennen.</translation>
-    </message>
-    <message>
         <source>{low} to {high}</source>
         <translation>{low} bis {high}</translation>
     </message>
     <message>
         <source>{name}: {axis}.cmd = {command} at row {row} is far outside the range {bounds} of robot {robot_name}: this looks like a unit error; correct the unit in the header, or the robot file</source>
         <translation>{name}: {axis}.cmd = {command} in Zeile {row} liegt weit außerhalb des Bereichs {bounds} von Roboter {robot_name}: das sieht nach einem Einheitenfehler aus; die Einheit in der Kopfzeile oder die Roboterdatei berichtigen</translation>
-    </message>
-    <message>
-        <source>A command goes beyond the range {low} to {high}, to {value}; the model knows no ends of the range.</source>
-        <translation>Ein Sollwert überschreitet den Bereich {low} bis {high}, bis {value}; das Modell kennt keine Bereichsenden.</translation>
     </message>
     <message>
         <source>{name}: axis {axis} is commanded at {speed} {unit}/s, {times} × its speed limit: this looks like a unit error of time; correct the unit of t, such as ms for s</source>
@@ -1241,10 +767,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>{name}: {axis}.{tap} ist das {gain}-Fache dessen, was {axis}.cmd verlangt: das sieht nach einem Einheitenfehler aus, einem Faktor {text}; die Einheit der falschen Spalte berichtigen</translation>
     </message>
     <message>
-        <source>The {tap} channel is {gain} × what is commanded, which no single effect brings about: check signs, units and the gain in the robot file.</source>
-        <translation>Der Kanal {tap} ist {gain} × der Sollwert, was kein einzelner Effekt bewirkt: Vorzeichen, Einheiten und Verstärkung in der Roboterdatei prüfen.</translation>
-    </message>
-    <message>
         <source>{name}: {axis}.u is {gain} × cmd/gain, the output of the amplifier: this looks like a unit error, or a voltage before the amplifier; correct the column, leave it out, or correct the gain in the robot file</source>
         <translation>{name}: {axis}.u ist das {gain}-Fache von cmd/gain, der Ausgabe des Verstärkers: das sieht nach einem Einheitenfehler oder einer Spannung vor dem Verstärker aus; die Spalte berichtigen, weglassen oder gain in der Roboterdatei berichtigen</translation>
     </message>
@@ -1253,48 +775,16 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>{factor}, etwa {wrong} gelesen als {right}</translation>
     </message>
     <message>
-        <source>Rows are missing in a record for up to {time} s while no axis is under way; the commands are taken as held meanwhile.</source>
-        <translation>In einer Aufzeichnung fehlen Zeilen für bis zu {time} s, während keine Achse unterwegs ist; die Sollwerte gelten dabei als gehalten.</translation>
-    </message>
-    <message>
-        <source>Rows of a record are {low} to {high} s apart; if these are times of a computer and not of the device, their scatter passes for noise of the sensors.</source>
-        <translation>Zeilen einer Aufzeichnung liegen {low} bis {high} s auseinander; sind das Zeiten eines Rechners und nicht des Geräts, erscheint ihre Streuung als Sensorrauschen.</translation>
-    </message>
-    <message>
-        <source>Rows are missing at {n} places of a record; the commands are taken as held there.</source>
-        <translation>An {n} Stellen einer Aufzeichnung fehlen Zeilen; die Sollwerte gelten dort als gehalten.</translation>
-    </message>
-    <message>
         <source>{name}: &apos;# history: periodic&apos; with period_samples = {period}, but {axis}.cmd at row {row} is not what it was a period before; correct period_samples, or write &apos;# history: unknown&apos;</source>
         <translation>{name}: &apos;# history: periodic&apos; mit period_samples = {period}, aber {axis}.cmd ist in Zeile {row} nicht, was es eine Periode vorher war; period_samples berichtigen oder &apos;# history: unknown&apos; schreiben</translation>
-    </message>
-    <message>
-        <source>The records move {axis} too little to tell effects apart. Play this: {test}; it goes through many amplitudes and speeds.</source>
-        <translation>Die Aufzeichnungen bewegen {axis} zu wenig, um Effekte zu trennen. Dies abspielen: {test}; es durchläuft viele Amplituden und Geschwindigkeiten.</translation>
-    </message>
-    <message>
-        <source>To tell {effects} apart, play this: {test}; it sets them{closest} {n} noise floors (rms) apart, even once each is fitted to it{doubt}{reference}{others}.</source>
-        <translation>Um {effects} zu trennen, dies abspielen: {test}; es bringt sie{closest} {n} Rauschgrenzen (rms) auseinander, auch wenn jeder daran angepasst ist{doubt}{reference}{others}.</translation>
     </message>
     <message>
         <source>, which may be too little</source>
         <translation>, was zu wenig sein kann</translation>
     </message>
     <message>
-        <source>, if the reference (ref) of {axis} is recorded too: without it, it does not tell {effects} apart</source>
-        <translation>, wenn auch die Referenz (ref) von {axis} aufgezeichnet wird: ohne sie trennt es {effects} nicht</translation>
-    </message>
-    <message>
-        <source>; no test here tells {any} from one of them</source>
-        <translation>; kein Test hier trennt {any} von einem davon</translation>
-    </message>
-    <message>
         <source>{name}: {axis}.meas stands at exactly {stand} for {percent} % of the rows, while the axis is commanded to move (first at t = {time_s} s): the sensor is {what}; repair it, stay within what it can read, or leave the column out</source>
         <translation>{name}: {axis}.meas steht in {percent} % der Zeilen bei genau {stand}, während die Achse sich bewegen soll (zuerst bei t = {time_s} s): der Sensor ist {what}; ihn reparieren, in seinem Messbereich bleiben oder die Spalte weglassen</translation>
-    </message>
-    <message>
-        <source>The reading stands at exactly {stand} for {percent} % of the rows, while the axis is commanded to move: either the axis does not follow, or the sensor is {fault}, and the records cannot tell which.</source>
-        <translation>Der Messwert steht in {percent} % der Zeilen auf genau {stand}, während die Achse sich bewegen soll: Entweder folgt die Achse nicht, oder der Sensor ist {fault}; die Aufzeichnungen können es nicht sagen.</translation>
     </message>
     <message>
         <source>stuck or not connected</source>
@@ -1341,16 +831,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Treppe</translation>
     </message>
     <message>
-        <source>row of steps</source>
-        <translation>Reihe von Schritten</translation>
-    </message>
-    <message>
         <source>steps with long holds</source>
         <translation>Schritte mit langem Halten</translation>
-    </message>
-    <message>
-        <source>one step there and back with very long holds</source>
-        <translation>ein Schritt hin und zurück mit sehr langem Halten</translation>
     </message>
     <message>
         <source>ramps at two constant speeds</source>
@@ -1383,10 +865,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>possible</source>
         <translation>möglich</translation>
-    </message>
-    <message>
-        <source>model as it is</source>
-        <translation>Modell, wie es ist</translation>
     </message>
     <message>
         <source>gap, rms [{unit}]</source>
@@ -1447,10 +925,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Keine eigene Abweichung: {axes}.</translation>
     </message>
     <message>
-        <source>{axis}: the records do not move it enough to tell what it lacks.</source>
-        <translation>{axis}: Die Aufzeichnungen bewegen die Achse zu wenig, um zu zeigen, was dem Modell fehlt.</translation>
-    </message>
-    <message>
         <source>{axis}: a gap that no known effect explains.</source>
         <translation>{axis}: eine Abweichung, die kein bekannter Effekt erklärt.</translation>
     </message>
@@ -1461,10 +935,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>{axis}: {causes}.</source>
         <translation>{axis}: {causes}.</translation>
-    </message>
-    <message>
-        <source>{effects} (these records cannot tell which)</source>
-        <translation>{effects} (diese Aufzeichnungen unterscheiden sie nicht)</translation>
     </message>
     <message>
         <source>{cause} ({likelihood})</source>
@@ -1499,18 +969,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>die Abweichung bei {tap}</translation>
     </message>
     <message>
-        <source>No known effect explains what is left.</source>
-        <translation>Was übrig bleibt, erklärt kein bekannter Effekt.</translation>
-    </message>
-    <message>
-        <source>What is left depends on {groups}; no known effect explains it.</source>
-        <translation>Was übrig bleibt, hängt ab von: {groups}. Kein bekannter Effekt erklärt es.</translation>
-    </message>
-    <message>
-        <source>the process of the diagnosis has ended (status {status}) before it answered; is there memory enough? Diagnose again, with fewer or shorter records</source>
-        <translation>der Prozess der Diagnose endete (Status {status}), bevor er antwortete; reicht der Speicher? Noch einmal diagnostizieren, mit weniger oder kürzeren Aufzeichnungen</translation>
-    </message>
-    <message>
         <source>Worse on {motion}: {axes}.   </source>
         <translation>Schlechter bei {motion}: {axes}.   </translation>
     </message>
@@ -1519,52 +977,16 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>Dieses Modell trotzdem für Vorhersagen verwenden?</translation>
     </message>
     <message>
-        <source>Predictions only. What is sent to the machine does not change, and no bound of it becomes wider.</source>
-        <translation>Nur Vorhersagen. Was an die Maschine geht, ändert sich nicht, und keine ihrer Grenzen wird weiter.</translation>
-    </message>
-    <message>
         <source>Use anyway</source>
         <translation>Trotzdem verwenden</translation>
-    </message>
-    <message>
-        <source>data that no fit saw</source>
-        <translation>Daten, die keine Anpassung gesehen hat</translation>
-    </message>
-    <message>
-        <source>On {motion}, the corrected model is worse than the nominal one: {axes}.</source>
-        <translation>Bei {motion} ist das korrigierte Modell schlechter als das nominale: {axes}.</translation>
-    </message>
-    <message>
-        <source>While {record} was played: {noted}.</source>
-        <translation>Während {record} gespielt wurde: {noted}.</translation>
-    </message>
-    <message>
-        <source>It has learned {causes}: the axis may have touched something. A penetration leaves this out and looks for the contact with the nominal model as well.</source>
-        <translation>Es hat {causes} gelernt: die Achse hat vielleicht etwas berührt. Eine Penetration lässt das weg und sucht den Kontakt auch mit dem nominalen Modell.</translation>
     </message>
     <message>
         <source>Drawing a machine …</source>
         <translation>Eine Maschine wird ausgelost …</translation>
     </message>
     <message>
-        <source>A hidden machine is connected: play, diagnose, then choose More → Reveal. It has one or two effects, or none.</source>
-        <translation>Eine verborgene Maschine ist verbunden: spielen, diagnostizieren, dann Mehr → Aufdecken wählen. Sie hat einen oder zwei Effekte, oder keinen.</translation>
-    </message>
-    <message>
         <source>Hidden machine</source>
         <translation>Verborgene Maschine</translation>
-    </message>
-    <message>
-        <source>Right: all that is there was named, and nothing else.</source>
-        <translation>Richtig: Alles, was da ist, wurde genannt, und sonst nichts.</translation>
-    </message>
-    <message>
-        <source>Not right.</source>
-        <translation>Nicht richtig.</translation>
-    </message>
-    <message>
-        <source>It has: {causes}</source>
-        <translation>Sie hat: {causes}</translation>
     </message>
     <message>
         <source>The diagnosis names: {causes}</source>
@@ -1589,26 +1011,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>{name}: time leaps {count} ×, by up to {longest_s} s, and no piece between has more than {max} rows; a diagnosis needs {least_rows} or more without a leap: leave the record out, or record without losses</source>
         <translation>{name}: die Zeit springt {count}-mal, um bis zu {longest_s} s, und kein Stück dazwischen hat mehr als {max} Zeilen; eine Diagnose braucht mindestens {least_rows} ohne Sprung: die Aufzeichnung weglassen oder ohne Verluste aufzeichnen</translation>
-    </message>
-    <message>
-        <source>; {rows} rows in pieces shorter than {least} are left out</source>
-        <translation>; {rows} Zeilen in Stücken von weniger als {least} bleiben weg</translation>
-    </message>
-    <message>
-        <source>Time leaps {n} ×, by up to {time} s: the record is split there, and what came before a piece is unknown{left_out}.</source>
-        <translation>Die Zeit springt {n} ×, um bis zu {time} s: Die Aufzeichnung wird dort geteilt, und was vor einem Stück war, ist unbekannt{left_out}.</translation>
-    </message>
-    <message>
-        <source>{n} of {all} records count their place from another origin: what is locked to the position has the same period in all, at another phase in these.</source>
-        <translation>{n} von {all} Aufzeichnungen zählen ihren Ort von einem anderen Nullpunkt: Was an die Position gebunden ist, hat in allen dieselbe Periode, in diesen eine andere Phase.</translation>
-    </message>
-    <message>
-        <source>The reading wanders whatever the axis does, though the reference does not.</source>
-        <translation>Der Messwert wandert, was auch immer die Achse tut, die Referenz aber nicht.</translation>
-    </message>
-    <message>
-        <source>The reading wanders whatever the axis does, at rest as well.</source>
-        <translation>Der Messwert wandert, was auch immer die Achse tut, auch in Ruhe.</translation>
     </message>
     <message>
         <source>axis {axis}: no record holds a measured channel of it (u, ref or meas) whose noise floor is known or can be measured; nothing can be compared</source>
@@ -1697,14 +1099,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>regime</source>
         <translation>Bewegungsart</translation>
-    </message>
-    <message>
-        <source>share of the path&apos;s</source>
-        <translation>Anteil am ganzen Weg</translation>
-    </message>
-    <message>
-        <source>{share} of the whole path&apos;s</source>
-        <translation>{share} des ganzen Wegs</translation>
     </message>
     <message>
         <source>Rms of the model&apos;s gap within each band, in noise floors. Regimes overlap: forward motion is also fast or slow.</source>
@@ -2063,24 +1457,8 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>die Abweichung ist erklärt</translation>
     </message>
     <message>
-        <source>the gap is explained in part; what causes the rest is not known</source>
-        <translation>die Abweichung ist zum Teil erklärt; die Ursache des Rests ist nicht bekannt</translation>
-    </message>
-    <message>
-        <source>there is a gap that no known effect explains</source>
-        <translation>es gibt eine Abweichung, die kein bekannter Effekt erklärt</translation>
-    </message>
-    <message>
-        <source>the records cannot tell</source>
-        <translation>die Aufzeichnungen reichen nicht aus</translation>
-    </message>
-    <message>
         <source>no gap of its own</source>
         <translation>keine eigene Abweichung</translation>
-    </message>
-    <message>
-        <source>explained in part</source>
-        <translation>zum Teil erklärt</translation>
     </message>
     <message>
         <source>unknown effect</source>
@@ -2099,14 +1477,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>was sie verursacht</translation>
     </message>
     <message>
-        <source>how far it shrinks, rms on data that no fit saw</source>
-        <translation>wie weit sie schrumpft, rms auf Daten, die keine Anpassung sah</translation>
-    </message>
-    <message>
-        <source>what would tell more</source>
-        <translation>was mehr verriete</translation>
-    </message>
-    <message>
         <source>experiment {number}, on {axis}: {why}</source>
         <translation>Experiment {number}, an {axis}: {why}</translation>
     </message>
@@ -2121,10 +1491,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>rms {rms}, noise floor {floor}</source>
         <translation>rms {rms}, Rauschgrenze {floor}</translation>
-    </message>
-    <message>
-        <source>most between {low} and {high} Hz</source>
-        <translation>am meisten zwischen {low} und {high} Hz</translation>
     </message>
     <message>
         <source>largest in: {regime}</source>
@@ -2155,10 +1521,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
         <translation>rms {before}</translation>
     </message>
     <message>
-        <source>cannot be told from: {names}</source>
-        <translation>nicht zu unterscheiden von: {names}</translation>
-    </message>
-    <message>
         <source>{name} {value} ({interval})</source>
         <translation>{name} {value} ({interval})</translation>
     </message>
@@ -2169,10 +1531,6 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>at its {end} bound</source>
         <translation>an seiner Grenze {end}</translation>
-    </message>
-    <message>
-        <source>as it is {rms}</source>
-        <translation>wie es ist {rms}</translation>
     </message>
     <message>
         <source>re-tuned {rms}</source>
@@ -2201,6 +1559,644 @@ Starten drücken: Kennwerte und Verwechslungsmatrix kommen, wenn alle Fälle fer
     <message>
         <source>{fspath}: it exists already; name another file</source>
         <translation>{fspath}: gibt es schon; eine andere Datei nennen</translation>
+    </message>
+    <message>
+        <source>Record and signal</source>
+        <translation>Aufzeichnung und Signal</translation>
+    </message>
+    <message>
+        <source>{name}: no header; add this file alone to name its columns</source>
+        <translation>{name}: ohne Kopfzeile; allein hinzufügen, um die Spalten zu benennen</translation>
+    </message>
+    <message>
+        <source>The test draws machines with hidden effects, by equations that the diagnosis does not know. The names of the effects are sealed until the diagnosis has answered; then they are opened and compared. A case takes about half a minute. The test runs in the background; you can stop and resume it without losing finished cases.</source>
+        <translation>Der Test lost Maschinen mit verborgenen Effekten aus, nach Gleichungen, die die Diagnose nicht kennt. Die Namen der Effekte sind versiegelt, bis die Diagnose geantwortet hat; dann werden sie geöffnet und verglichen. Ein Fall dauert etwa eine halbe Minute. Der Test läuft im Hintergrund und lässt sich anhalten und fortsetzen, ohne fertige Fälle zu verlieren.</translation>
+    </message>
+    <message>
+        <source>No case is scored yet.
+Press Start; figures and confusion matrix appear when all cases are done. To score earlier, press Stop, then “Score finished cases”.</source>
+        <translation>Noch kein Fall ist bewertet.
+Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle fertig sind. Für eine frühere Bewertung Anhalten drücken, dann „Fertige bewerten“.</translation>
+    </message>
+    <message>
+        <source>undecided</source>
+        <translation>unentschieden</translation>
+    </message>
+    <message>
+        <source>Number of machines, 1 to 9999</source>
+        <translation>Anzahl der Maschinen, 1 bis 9999</translation>
+    </message>
+    <message>
+        <source>Seed of the machines: the same seed draws the same machines</source>
+        <translation>Startwert der Maschinen: derselbe Startwert zieht dieselben</translation>
+    </message>
+    <message>
+        <source>Score finished cases</source>
+        <translation>Fertige bewerten</translation>
+    </message>
+    <message>
+        <source>Figures beside their target levels</source>
+        <translation>Kennwerte neben ihren Zielwerten</translation>
+    </message>
+    <message>
+        <source>True cause and cause named first</source>
+        <translation>Wahre Ursache und zuerst genannte Ursache</translation>
+    </message>
+    <message>
+        <source>stopping</source>
+        <translation>wird angehalten</translation>
+    </message>
+    <message>
+        <source>it is already running</source>
+        <translation>er läuft schon</translation>
+    </message>
+    <message>
+        <source>Run the unfinished cases, then score all</source>
+        <translation>Die unfertigen Fälle rechnen, dann alle bewerten</translation>
+    </message>
+    <message>
+        <source>Score the finished cases without running more</source>
+        <translation>Die fertigen Fälle bewerten, ohne weitere zu rechnen</translation>
+    </message>
+    <message>
+        <source>Stop the test; finished cases are kept</source>
+        <translation>Den Test anhalten; fertige Fälle bleiben erhalten</translation>
+    </message>
+    <message>
+        <source>Confusion matrix, cases with one effect at most: rows are true causes, columns are the causes named first</source>
+        <translation>Verwechslungsmatrix, Fälle mit höchstens einem Effekt: Zeilen sind wahre Ursachen, Spalten die zuerst genannten</translation>
+    </message>
+    <message>
+        <source>{folder}: cannot be created ({reason})</source>
+        <translation>{folder}: lässt sich nicht anlegen ({reason})</translation>
+    </message>
+    <message>
+        <source>scoring</source>
+        <translation>wird bewertet</translation>
+    </message>
+    <message>
+        <source>drawing the first machine</source>
+        <translation>die erste Maschine wird gezogen</translation>
+    </message>
+    <message>
+        <source>enter cases and seed</source>
+        <translation>Fälle und Startwert eingeben</translation>
+    </message>
+    <message>
+        <source>nothing is running</source>
+        <translation>nichts läuft</translation>
+    </message>
+    <message>
+        <source>true cause</source>
+        <translation>wahre Ursache</translation>
+    </message>
+    <message>
+        <source>stopped; finished cases are kept</source>
+        <translation>angehalten; fertige Fälle bleiben erhalten</translation>
+    </message>
+    <message>
+        <source>Nominal → corrected, on validation data</source>
+        <translation>Nominal → korrigiert, auf Prüfdaten</translation>
+    </message>
+    <message>
+        <source>axis, signal</source>
+        <translation>Achse, Signal</translation>
+    </message>
+    <message>
+        <source>Rms of measurement minus model, including offset, during motion and 0.5 s after it; intervals by block bootstrap</source>
+        <translation>Effektivwert von Messung minus Modell, mit Versatz, während der Bewegung und 0,5 s danach; Intervalle durch Block-Bootstrap</translation>
+    </message>
+    <message>
+        <source>first cause correct, one effect</source>
+        <translation>erste Ursache richtig, ein Effekt</translation>
+    </message>
+    <message>
+        <source>exactly one effect and no other</source>
+        <translation>genau ein Effekt und kein anderer</translation>
+    </message>
+    <message>
+        <source>exactly two effects</source>
+        <translation>genau zwei Effekte</translation>
+    </message>
+    <message>
+        <source>exactly three effects</source>
+        <translation>genau drei Effekte</translation>
+    </message>
+    <message>
+        <source>false cause named</source>
+        <translation>falsche Ursache genannt</translation>
+    </message>
+    <message>
+        <source>verdict: explained or partly</source>
+        <translation>Urteil: erklärt oder zum Teil</translation>
+    </message>
+    <message>
+        <source>healthy machines blamed</source>
+        <translation>gesunde Maschinen beschuldigt</translation>
+    </message>
+    <message>
+        <source>unknown effects recognised</source>
+        <translation>unbekannte Effekte erkannt</translation>
+    </message>
+    <message>
+        <source>poor excitation recognised</source>
+        <translation>schlechte Anregung erkannt</translation>
+    </message>
+    <message>
+        <source>seconds per case, median</source>
+        <translation>Sekunden je Fall, Median</translation>
+    </message>
+    <message>
+        <source>seconds per case, maximum</source>
+        <translation>Sekunden je Fall, Maximum</translation>
+    </message>
+    <message>
+        <source>seconds per healthy case, median</source>
+        <translation>Sekunden je gesundem Fall, Median</translation>
+    </message>
+    <message>
+        <source>Three or more records of different motions give the best diagnosis.</source>
+        <translation>Drei oder mehr Aufzeichnungen verschiedener Bewegungen ergeben die beste Diagnose.</translation>
+    </message>
+    <message>
+        <source>Gap from the model in use, of the axis with the most noise floors</source>
+        <translation>Abweichung vom verwendeten Modell: die der Achse mit den meisten Rauschgrenzen</translation>
+    </message>
+    <message>
+        <source>Records to diagnose:</source>
+        <translation>Zu diagnostizierende Aufzeichnungen:</translation>
+    </message>
+    <message>
+        <source>Rms of the gap on validation data: with the original model, with its own parameters re-tuned, then with one effect after the other. No model gets below the noise floor; the black-box model shows about how far any explanation can get.</source>
+        <translation>Effektivwert der Abweichung auf Prüfdaten: mit dem ursprünglichen Modell, mit neu abgestimmten eigenen Parametern, dann mit einem Effekt nach dem anderen. Kein Modell kommt unter die Rauschgrenze; das Black-Box-Modell zeigt, wie weit eine Erklärung etwa kommen kann.</translation>
+    </message>
+    <message>
+        <source>This axis has no gap to close.</source>
+        <translation>Diese Achse hat keine Abweichung zu schließen.</translation>
+    </message>
+    <message>
+        <source>{path}: no program here opens it; open it in a browser</source>
+        <translation>{path}: kein Programm öffnet diese Datei; in einem Browser öffnen</translation>
+    </message>
+    <message>
+        <source>Signal: u is the voltage, ref the reference sensor, meas the machine&apos;s own sensor</source>
+        <translation>Signal: u ist die Spannung, ref der Referenzsensor, meas der eigene Sensor der Maschine</translation>
+    </message>
+    <message>
+        <source>Rms of noise and rounding of the sensor, which no model explains</source>
+        <translation>Effektivwert von Rauschen und Rundung des Sensors, die kein Modell erklärt</translation>
+    </message>
+    <message>
+        <source>Band with the largest share</source>
+        <translation>Band mit dem größten Anteil</translation>
+    </message>
+    <message>
+        <source>Motion of the axis where the gap is largest</source>
+        <translation>Bewegung der Achse, wo die Abweichung am größten ist</translation>
+    </message>
+    <message>
+        <source>{share} of the gap of the channel</source>
+        <translation>{share} der Abweichung des Kanals</translation>
+    </message>
+    <message>
+        <source>{place}: no record is long enough and evenly sampled for a map</source>
+        <translation>{place}: keine Aufzeichnung ist gleichmäßig und lang genug für eine Karte</translation>
+    </message>
+    <message>
+        <source>{place}: gap rms [noise floors] by motion and frequency, from … Hz on. Click a cell to see its traces.</source>
+        <translation>{place}: Abweichung rms [Rauschgrenzen], nach Bewegungsart und Frequenz ab … Hz. Eine Zelle anklicken, um die Verläufe zu sehen.</translation>
+    </message>
+    <message>
+        <source>Model to be diagnosed; initially the nominal one</source>
+        <translation>Modell, das diagnostiziert wird; zunächst das nominale</translation>
+    </message>
+    <message>
+        <source>Remainder of the model in use</source>
+        <translation>Rest des verwendeten Modells</translation>
+    </message>
+    <message>
+        <source>commands cannot predict any of the causes</source>
+        <translation>keine der Ursachen lässt sich aus Sollwerten vorhersagen</translation>
+    </message>
+    <message>
+        <source>there is no diagnosis yet; diagnose records first</source>
+        <translation>es gibt noch keine Diagnose; zuerst Aufzeichnungen diagnostizieren</translation>
+    </message>
+    <message>
+        <source>Candidates with their probabilities, explanation and advice</source>
+        <translation>Kandidaten mit ihren Wahrscheinlichkeiten, Erklärung und Rat</translation>
+    </message>
+    <message>
+        <source>How far the gap shrinks with the causes, down to the noise floor</source>
+        <translation>Wie weit die Abweichung mit den Ursachen schrumpft, bis zur Rauschgrenze</translation>
+    </message>
+    <message>
+        <source>Predictions only: commands to the machine do not change. The panel Compensation changes them.</source>
+        <translation>Nur Vorhersagen: Sollwerte an die Maschine ändern sich nicht. Das tut das Panel Kompensation.</translation>
+    </message>
+    <message>
+        <source>Save the diagnosis as JSON; test how often the diagnosis is correct</source>
+        <translation>Die Diagnose als JSON speichern; testen, wie oft die Diagnose stimmt</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>waiting for the stopped work to end</source>
+        <translation>wartet auf das Ende der angehaltenen Arbeit</translation>
+    </message>
+    <message>
+        <source>The diagnosis failed; the notice above gives the reason.</source>
+        <translation>Die Diagnose ist fehlgeschlagen; die Meldung oben nennt den Grund.</translation>
+    </message>
+    <message>
+        <source>Find the effects that the model lacks</source>
+        <translation>Die Effekte finden, die dem Modell fehlen</translation>
+    </message>
+    <message>
+        <source>Choose records and diagnose them</source>
+        <translation>Aufzeichnungen wählen und diagnostizieren</translation>
+    </message>
+    <message>
+        <source>Stop the diagnosis; motion continues</source>
+        <translation>Die Diagnose anhalten; die Bewegung läuft weiter</translation>
+    </message>
+    <message>
+        <source>Write a robot file of the model with the causes found</source>
+        <translation>Eine Roboterdatei des Modells mit den gefundenen Ursachen schreiben</translation>
+    </message>
+    <message>
+        <source>Play a motion that no record contains, and measure its gap</source>
+        <translation>Eine Bewegung abspielen, die keine Aufzeichnung enthält, und ihre Abweichung messen</translation>
+    </message>
+    <message>
+        <source>Write the report with all figures, and open it</source>
+        <translation>Den Bericht mit allen Kennwerten schreiben und öffnen</translation>
+    </message>
+    <message>
+        <source>Computing a motion …</source>
+        <translation>Eine Bewegung wird berechnet …</translation>
+    </message>
+    <message>
+        <source>Play the motion that best distinguishes the candidates, and diagnose its record with the others</source>
+        <translation>Die Bewegung abspielen, die die Kandidaten am besten unterscheidet, und ihre Aufzeichnung mit den anderen diagnostizieren</translation>
+    </message>
+    <message>
+        <source>a diagnosis is running</source>
+        <translation>eine Diagnose läuft</translation>
+    </message>
+    <message>
+        <source>A hidden machine is connected. It has one or two effects, or none. Play a motion, diagnose it, then choose More → Reveal.</source>
+        <translation>Eine verborgene Maschine ist verbunden. Sie hat einen oder zwei Effekte oder keinen. Eine Bewegung abspielen, diagnostizieren, dann Mehr → Aufdecken wählen.</translation>
+    </message>
+    <message>
+        <source>Correct: the diagnosis named exactly the effects of the machine.</source>
+        <translation>Richtig: die Diagnose nannte genau die Effekte der Maschine.</translation>
+    </message>
+    <message>
+        <source>Not correct.</source>
+        <translation>Nicht richtig.</translation>
+    </message>
+    <message>
+        <source>The machine has: {causes}</source>
+        <translation>Die Maschine hat: {causes}</translation>
+    </message>
+    <message>
+        <source>{path}: the result of the blind test cannot be read ({reason}); run it again</source>
+        <translation>{path}: das Ergebnis des Blindtests lässt sich nicht lesen ({reason}); noch einmal starten</translation>
+    </message>
+    <message>
+        <source>The motion differs from all records: choose this record too, and diagnose them together.</source>
+        <translation>Die Bewegung unterscheidet sich von allen Aufzeichnungen: auch diese wählen und alle zusammen diagnostizieren.</translation>
+    </message>
+    <message>
+        <source>The model is off by a constant, because the axis has a different history than in the records. Sweep its whole range once, and play the motion again.</source>
+        <translation>Das Modell liegt um eine Konstante daneben, weil die Achse eine andere Vorgeschichte hat als in den Aufzeichnungen. Einmal ihren ganzen Bereich durchfahren und die Bewegung noch einmal abspielen.</translation>
+    </message>
+    <message>
+        <source>The motion leaves the region of the records: choose this record too, and diagnose them together.</source>
+        <translation>Die Bewegung verlässt den Bereich der Aufzeichnungen: auch diese Aufzeichnung wählen und alle zusammen diagnostizieren.</translation>
+    </message>
+    <message>
+        <source>It takes {time:.3g} s after the move to its first row.</source>
+        <translation>Sie dauert {time:.3g} s nach der Fahrt zur ersten Zeile.</translation>
+    </message>
+    <message>
+        <source>Reading the records.</source>
+        <translation>Die Aufzeichnungen werden gelesen.</translation>
+    </message>
+    <message>
+        <source>Locating the gap by axis, channel and frequency.</source>
+        <translation>Die Abweichung wird nach Achse, Kanal und Frequenz lokalisiert.</translation>
+    </message>
+    <message>
+        <source>Screening all effects that the axis may have.</source>
+        <translation>Alle Effekte, die die Achse haben kann, werden gesichtet.</translation>
+    </message>
+    <message>
+        <source>Fitting the likeliest candidates to the records, in parallel.</source>
+        <translation>Die wahrscheinlichsten Kandidaten werden parallel an die Aufzeichnungen angepasst.</translation>
+    </message>
+    <message>
+        <source>Deciding between the candidates on validation data.</source>
+        <translation>Zwischen den Kandidaten wird an Prüfdaten entschieden.</translation>
+    </message>
+    <message>
+        <source>A bar is the share of the gap that a candidate closes: outlined after screening, light after the fit, solid after the decision on validation data. The answer also considers which causes are needed together, and may differ.</source>
+        <translation>Balken: Anteil der Abweichung, den ein Kandidat schließt; Umriss: nach der Vorauswahl; hell: nach der Anpassung; voll: nach der Entscheidung an Prüfdaten. Die Antwort prüft auch, welche Ursachen zusammen nötig sind, und kann abweichen.</translation>
+    </message>
+    <message>
+        <source>1  Choose records of the real machine: choose files, or play a trajectory and use its record.
+2  Diagnose: find where and why the model differs from the records.
+3  Use the answer: add the causes to the model, check it with a new motion, keep the report.</source>
+        <translation>1  Aufzeichnungen der echten Maschine wählen: Dateien, oder eine Trajektorie abspielen und ihre Aufzeichnung verwenden.
+2  Diagnose: finden, wo und warum das Modell davon abweicht.
+3  Die Antwort nutzen: die Ursachen ins Modell übernehmen, es mit einer neuen Bewegung prüfen, den Bericht behalten.</translation>
+    </message>
+    <message>
+        <source>Press Diagnose to find where the model differs from the measurements, which effect it lacks, and how far the gap shrinks with that effect. This takes about half a minute for each axis with a gap; you can stop it at any time.</source>
+        <translation>Diagnose drücken, um zu finden, wo das Modell von den Messungen abweicht, welcher Effekt ihm fehlt und wie weit die Abweichung damit schrumpft. Das dauert etwa eine halbe Minute je Achse mit einer Abweichung und lässt sich jederzeit anhalten.</translation>
+    </message>
+    <message>
+        <source>The model matches the machine in these motions.</source>
+        <translation>Das Modell stimmt in diesen Bewegungen mit der Maschine überein.</translation>
+    </message>
+    <message>
+        <source>The model lacks the effects named below; with them, it follows the machine.</source>
+        <translation>Dem Modell fehlen die unten genannten Effekte; mit ihnen folgt es der Maschine.</translation>
+    </message>
+    <message>
+        <source>The effects named below are present; no effect of the catalogue explains the rest of the gap.</source>
+        <translation>Die unten genannten Effekte liegen vor; den Rest der Abweichung erklärt kein Effekt des Katalogs.</translation>
+    </message>
+    <message>
+        <source>Press “Use corrected model”: it follows the machine better. The page Where shows what the rest depends on.</source>
+        <translation>„Korrigiertes Modell verwenden“ drücken: es folgt der Maschine besser. Die Seite Wo zeigt, wovon der Rest abhängt.</translation>
+    </message>
+    <message>
+        <source>The gap is real, but no effect of the catalogue explains it.</source>
+        <translation>Die Abweichung ist echt, aber kein Effekt des Katalogs erklärt sie.</translation>
+    </message>
+    <message>
+        <source>The page Where shows what it depends on. Check cables, clamps and sensor; record again, slower and faster. Keep the report for the maintainer of the model.</source>
+        <translation>Die Seite Wo zeigt, wovon sie abhängt. Kabel, Klemmen und Sensor prüfen; noch einmal langsamer und schneller aufzeichnen. Den Bericht für die Pflege des Modells behalten.</translation>
+    </message>
+    <message>
+        <source>These motions cannot distinguish the effects: they are too short, too small or too similar.</source>
+        <translation>Diese Bewegungen können die Effekte nicht unterscheiden: sie sind zu kurz, zu klein oder zu ähnlich.</translation>
+    </message>
+    <message>
+        <source>Undecided: {effects} would explain these records equally well. Take the whole set as the answer.</source>
+        <translation>Nicht entschieden: {effects} würde diese Aufzeichnungen ebenso gut erklären. Die ganze Menge als Antwort nehmen.</translation>
+    </message>
+    <message>
+        <source>Press “Play next experiment …” to distinguish them.</source>
+        <translation>„Nächstes Experiment …“ drücken, um sie zu unterscheiden.</translation>
+    </message>
+    <message>
+        <source>The corrected model is worse than the nominal one on {motion}: {axes}.</source>
+        <translation>Bei {motion} ist das korrigierte Modell schlechter als das nominale: {axes}.</translation>
+    </message>
+    <message>
+        <source>Predictions only: commands to the machine do not change, and no bound widens.</source>
+        <translation>Nur Vorhersagen: Sollwerte an die Maschine ändern sich nicht, und keine Grenze wird weiter.</translation>
+    </message>
+    <message>
+        <source>validation data</source>
+        <translation>Prüfdaten</translation>
+    </message>
+    <message>
+        <source>The model includes {causes}: the axis may have touched something. A penetration ignores this and also detects the contact with the nominal model.</source>
+        <translation>Das Modell enthält {causes}: die Achse hat vielleicht etwas berührt. Eine Penetration lässt das weg und sucht den Kontakt auch mit dem nominalen Modell.</translation>
+    </message>
+    <message>
+        <source>During {record}: {noted}.</source>
+        <translation>Während {record}: {noted}.</translation>
+    </message>
+    <message>
+        <source>Alternatives to the leading cause, likeliest first; possible causes are highlighted</source>
+        <translation>Alternativen zur führenden Ursache, die wahrscheinlichste zuerst; mögliche Ursachen sind hervorgehoben</translation>
+    </message>
+    <message>
+        <source>Probability of being the cause, among the candidates and an unknown cause</source>
+        <translation>Wahrscheinlichkeit, die Ursache zu sein, unter den Kandidaten und einer unbekannten Ursache</translation>
+    </message>
+    <message>
+        <source>Rms of the remaining gap on validation data, in noise floors; noise alone is 1</source>
+        <translation>Effektivwert der restlichen Abweichung auf Prüfdaten, in Rauschgrenzen; Rauschen allein ist 1</translation>
+    </message>
+    <message>
+        <source>    These records cannot distinguish it from {effects}.</source>
+        <translation>    Diese Aufzeichnungen können es nicht unterscheiden von: {effects}.</translation>
+    </message>
+    <message>
+        <source>Result for the axis</source>
+        <translation>Ergebnis für die Achse</translation>
+    </message>
+    <message>
+        <source>Result of the diagnosis for the axis</source>
+        <translation>Ergebnis der Diagnose für die Achse</translation>
+    </message>
+    <message>
+        <source>gap [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;total&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in this band&lt;/span&gt;: {rms} rms in {time:.3g} s</source>
+        <translation>Abweichung [{unit}]: &lt;span style=&quot;color:{command}&quot;&gt;gesamt&lt;/span&gt;, &lt;span style=&quot;color:{real}&quot;&gt;in diesem Band&lt;/span&gt;: {rms} rms in {time:.3g} s</translation>
+    </message>
+    <message>
+        <source>Records by their share of this place, largest first</source>
+        <translation>Aufzeichnungen nach ihrem Anteil an dieser Stelle, der größte zuerst</translation>
+    </message>
+    <message>
+        <source>No record has rows at this place.</source>
+        <translation>Keine Aufzeichnung hat eine Zeile an dieser Stelle.</translation>
+    </message>
+    <message>
+        <source>the process of the diagnosis ended (status {status}) without an answer, perhaps for lack of memory; diagnose again with fewer or shorter records</source>
+        <translation>der Prozess der Diagnose endete (Status {status}) ohne Antwort, vielleicht aus Mangel an Speicher; mit weniger oder kürzeren Aufzeichnungen neu diagnostizieren</translation>
+    </message>
+    <message>
+        <source>; {rows} rows in pieces shorter than {least} are omitted</source>
+        <translation>; {rows} Zeilen in Stücken von weniger als {least} bleiben weg</translation>
+    </message>
+    <message>
+        <source>Time leaps {n} ×, by up to {time} s: the record is split there, and the history of each piece is unknown{left_out}.</source>
+        <translation>Die Zeit springt {n} ×, um bis zu {time} s: die Aufzeichnung wird dort geteilt, und die Vorgeschichte jedes Stücks ist unbekannt{left_out}.</translation>
+    </message>
+    <message>
+        <source>The reading drifts regardless of the motion, but the reference does not.</source>
+        <translation>Der Messwert driftet unabhängig von der Bewegung, die Referenz aber nicht.</translation>
+    </message>
+    <message>
+        <source>The reading drifts regardless of the motion, also at rest.</source>
+        <translation>Der Messwert driftet unabhängig von der Bewegung, auch in Ruhe.</translation>
+    </message>
+    <message>
+        <source>The axis was commanded but not measured: it is not diagnosed.</source>
+        <translation>Die Achse bekam Sollwerte, wurde aber nicht gemessen: sie wird nicht diagnostiziert.</translation>
+    </message>
+    <message>
+        <source>The axis was never commanded to move: only effects without motion are visible.</source>
+        <translation>Die Achse sollte sich nie bewegen: nur Effekte ohne Bewegung sind sichtbar.</translation>
+    </message>
+    <message>
+        <source>The axis&apos; own sensor was not recorded: it is not diagnosed.</source>
+        <translation>Der eigene Sensor der Achse wurde nicht aufgezeichnet: er wird nicht diagnostiziert.</translation>
+    </message>
+    <message>
+        <source>No independent reference (ref) was recorded: effects of the sensor cannot be distinguished from those of the axis.</source>
+        <translation>Keine unabhängige Referenz (ref) wurde aufgezeichnet: Effekte des Sensors lassen sich nicht von denen der Achse trennen.</translation>
+    </message>
+    <message>
+        <source>The rest depends on {groups}, as far as simple features predict it.</source>
+        <translation>Der Rest hängt ab von {groups}, soweit einfache Merkmale ihn vorhersagen.</translation>
+    </message>
+    <message>
+        <source>Its gap comes from the causes on other axes.</source>
+        <translation>Ihre Abweichung kommt von den Ursachen auf anderen Achsen.</translation>
+    </message>
+    <message>
+        <source>The computation failed, so no cause can be found: {error}.</source>
+        <translation>Die Berechnung ist fehlgeschlagen, daher lässt sich keine Ursache finden: {error}.</translation>
+    </message>
+    <message>
+        <source>To distinguish {effects}, play this: {test}; it separates them{closest} by {n} noise floors (rms), even after each is fitted to it{doubt}{reference}{others}.</source>
+        <translation>Um {effects} zu trennen, dies abspielen: {test}; es bringt sie{closest} {n} Rauschgrenzen (rms) auseinander, auch wenn jeder daran angepasst ist{doubt}{reference}{others}.</translation>
+    </message>
+    <message>
+        <source>; no test here distinguishes {any} from one of them</source>
+        <translation>; kein Test hier trennt {any} von einem davon</translation>
+    </message>
+    <message>
+        <source>, if the reference (ref) of {axis} is recorded too: without it, the test does not distinguish {effects}</source>
+        <translation>, wenn auch die Referenz (ref) von {axis} aufgezeichnet wird: ohne sie trennt es {effects} nicht</translation>
+    </message>
+    <message>
+        <source>The records move {axis} too little to distinguish effects. Play this: {test}; it covers many amplitudes and speeds.</source>
+        <translation>Die Aufzeichnungen bewegen {axis} zu wenig, um Effekte zu unterscheiden. Dies abspielen: {test}; es durchläuft viele Amplituden und Geschwindigkeiten.</translation>
+    </message>
+    <message>
+        <source>A vibration of {frequencies}, independent of the axis, was removed.</source>
+        <translation>Eine Schwingung von {frequencies}, unabhängig von der Achse, wurde entfernt.</translation>
+    </message>
+    <message>
+        <source>{n} sudden jumps by whole multiples of four full steps were removed.</source>
+        <translation>{n} plötzliche Sprünge um ganze Vielfache von vier Vollschritten wurden entfernt.</translation>
+    </message>
+    <message>
+        <source>The reading stays at exactly {stand} for {percent} % of the rows, while the axis is commanded to move: either the axis does not follow, or the sensor is {fault}. The records cannot distinguish the two.</source>
+        <translation>Der Messwert bleibt in {percent} % der Zeilen auf genau {stand}, während die Achse sich bewegen soll: Entweder folgt die Achse nicht, oder der Sensor ist {fault}. Die Aufzeichnungen können beides nicht unterscheiden.</translation>
+    </message>
+    <message>
+        <source>The rest depends on {groups}; no known effect explains it.</source>
+        <translation>Der Rest hängt ab von: {groups}. Kein bekannter Effekt erklärt ihn.</translation>
+    </message>
+    <message>
+        <source>{axis}: the records do not move the axis enough for a diagnosis.</source>
+        <translation>{axis}: Die Aufzeichnungen bewegen die Achse zu wenig für eine Diagnose.</translation>
+    </message>
+    <message>
+        <source>No known effect explains the rest.</source>
+        <translation>Den Rest erklärt kein bekannter Effekt.</translation>
+    </message>
+    <message>
+        <source>{effects} (these records cannot distinguish them)</source>
+        <translation>{effects} (diese Aufzeichnungen unterscheiden sie nicht)</translation>
+    </message>
+    <message>
+        <source>{n} of {all} records use another origin of position: effects locked to the position have the same period in all records, but another phase in these.</source>
+        <translation>{n} von {all} Aufzeichnungen haben einen anderen Nullpunkt der Position: an die Position gebundene Effekte haben in allen dieselbe Periode, in diesen aber eine andere Phase.</translation>
+    </message>
+    <message>
+        <source>the gap is partly explained; the cause of the rest is unknown</source>
+        <translation>die Abweichung ist zum Teil erklärt; die Ursache des Rests ist nicht bekannt</translation>
+    </message>
+    <message>
+        <source>no known effect explains the gap</source>
+        <translation>kein bekannter Effekt erklärt die Abweichung</translation>
+    </message>
+    <message>
+        <source>undecided: the records lack excitation</source>
+        <translation>unentschieden: die Aufzeichnungen regen zu wenig an</translation>
+    </message>
+    <message>
+        <source>partly explained</source>
+        <translation>zum Teil erklärt</translation>
+    </message>
+    <message>
+        <source>mostly between {low} and {high} Hz</source>
+        <translation>am meisten zwischen {low} und {high} Hz</translation>
+    </message>
+    <message>
+        <source>not distinguishable from: {names}</source>
+        <translation>nicht zu unterscheiden von: {names}</translation>
+    </message>
+    <message>
+        <source>how far it shrinks, rms on validation data</source>
+        <translation>wie weit sie schrumpft, rms auf Prüfdaten</translation>
+    </message>
+    <message>
+        <source>suggested experiments</source>
+        <translation>vorgeschlagene Experimente</translation>
+    </message>
+    <message>
+        <source>original {rms}</source>
+        <translation>ursprünglich {rms}</translation>
+    </message>
+    <message>
+        <source>Rows are missing in a record for up to {time} s while no axis moves; the commands are assumed constant meanwhile.</source>
+        <translation>In einer Aufzeichnung fehlen Zeilen für bis zu {time} s, während sich keine Achse bewegt; die Sollwerte gelten dabei als konstant.</translation>
+    </message>
+    <message>
+        <source>Rows of a record are {low} to {high} s apart; if a computer instead of the device took these times, their scatter appears as sensor noise.</source>
+        <translation>Zeilen einer Aufzeichnung liegen {low} bis {high} s auseinander; stammen diese Zeiten von einem Rechner statt vom Gerät, erscheint ihre Streuung als Sensorrauschen.</translation>
+    </message>
+    <message>
+        <source>Rows are missing at {n} places of a record; the commands are assumed constant there.</source>
+        <translation>An {n} Stellen einer Aufzeichnung fehlen Zeilen; die Sollwerte gelten dort als konstant.</translation>
+    </message>
+    <message>
+        <source>A command of {value} is outside the range {low} to {high}; the model has no end stops.</source>
+        <translation>Ein Sollwert von {value} liegt außerhalb des Bereichs {low} bis {high}; das Modell hat keine Anschläge.</translation>
+    </message>
+    <message>
+        <source>The {tap} channel is {gain} × the command, which no single effect causes: check signs, units and the gain in the robot file.</source>
+        <translation>Der Kanal {tap} ist {gain} × der Sollwert, was kein einzelner Effekt verursacht: Vorzeichen, Einheiten und Verstärkung in der Roboterdatei prüfen.</translation>
+    </message>
+    <message>
+        <source>series of steps</source>
+        <translation>Reihe von Schritten</translation>
+    </message>
+    <message>
+        <source>one step back and forth with very long holds</source>
+        <translation>ein Schritt hin und zurück mit sehr langem Halten</translation>
+    </message>
+    <message>
+        <source>share of the channel</source>
+        <translation>Anteil am Kanal</translation>
+    </message>
+    <message>
+        <source>{share} of the channel</source>
+        <translation>{share} des Kanals</translation>
+    </message>
+    <message>
+        <source>Partly explained: the cause of the rest is unknown</source>
+        <translation>Zum Teil erklärt: die Ursache des Rests ist unbekannt</translation>
+    </message>
+    <message>
+        <source>Unknown: no effect of the catalogue explains the gap</source>
+        <translation>Unbekannt: kein Effekt des Katalogs erklärt die Abweichung</translation>
+    </message>
+    <message>
+        <source>Undecided: the records lack excitation</source>
+        <translation>Unentschieden: die Aufzeichnungen regen zu wenig an</translation>
+    </message>
+    <message>
+        <source>Partly explained</source>
+        <translation>Zum Teil erklärt</translation>
+    </message>
+    <message>
+        <source>original model</source>
+        <translation>ursprüngliches Modell</translation>
     </message>
 </context>
 <context>

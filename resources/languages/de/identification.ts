@@ -12,16 +12,8 @@
         <translation>Öffnen …</translation>
     </message>
     <message>
-        <source>Open a record for this page alone</source>
-        <translation>Eine Aufzeichnung nur für diese Seite öffnen</translation>
-    </message>
-    <message>
         <source>Excite</source>
         <translation>Anregen</translation>
-    </message>
-    <message>
-        <source>Choose a motion that excites an axis, play it, and look at it</source>
-        <translation>Eine Bewegung wählen, die eine Achse anregt, abspielen und ansehen</translation>
     </message>
     <message>
         <source>Axis</source>
@@ -36,20 +28,12 @@
         <translation>Ausgang</translation>
     </message>
     <message>
-        <source>What is shown</source>
-        <translation>Was gezeigt wird</translation>
-    </message>
-    <message>
         <source>{n} averages</source>
         <translation>{n} Mittel</translation>
     </message>
     <message>
         <source>Averages</source>
         <translation>Mittelungen</translation>
-    </message>
-    <message>
-        <source>Segments of Welch&apos;s method: more are smoother, fewer resolve narrower peaks. A periodic record is averaged over its periods instead.</source>
-        <translation>Segmente nach Welch: mehr sind glatter, weniger lösen schmalere Spitzen auf. Eine periodische Aufzeichnung wird stattdessen über ihre Perioden gemittelt.</translation>
     </message>
     <message>
         <source>Method</source>
@@ -73,7 +57,7 @@
     </message>
     <message>
         <source>Save …</source>
-        <translation>Sichern …</translation>
+        <translation>Speichern …</translation>
     </message>
     <message>
         <source>Copy the figures as text</source>
@@ -82,14 +66,6 @@
     <message>
         <source>Write the figures into a file</source>
         <translation>Die Kennwerte in eine Datei schreiben</translation>
-    </message>
-    <message>
-        <source>Keep card</source>
-        <translation>Karte behalten</translation>
-    </message>
-    <message>
-        <source>Write this health card behind the earlier ones of the axis</source>
-        <translation>Diese Zustandskarte hinter die früheren der Achse schreiben</translation>
     </message>
     <message>
         <source>from {tap}</source>
@@ -124,14 +100,6 @@
         <translation>{low} bis {high}, höchstens {speed} von {bound}, {time}</translation>
     </message>
     <message>
-        <source>Changed: {change}.</source>
-        <translation>Geändert: {change}.</translation>
-    </message>
-    <message>
-        <source>Dry run: inside all limits and the tip&apos;s bounds.</source>
-        <translation>Trockenlauf: innerhalb aller Grenzen, auch der Spitze.</translation>
-    </message>
-    <message>
         <source>Not playable: {reason}</source>
         <translation>Nicht abspielbar: {reason}</translation>
     </message>
@@ -142,18 +110,6 @@
     <message>
         <source>time</source>
         <translation>Zeit</translation>
-    </message>
-    <message>
-        <source>{name}: {text} is no number of {unit}; write it like 2.5 {unit}, or leave it empty</source>
-        <translation>{name}: {text} ist keine Zahl in {unit}; wie 2.5 {unit} schreiben oder leer lassen</translation>
-    </message>
-    <message>
-        <source>Making the motion, and trying it on the model …</source>
-        <translation>Die Bewegung wird erstellt und am Modell geprüft …</translation>
-    </message>
-    <message>
-        <source>Amplitude. To each side of the middle, such as 5um, 200urad or 30% of the range; what exceeds a limit is reduced, and said</source>
-        <translation>Amplitude. Zu jeder Seite der Mitte, wie 5um, 200urad oder 30% des Bereichs; was eine Grenze überschreitet, wird verkleinert und gemeldet</translation>
     </message>
     <message>
         <source>Amplitude of the excitation</source>
@@ -169,24 +125,8 @@
         <translation>Frequenz der Anregung</translation>
     </message>
     <message>
-        <source>Frequency, above 0 Hz; of a multisine the highest</source>
-        <translation>Frequenz, über 0 Hz; bei einem Multisinus die höchste</translation>
-    </message>
-    <message>
         <source>Time of the excitation</source>
         <translation>Zeit der Anregung</translation>
-    </message>
-    <message>
-        <source>Duration, above 0 s; of a staircase the rest on each level</source>
-        <translation>Dauer, über 0 s; bei einer Treppe die Ruhe auf jeder Stufe</translation>
-    </message>
-    <message>
-        <source>about here</source>
-        <translation>um hier</translation>
-    </message>
-    <message>
-        <source>Move about where the axis stands; off: about the middle of its range</source>
-        <translation>Um die Stelle bewegen, an der die Achse steht; aus: um die Mitte ihres Bereichs</translation>
     </message>
     <message>
         <source>Play</source>
@@ -197,24 +137,8 @@
         <translation>Halt</translation>
     </message>
     <message>
-        <source>Play it; the record is analysed at once</source>
-        <translation>Abspielen; die Aufzeichnung wird sofort ausgewertet</translation>
-    </message>
-    <message>
-        <source>Stop the machine, and end it</source>
-        <translation>Die Maschine anhalten und es beenden</translation>
-    </message>
-    <message>
         <source>{axis}: free</source>
         <translation>{axis}: frei</translation>
-    </message>
-    <message>
-        <source>{axis}: driven by {driver}</source>
-        <translation>{axis}: bewegt von {driver}</translation>
-    </message>
-    <message>
-        <source>it is not playing</source>
-        <translation>es wird nicht abgespielt</translation>
     </message>
     <message>
         <source>the motion is not ready</source>
@@ -223,10 +147,6 @@
     <message>
         <source>a trajectory is playing</source>
         <translation>eine Trajektorie wird abgespielt</translation>
-    </message>
-    <message>
-        <source>the axes still move</source>
-        <translation>die Achsen bewegen sich noch</translation>
     </message>
     <message>
         <source>up to [Hz]</source>
@@ -249,24 +169,8 @@
         <translation>Anzuregende Achse</translation>
     </message>
     <message>
-        <source>Axis to excite; the others stand still</source>
-        <translation>Anzuregende Achse; die anderen stehen still</translation>
-    </message>
-    <message>
         <source>Motion of the excitation</source>
         <translation>Bewegung der Anregung</translation>
-    </message>
-    <message>
-        <source>Motion of the excitation: what each tells is in the help (F1)</source>
-        <translation>Bewegung der Anregung: was jede zeigt, steht in der Hilfe (F1)</translation>
-    </message>
-    <message>
-        <source>{tip}; empty: what suits the axis</source>
-        <translation>{tip}; leer: was zur Achse passt</translation>
-    </message>
-    <message>
-        <source>a fault of the program: {kind}: {error}</source>
-        <translation>ein Fehler des Programms: {kind}: {error}</translation>
     </message>
     <message>
         <source>figure</source>
@@ -283,10 +187,6 @@
     <message>
         <source>model</source>
         <translation>Modell</translation>
-    </message>
-    <message>
-        <source>Fitted to the first {n} of {rows} rows: more would take long.</source>
-        <translation>Angepasst an die ersten {n} von {rows} Zeilen: mehr würde lange dauern.</translation>
     </message>
     <message>
         <source>time [s]</source>
@@ -307,10 +207,6 @@
     <message>
         <source>fit</source>
         <translation>Anpassung</translation>
-    </message>
-    <message>
-        <source>fit of one step ahead</source>
-        <translation>Anpassung einen Schritt voraus</translation>
     </message>
     <message>
         <source>static gain</source>
@@ -341,28 +237,8 @@
         <translation>Zeitkonstante</translation>
     </message>
     <message>
-        <source>The fitted model is unstable: it stands for noise or drift; fit by output error.</source>
-        <translation>Das angepasste Modell ist instabil: es steht für Rauschen oder Drift; nach Ausgangsfehler anpassen.</translation>
-    </message>
-    <message>
-        <source>Fit {fit:.1f} %, below {bound:g} %: noise, distortion, another axis or too few poles; frequency and damping are not those of the machine.</source>
-        <translation>Anpassung {fit:.1f} %, unter {bound:g} %: Rauschen, Verzerrung, eine andere Achse oder zu wenige Pole; Frequenz und Dämpfung sind nicht die der Maschine.</translation>
-    </message>
-    <message>
-        <source>One step ahead it fits {ahead:.1f} %, simulated {fit:.1f} %: noise of the sensor spoils ARX; fit by output error.</source>
-        <translation>Einen Schritt voraus passt es zu {ahead:.1f} %, simuliert zu {fit:.1f} %: Sensorrauschen verdirbt ARX; nach Ausgangsfehler anpassen.</translation>
-    </message>
-    <message>
         <source>The leading pole is real: the record shows a lag, no resonance.</source>
         <translation>Der führende Pol ist reell: die Aufzeichnung zeigt eine Verzögerung, keine Resonanz.</translation>
-    </message>
-    <message>
-        <source>{mode:.4g} Hz lies above {highest:.4g} Hz, {share:g} of half the sampling rate: it is a delay or noise, and no mode of the machine.</source>
-        <translation>{mode:.4g} Hz liegt über {highest:.4g} Hz, {share:g} der halben Abtastrate: es ist eine Totzeit oder Rauschen und keine Eigenform der Maschine.</translation>
-    </message>
-    <message>
-        <source>The frequency is known to {deviation:.2g} Hz alone, more than {rough:.0f} %: the record hardly excites it; use faster steps or a multisine.</source>
-        <translation>Die Frequenz ist nur auf {deviation:.2g} Hz bekannt, mehr als {rough:.0f} %: die Aufzeichnung regt sie kaum an; schnellere Schritte oder einen Multisinus verwenden.</translation>
     </message>
     <message>
         <source>multisine</source>
@@ -371,10 +247,6 @@
     <message>
         <source>{n} periods of {rows}</source>
         <translation>{n} Perioden zu {rows}</translation>
-    </message>
-    <message>
-        <source>frequency response: {n} samples in {averages} averages leave segments of {segment}; at least {least} are needed, record longer or average less</source>
-        <translation>Frequenzgang: {n} Abtastungen in {averages} Mittelungen ergeben Segmente von {segment}; mindestens {least} sind nötig, länger aufzeichnen oder weniger mitteln</translation>
     </message>
     <message>
         <source>{n} segments of {rows}</source>
@@ -395,10 +267,6 @@
     <message>
         <source>largest gain</source>
         <translation>größte Verstärkung</translation>
-    </message>
-    <message>
-        <source>at</source>
-        <translation>bei</translation>
     </message>
     <message>
         <source>median coherence</source>
@@ -445,22 +313,6 @@
         <translation>Fehlanpassung</translation>
     </message>
     <message>
-        <source>The input excites {n} lines alone, up to {highest:.4g} Hz ({wanted} are wanted): nothing is known above; record a multisine or a chirp.</source>
-        <translation>Der Eingang regt nur {n} Linien an, bis {highest:.4g} Hz ({wanted} sind erwünscht): darüber ist nichts bekannt; einen Multisinus oder Chirp aufzeichnen.</translation>
-    </message>
-    <message>
-        <source>Coherence is below {bound:g} on {n} of {lines} lines: noise, distortion, another axis or leakage; look at the interval there.</source>
-        <translation>Die Kohärenz liegt bei {n} von {lines} Linien unter {bound:g}: Rauschen, Verzerrung, eine andere Achse oder Leckeffekt; dort auf das Intervall achten.</translation>
-    </message>
-    <message>
-        <source>The resonance is {width:.3g} Hz wide, less than {lines} lines of {resolution:.3g} Hz: it looks flatter than it is; average less or record longer.</source>
-        <translation>Die Resonanz ist {width:.3g} Hz breit, weniger als {lines} Linien zu {resolution:.3g} Hz: sie erscheint flacher, als sie ist; weniger mitteln oder länger aufzeichnen.</translation>
-    </message>
-    <message>
-        <source>One mode misses the peak by {misfit:.0f} % (bound {bound:.0f} %): there may be two; damping is rough.</source>
-        <translation>Eine Eigenform verfehlt die Spitze um {misfit:.0f} % (Grenze {bound:.0f} %): es können zwei sein; die Dämpfung ist ungenau.</translation>
-    </message>
-    <message>
         <source>now</source>
         <translation>jetzt</translation>
     </message>
@@ -493,28 +345,12 @@
         <translation>geändert</translation>
     </message>
     <message>
-        <source>No card of this axis is kept yet: keep this one to compare with it later.</source>
-        <translation>Von dieser Achse gibt es noch keine Karte: diese behalten, um später zu vergleichen.</translation>
-    </message>
-    <message>
         <source>Last card: {date}, the latest of {n}. Changed beyond both intervals: {figures}.</source>
         <translation>Letzte Karte: {date}, die neueste von {n}. Über beide Intervalle hinaus geändert: {figures}.</translation>
     </message>
     <message>
         <source>Last card: {date}, the latest of {n}. No figure has changed beyond both intervals.</source>
         <translation>Letzte Karte: {date}, die neueste von {n}. Kein Kennwert hat sich über beide Intervalle hinaus geändert.</translation>
-    </message>
-    <message>
-        <source>Measured are the cycles of the first {n} of {rows} rows, which turn {turns} times: the input is noise or very long.</source>
-        <translation>Gemessen sind die Zyklen der ersten {n} von {rows} Zeilen, die {turns}-mal umkehren: der Eingang ist Rauschen oder sehr lang.</translation>
-    </message>
-    <message>
-        <source>Drawn are the first {n} of {rows} rows; the figures are not cut there.</source>
-        <translation>Gezeichnet sind die ersten {n} von {rows} Zeilen; die Kennwerte enden dort nicht.</translation>
-    </message>
-    <message>
-        <source>off a straight line</source>
-        <translation>ohne Gerade</translation>
     </message>
     <message>
         <source>{title} [{unit}]</source>
@@ -533,16 +369,8 @@
         <translation>größte Breite</translation>
     </message>
     <message>
-        <source>width at the middle</source>
-        <translation>Breite in der Mitte</translation>
-    </message>
-    <message>
         <source>width over stroke</source>
         <translation>Breite je Hub</translation>
-    </message>
-    <message>
-        <source>play across</source>
-        <translation>Spiel quer</translation>
     </message>
     <message>
         <source>area</source>
@@ -555,30 +383,6 @@
     <message>
         <source>cycles</source>
         <translation>Zyklen</translation>
-    </message>
-    <message>
-        <source>too alike</source>
-        <translation>zu ähnlich</translation>
-    </message>
-    <message>
-        <source>A cycle has {rows:.0f} rows, fewer than {least}: the loop is that of lag and resonance; drive slower cycles.</source>
-        <translation>Ein Zyklus hat {rows:.0f} Zeilen, weniger als {least}: die Schleife ist die von Verzögerung und Resonanz; langsamere Zyklen fahren.</translation>
-    </message>
-    <message>
-        <source>Width below 0: the output leads, or the {lag} sample of lag that is taken out for a held command is more than the axis has; drive slower cycles.</source>
-        <translation>Breite unter 0: der Ausgang eilt vor, oder die {lag} Abtastung Verzögerung, die für einen gehaltenen Sollwert abgezogen wird, ist mehr, als die Achse hat; langsamere Zyklen fahren.</translation>
-    </message>
-    <message>
-        <source>Width below 0: the output leads the input.</source>
-        <translation>Breite unter 0: der Ausgang eilt dem Eingang vor.</translation>
-    </message>
-    <message>
-        <source>No nominal model beside it: {reason}</source>
-        <translation>Kein nominelles Modell daneben: {reason}</translation>
-    </message>
-    <message>
-        <source>Excite an axis, play a trajectory, or open a record, to see what it says about the machine.</source>
-        <translation>Eine Achse anregen, eine Trajektorie abspielen oder eine Aufzeichnung öffnen, um zu sehen, was sie über die Maschine sagt.</translation>
     </message>
     <message>
         <source>Records (*.csv *.txt *.dat *.gz);;All files (*)</source>
@@ -597,10 +401,6 @@
         <translation>Aufzeichnung öffnen</translation>
     </message>
     <message>
-        <source>{record}: axis {axis} has no pair of an input and an output.</source>
-        <translation>{record}: Achse {axis} hat kein Paar aus Eingang und Ausgang.</translation>
-    </message>
-    <message>
         <source>{record}: computing …</source>
         <translation>{record}: wird berechnet …</translation>
     </message>
@@ -613,16 +413,8 @@
         <translation>{record}: {time:.3f} s, {n} Werte</translation>
     </message>
     <message>
-        <source>Keeping the health card …</source>
-        <translation>Zustandskarte wird behalten …</translation>
-    </message>
-    <message>
-        <source>Kept the health card of {axis}</source>
-        <translation>Zustandskarte von {axis} behalten</translation>
-    </message>
-    <message>
         <source>Save results</source>
-        <translation>Ergebnisse sichern</translation>
+        <translation>Ergebnisse speichern</translation>
     </message>
     <message>
         <source>Tables (*.csv)</source>
@@ -635,14 +427,6 @@
     <message>
         <source>Saved {path}</source>
         <translation>Gespeichert: {path}</translation>
-    </message>
-    <message>
-        <source>What the record cannot tell</source>
-        <translation>Was die Aufzeichnung nicht sagen kann</translation>
-    </message>
-    <message>
-        <source>{axis}: input and output are both {tap}; choose two taps</source>
-        <translation>{axis}: Eingang und Ausgang sind beide {tap}; zwei Abgriffe wählen</translation>
     </message>
     <message>
         <source>{axis}: the record has no {axis}.{tap}; it has {columns}</source>
@@ -690,27 +474,11 @@
     </message>
     <message>
         <source>largest step, at {time:.4g} s [1]</source>
-        <translation>größter, {time:.4g} s [1]</translation>
-    </message>
-    <message>
-        <source>since the step [ms]</source>
-        <translation>seit dem Schritt [ms]</translation>
-    </message>
-    <message>
-        <source>The input takes up to {ramp:.3g} ms from level to level, as fast as its limits allow: times count from where that begins, the model&apos;s too.</source>
-        <translation>Der Eingang braucht bis zu {ramp:.3g} ms von Stufe zu Stufe, so schnell die Grenzen es erlauben: Zeiten zählen ab dessen Beginn, auch die des Modells.</translation>
+        <translation>größter, bei {time:.4g} s [1]</translation>
     </message>
     <message>
         <source>rise</source>
         <translation>Anstieg</translation>
-    </message>
-    <message>
-        <source>{name}: {n} of {steps} steps do not show it; they still move, or noise exceeds the band, at the end of their hold.</source>
-        <translation>{name}: {n} von {steps} Schritten zeigen es nicht; am Ende der Haltezeit bewegen sie sich noch, oder das Rauschen überschreitet das Band.</translation>
-    </message>
-    <message>
-        <source>{n} of {steps} steps are smaller than 10 times the noise about their level: overshoot and times are those of the noise; record larger steps.</source>
-        <translation>{n} von {steps} Schritten sind kleiner als das 10-fache Rauschen: Überschwingen und Zeiten sind die des Rauschens; größere Schritte aufzeichnen.</translation>
     </message>
     <message>
         <source>median</source>
@@ -743,6 +511,238 @@
     <message>
         <source>Health card</source>
         <translation>Zustandskarte</translation>
+    </message>
+    <message>
+        <source>Computing the motion and checking it on the model …</source>
+        <translation>Die Bewegung wird berechnet und am Modell geprüft …</translation>
+    </message>
+    <message>
+        <source>Amplitude each way from the middle, such as 5um, 200urad or 30% of the range; a value beyond a limit is reduced, with a notice</source>
+        <translation>Amplitude nach beiden Seiten der Mitte, etwa 5um, 200urad oder 30% des Bereichs; ein Wert jenseits einer Grenze wird verringert und gemeldet</translation>
+    </message>
+    <message>
+        <source>Frequency, above 0 Hz; the highest one of a multisine</source>
+        <translation>Frequenz über 0 Hz; bei einem Multisinus die höchste</translation>
+    </message>
+    <message>
+        <source>Duration, above 0 s; the rest on each level of a staircase</source>
+        <translation>Dauer über 0 s; bei einer Treppe die Ruhe auf jeder Stufe</translation>
+    </message>
+    <message>
+        <source>around here</source>
+        <translation>um hier</translation>
+    </message>
+    <message>
+        <source>Move around the present position; off: around the middle of the range</source>
+        <translation>Um die jetzige Position bewegen; aus: um die Mitte des Bereichs</translation>
+    </message>
+    <message>
+        <source>Play the motion and analyse the record</source>
+        <translation>Die Bewegung abspielen und die Aufzeichnung auswerten</translation>
+    </message>
+    <message>
+        <source>Stop the machine and end the motion</source>
+        <translation>Die Maschine anhalten und die Bewegung beenden</translation>
+    </message>
+    <message>
+        <source>{axis}: controlled by {driver}</source>
+        <translation>{axis}: gesteuert von {driver}</translation>
+    </message>
+    <message>
+        <source>the axes are still moving</source>
+        <translation>die Achsen bewegen sich noch</translation>
+    </message>
+    <message>
+        <source>Axis to be excited; the others stay at rest</source>
+        <translation>Anzuregende Achse; die anderen bleiben in Ruhe</translation>
+    </message>
+    <message>
+        <source>Motion of the excitation; the help (F1) describes what each one shows</source>
+        <translation>Bewegung der Anregung; was jede zeigt, steht in der Hilfe (F1)</translation>
+    </message>
+    <message>
+        <source>the motion is not playing</source>
+        <translation>die Bewegung wird nicht abgespielt</translation>
+    </message>
+    <message>
+        <source>{tip}; empty: a value that suits the axis</source>
+        <translation>{tip}; leer: ein passender Wert</translation>
+    </message>
+    <message>
+        <source>Reduced to the limits: {change}.</source>
+        <translation>An die Grenzen angepasst: {change}.</translation>
+    </message>
+    <message>
+        <source>Dry run: within all limits and the bounds of the tip.</source>
+        <translation>Trockenlauf: innerhalb aller Grenzen, auch der Spitze.</translation>
+    </message>
+    <message>
+        <source>Excite an axis, play a trajectory or open a record to identify the machine.</source>
+        <translation>Eine Achse anregen, eine Trajektorie abspielen oder eine Aufzeichnung öffnen, um die Maschine zu identifizieren.</translation>
+    </message>
+    <message>
+        <source>Stored the health card of {axis}</source>
+        <translation>Zustandskarte von {axis} gespeichert</translation>
+    </message>
+    <message>
+        <source>Limits of this record</source>
+        <translation>Grenzen dieser Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>Storing the health card …</source>
+        <translation>Zustandskarte wird gespeichert …</translation>
+    </message>
+    <message>
+        <source>{record}: axis {axis} lacks an input or an output.</source>
+        <translation>{record}: der Achse {axis} fehlt ein Eingang oder ein Ausgang.</translation>
+    </message>
+    <message>
+        <source>The fitted model is unstable: it describes noise or drift. Choose the method output error.</source>
+        <translation>Das angepasste Modell ist instabil: es beschreibt Rauschen oder Drift. Das Verfahren OE (Ausgangsfehler) wählen.</translation>
+    </message>
+    <message>
+        <source>The fit uses the first {n} of {rows} rows, to save time.</source>
+        <translation>Die Anpassung benutzt die ersten {n} von {rows} Zeilen, um Zeit zu sparen.</translation>
+    </message>
+    <message>
+        <source>fit one step ahead</source>
+        <translation>Anpassung einen Schritt voraus</translation>
+    </message>
+    <message>
+        <source>The model fits {ahead:.1f} % one step ahead but {fit:.1f} % in simulation: sensor noise biases ARX. Choose the method output error.</source>
+        <translation>Das Modell passt einen Schritt voraus zu {ahead:.1f} %, in der Simulation aber zu {fit:.1f} %: Sensorrauschen verfälscht ARX. Das Verfahren OE (Ausgangsfehler) wählen.</translation>
+    </message>
+    <message>
+        <source>{mode:.4g} Hz is above {highest:.4g} Hz, {share:g} of half the sampling rate: it is a delay or noise, not a mode of the machine.</source>
+        <translation>{mode:.4g} Hz liegt über {highest:.4g} Hz, dem {share:g}-Fachen der halben Abtastrate: es ist eine Totzeit oder Rauschen, keine Eigenform der Maschine.</translation>
+    </message>
+    <message>
+        <source>The fit of {fit:.1f} % is below {bound:g} %: noise, distortion, another axis or too few poles. Frequency and damping are not those of the machine.</source>
+        <translation>Die Anpassung von {fit:.1f} % liegt unter {bound:g} %: Rauschen, Verzerrung, eine andere Achse oder zu wenige Pole. Frequenz und Dämpfung sind nicht die der Maschine.</translation>
+    </message>
+    <message>
+        <source>The frequency is uncertain by {deviation:.2g} Hz, more than {rough:.0f} %: the record hardly excites the mode. Use faster steps or a multisine.</source>
+        <translation>Die Frequenz ist um {deviation:.2g} Hz unsicher, mehr als {rough:.0f} %: die Aufzeichnung regt die Eigenform kaum an. Schnellere Schritte oder einen Multisinus verwenden.</translation>
+    </message>
+    <message>
+        <source>program error: {kind}: {error}</source>
+        <translation>Programmfehler: {kind}: {error}</translation>
+    </message>
+    <message>
+        <source>at frequency</source>
+        <translation>bei Frequenz</translation>
+    </message>
+    <message>
+        <source>The input excites only {n} lines, up to {highest:.4g} Hz ({wanted} lines are needed). Record a multisine or a chirp to see higher frequencies.</source>
+        <translation>Der Eingang regt nur {n} Linien an, bis {highest:.4g} Hz ({wanted} sind nötig). Einen Multisinus oder Chirp aufzeichnen, um höhere Frequenzen zu sehen.</translation>
+    </message>
+    <message>
+        <source>The coherence is below {bound:g} on {n} of {lines} lines: noise, distortion, another axis or leakage. The interval is wide there.</source>
+        <translation>Die Kohärenz liegt bei {n} von {lines} Linien unter {bound:g}: Rauschen, Verzerrung, eine andere Achse oder Leckeffekt. Dort ist das Intervall breit.</translation>
+    </message>
+    <message>
+        <source>frequency response: {averages} averages of {n} samples give segments of {segment} samples; at least {least} are needed. Record longer or average less.</source>
+        <translation>Frequenzgang: {averages} Mittelungen von {n} Abtastungen ergeben Segmente zu {segment}; mindestens {least} sind nötig. Länger aufzeichnen oder weniger mitteln.</translation>
+    </message>
+    <message>
+        <source>The resonance is {width:.3g} Hz wide, less than {lines} lines of {resolution:.3g} Hz: it appears flatter than it is. Average less or record longer.</source>
+        <translation>Die Resonanz ist {width:.3g} Hz breit, weniger als {lines} Linien zu {resolution:.3g} Hz: sie erscheint flacher, als sie ist. Weniger mitteln oder länger aufzeichnen.</translation>
+    </message>
+    <message>
+        <source>A single mode misses the peak by {misfit:.0f} % (bound {bound:.0f} %): there may be two modes, and the damping is inaccurate.</source>
+        <translation>Eine einzelne Eigenform verfehlt die Spitze um {misfit:.0f} % (Grenze {bound:.0f} %): es können zwei sein, und die Dämpfung ist ungenau.</translation>
+    </message>
+    <message>
+        <source>The nominal model is not shown: {reason}</source>
+        <translation>Das nominelle Modell fehlt: {reason}</translation>
+    </message>
+    <message>
+        <source>width at mid-range</source>
+        <translation>Breite in der Mitte</translation>
+    </message>
+    <message>
+        <source>deviation from a straight line</source>
+        <translation>Abweichung von einer Geraden</translation>
+    </message>
+    <message>
+        <source>backlash width</source>
+        <translation>Breite des Spiels</translation>
+    </message>
+    <message>
+        <source>too similar</source>
+        <translation>zu ähnlich</translation>
+    </message>
+    <message>
+        <source>The figures use the first {n} of {rows} rows, with {turns} reversals: the input is noise, or very long.</source>
+        <translation>Die Kennwerte benutzen die ersten {n} von {rows} Zeilen mit {turns} Umkehrungen: der Eingang ist Rauschen oder sehr lang.</translation>
+    </message>
+    <message>
+        <source>The plot shows the first {n} of {rows} rows; the figures use all rows.</source>
+        <translation>Das Diagramm zeigt die ersten {n} von {rows} Zeilen; die Kennwerte benutzen alle.</translation>
+    </message>
+    <message>
+        <source>A cycle has {rows:.0f} rows, fewer than {least}: lag and resonance cause the loop. Drive slower cycles.</source>
+        <translation>Ein Zyklus hat {rows:.0f} Zeilen, weniger als {least}: Verzögerung und Resonanz verursachen die Schleife. Langsamere Zyklen fahren.</translation>
+    </message>
+    <message>
+        <source>The width is negative: the output leads the input.</source>
+        <translation>Die Breite ist negativ: der Ausgang eilt dem Eingang vor.</translation>
+    </message>
+    <message>
+        <source>The width is negative: the output leads, or the axis lags less than the {lag} sample subtracted for a stepwise command. Drive slower cycles.</source>
+        <translation>Die Breite ist negativ: der Ausgang eilt vor, oder die Achse verzögert weniger als die {lag} Abtastung, die für einen stufenförmigen Sollwert abgezogen wird. Langsamere Zyklen fahren.</translation>
+    </message>
+    <message>
+        <source>time since the step [ms]</source>
+        <translation>Zeit seit dem Schritt [ms]</translation>
+    </message>
+    <message>
+        <source>The input takes up to {ramp:.3g} ms from level to level, as fast as its limits allow. All times count from the start of that ramp, for the model too.</source>
+        <translation>Der Eingang braucht bis zu {ramp:.3g} ms von Stufe zu Stufe, so schnell die Grenzen es erlauben. Alle Zeiten zählen ab Beginn dieser Rampe, auch die des Modells.</translation>
+    </message>
+    <message>
+        <source>{n} of {steps} steps are smaller than 10 times the noise, which determines overshoot and times. Record larger steps.</source>
+        <translation>{n} von {steps} Schritten sind kleiner als das 10-fache Rauschen, das Überschwingen und Zeiten bestimmt. Größere Schritte aufzeichnen.</translation>
+    </message>
+    <message>
+        <source>{name}: {n} of {steps} steps give no value; at the end of the hold the axis still moves, or noise exceeds the band.</source>
+        <translation>{name}: {n} von {steps} Schritten ergeben keinen Wert; am Ende der Haltezeit bewegt sich die Achse noch, oder das Rauschen überschreitet das Band.</translation>
+    </message>
+    <message>
+        <source>There is no card of this axis yet. Store this one to compare with it later.</source>
+        <translation>Von dieser Achse gibt es noch keine Karte. Diese speichern, um später mit ihr zu vergleichen.</translation>
+    </message>
+    <message>
+        <source>Open a record for this page only</source>
+        <translation>Eine Aufzeichnung nur für diese Seite öffnen</translation>
+    </message>
+    <message>
+        <source>Choose a motion that excites an axis, play it and analyse the record</source>
+        <translation>Eine Bewegung wählen, die eine Achse anregt, sie abspielen und die Aufzeichnung auswerten</translation>
+    </message>
+    <message>
+        <source>Analysis</source>
+        <translation>Auswertung</translation>
+    </message>
+    <message>
+        <source>Segments of Welch&apos;s method: more segments smooth the curve, fewer resolve narrower peaks. A periodic record is averaged over its periods instead.</source>
+        <translation>Segmente nach Welch: mehr Segmente glätten die Kurve, weniger lösen schmalere Spitzen auf. Eine periodische Aufzeichnung wird stattdessen über ihre Perioden gemittelt.</translation>
+    </message>
+    <message>
+        <source>Store card</source>
+        <translation>Karte speichern</translation>
+    </message>
+    <message>
+        <source>Store this health card with the earlier ones of the axis</source>
+        <translation>Diese Zustandskarte zu den früheren der Achse speichern</translation>
+    </message>
+    <message>
+        <source>{axis}: input and output are both {tap}; choose two different signals</source>
+        <translation>{axis}: Eingang und Ausgang sind beide {tap}; zwei verschiedene Signale wählen</translation>
+    </message>
+    <message>
+        <source>{name}: {text} is not a number in {unit}; enter a value such as 2.5 {unit}, or leave the field empty</source>
+        <translation>{name}: {text} ist keine Zahl in {unit}; einen Wert wie 2,5 {unit} eingeben oder das Feld leer lassen</translation>
     </message>
 </context>
 <context>

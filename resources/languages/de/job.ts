@@ -12,24 +12,12 @@
         <translation>Laden …</translation>
     </message>
     <message>
-        <source>Choose a trajectory file; a dry run tries it first</source>
-        <translation>Eine Trajektoriendatei wählen; ein Probelauf prüft sie zuerst</translation>
-    </message>
-    <message>
         <source>End</source>
         <translation>Beenden</translation>
     </message>
     <message>
-        <source>Stop, and begin anew next</source>
-        <translation>Anhalten; danach beginnt es von vorn</translation>
-    </message>
-    <message>
         <source>Stop</source>
         <translation>Halt</translation>
-    </message>
-    <message>
-        <source>All axes stop and hold (Esc)</source>
-        <translation>Alle Achsen halten an und bleiben stehen (Esc)</translation>
     </message>
     <message>
         <source>Show</source>
@@ -49,47 +37,23 @@
     </message>
     <message>
         <source>Recording</source>
-        <translation>Aufzeichnung</translation>
+        <translation>Aufnahme</translation>
     </message>
     <message>
         <source>End recording</source>
-        <translation>Aufzeichnung beenden</translation>
-    </message>
-    <message>
-        <source>Put what was recorded into one file; motion goes on</source>
-        <translation>Das Aufgezeichnete in eine Datei bringen; die Bewegung geht weiter</translation>
-    </message>
-    <message>
-        <source>Play, pause, go on (Ctrl+P); the axes first go to the first row</source>
-        <translation>Abspielen, anhalten, fortsetzen (Strg+P); die Achsen fahren zuerst zur ersten Zeile</translation>
-    </message>
-    <message>
-        <source>Recorded {path}</source>
-        <translation>Aufgezeichnet: {path}</translation>
+        <translation>Aufnahme beenden</translation>
     </message>
     <message>
         <source>Compare</source>
         <translation>Vergleichen</translation>
     </message>
     <message>
-        <source>Model and real of this run, axis by axis</source>
-        <translation>Modell und Wirklichkeit dieses Laufs, Achse für Achse</translation>
-    </message>
-    <message>
         <source>Diagnose</source>
         <translation>Diagnose</translation>
     </message>
     <message>
-        <source>Which effects explain the gap</source>
-        <translation>Welche Effekte die Abweichung erklären</translation>
-    </message>
-    <message>
         <source>No trajectory is loaded</source>
         <translation>Keine Trajektorie ist geladen</translation>
-    </message>
-    <message>
-        <source>is loaded</source>
-        <translation>ist geladen</translation>
     </message>
     <message>
         <source>row {row} of {rows}</source>
@@ -105,11 +69,47 @@
     </message>
     <message>
         <source>not recording: {why}</source>
-        <translation>zeichnet nicht auf: {why}</translation>
+        <translation>keine Aufnahme: {why}</translation>
     </message>
     <message>
-        <source>The axes move</source>
+        <source>loaded</source>
+        <translation>geladen</translation>
+    </message>
+    <message>
+        <source>The axes are moving</source>
         <translation>Die Achsen fahren</translation>
+    </message>
+    <message>
+        <source>Choose a trajectory file; a dry run checks it first</source>
+        <translation>Eine Trajektoriendatei wählen; ein Probelauf prüft sie zuerst</translation>
+    </message>
+    <message>
+        <source>Stop; the next playback starts from the beginning</source>
+        <translation>Anhalten; das nächste Abspielen beginnt von vorn</translation>
+    </message>
+    <message>
+        <source>Stop all axes and hold their positions (Esc)</source>
+        <translation>Alle Achsen anhalten und ihre Position halten (Esc)</translation>
+    </message>
+    <message>
+        <source>Save the recording in one file; motion continues</source>
+        <translation>Die Aufnahme in einer Datei speichern; die Bewegung läuft weiter</translation>
+    </message>
+    <message>
+        <source>Play, pause or resume (Ctrl+P); the axes first move to the first row</source>
+        <translation>Abspielen, anhalten oder fortsetzen (Strg+P); die Achsen fahren zuerst zur ersten Zeile</translation>
+    </message>
+    <message>
+        <source>Saved the recording {path}</source>
+        <translation>Aufnahme gespeichert: {path}</translation>
+    </message>
+    <message>
+        <source>Compare model and machine in this run, axis by axis</source>
+        <translation>Modell und Maschine in diesem Lauf vergleichen, Achse für Achse</translation>
+    </message>
+    <message>
+        <source>Find the effects that explain the gap</source>
+        <translation>Die Effekte finden, die die Abweichung erklären</translation>
     </message>
 </context>
 <context>

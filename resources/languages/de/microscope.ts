@@ -4,24 +4,12 @@
 <context>
     <name>microscope</name>
     <message>
-        <source>1. Bring the tip into the middle of the picture and into focus.
-2. Choose the objective under Camera: it has a calibration of its own.
-3. Calibrate the micro stage, then the nano stage: the tip makes small moves around its place and comes back.</source>
-        <translation>1. Spitze in die Bildmitte und in den Fokus bringen.
-2. Objektiv unter Kamera wählen: jedes hat eine eigene Kalibrierung.
-3. Mikrotisch, dann Nanotisch kalibrieren: die Spitze fährt kleine Wege um ihren Ort und kommt zurück.</translation>
-    </message>
-    <message>
         <source>Calibration</source>
         <translation>Kalibrierung</translation>
     </message>
     <message>
         <source>the whole picture moves</source>
         <translation>das ganze Bild bewegt sich</translation>
-    </message>
-    <message>
-        <source>Without a pipette in sight, where stage and specimen move together: the picture itself is followed</source>
-        <translation>Ohne Pipette im Bild, wenn Tisch und Probe sich gemeinsam bewegen: das Bild selbst wird verfolgt</translation>
     </message>
     <message>
         <source>Micro stage</source>
@@ -38,22 +26,6 @@
     <message>
         <source>Progress of the calibration</source>
         <translation>Fortschritt der Kalibrierung</translation>
-    </message>
-    <message>
-        <source>Move x and y by 40 µm about where they are, and look</source>
-        <translation>x und y um 40 µm um ihren Ort bewegen und hinsehen</translation>
-    </message>
-    <message>
-        <source>Move the tip by 15 µm with the piezos about where it is, and look</source>
-        <translation>Die Spitze mit den Piezos um 15 µm um ihren Ort bewegen und hinsehen</translation>
-    </message>
-    <message>
-        <source>Stop the machine where it is, and keep what was calibrated before</source>
-        <translation>Maschine anhalten, wo sie ist; die frühere Kalibrierung bleibt</translation>
-    </message>
-    <message>
-        <source>Nothing is kept for objective {objective!r}.</source>
-        <translation>Für Objektiv {objective!r} ist nichts gespeichert.</translation>
     </message>
     <message>
         <source>focus: sharpest at {place:.2f} ± {doubt:.2f} µm of {axis}</source>
@@ -76,20 +48,8 @@
         <translation>Bildrate</translation>
     </message>
     <message>
-        <source>this camera cannot set it</source>
-        <translation>diese Kamera kann das nicht einstellen</translation>
-    </message>
-    <message>
         <source>{low:g} to {high:g} {unit}</source>
         <translation>{low:g} bis {high:g} {unit}</translation>
-    </message>
-    <message>
-        <source>{name}: {text!r} is no number; write one, {unit}</source>
-        <translation>{name}: {text!r} ist keine Zahl; eine eingeben, {unit}</translation>
-    </message>
-    <message>
-        <source>region: {text!r}: write {whole}, or four whole numbers: first column, first row, width and height, px</source>
-        <translation>Ausschnitt: {text!r}: {whole} oder vier ganze Zahlen eingeben: erste Spalte, erste Zeile, Breite und Höhe, px</translation>
     </message>
     <message>
         <source>Camera</source>
@@ -104,16 +64,8 @@
         <translation>Quelle und Adresse einer anderen Kamera</translation>
     </message>
     <message>
-        <source>A camera that is not listed: its source, a colon, and a file, folder, stream or number, such as opencv:film.avi or sequence:/data/pictures</source>
-        <translation>Eine nicht gelistete Kamera: Quelle, Doppelpunkt und Datei, Ordner, Stream oder Nummer, etwa opencv:film.avi oder sequence:/data/pictures</translation>
-    </message>
-    <message>
         <source>Open</source>
         <translation>Öffnen</translation>
-    </message>
-    <message>
-        <source>Open this camera; the one that is open is closed</source>
-        <translation>Diese Kamera öffnen; die offene wird geschlossen</translation>
     </message>
     <message>
         <source>Close</source>
@@ -126,14 +78,6 @@
     <message>
         <source>Objective</source>
         <translation>Objektiv</translation>
-    </message>
-    <message>
-        <source>The objective in use: each has a calibration of its own; write a new name</source>
-        <translation>Das Objektiv in Gebrauch: jedes hat eine eigene Kalibrierung; ein neuer Name lässt sich eingeben</translation>
-    </message>
-    <message>
-        <source>no camera is listed, and no address is written</source>
-        <translation>keine Kamera gelistet und keine Adresse eingegeben</translation>
     </message>
     <message>
         <source>no camera is open</source>
@@ -156,10 +100,6 @@
         <translation>am Ende neu beginnen</translation>
     </message>
     <message>
-        <source>Of a file or a sequence of pictures</source>
-        <translation>Bei einer Datei oder Bildfolge</translation>
-    </message>
-    <message>
         <source>Exposure [ms]</source>
         <translation>Belichtung [ms]</translation>
     </message>
@@ -180,24 +120,16 @@
         <translation>Pixel</translation>
     </message>
     <message>
-        <source>{text}; its limits are the camera&apos;s, which is not open</source>
-        <translation>{text}; die Grenzen gibt die Kamera vor, sie ist nicht offen</translation>
-    </message>
-    <message>
         <source>Set</source>
         <translation>Setzen</translation>
     </message>
     <message>
         <source>Apply these settings; refusals appear below</source>
-        <translation>Diese Einstellungen anwenden; Ablehnungen stehen darunter</translation>
+        <translation>Diese Einstellungen anwenden; Ablehnungen erscheinen darunter</translation>
     </message>
     <message>
         <source>Use visible region</source>
         <translation>Sichtbares</translation>
-    </message>
-    <message>
-        <source>Read out only what is in sight now</source>
-        <translation>Nur den sichtbaren Ausschnitt auslesen</translation>
     </message>
     <message>
         <source>Save picture</source>
@@ -206,18 +138,6 @@
     <message>
         <source>Trigger the camera once</source>
         <translation>Kamera einmal auslösen</translation>
-    </message>
-    <message>
-        <source>there is no picture yet</source>
-        <translation>noch kein Bild</translation>
-    </message>
-    <message>
-        <source>Read out only what is in sight now: smaller pictures, faster</source>
-        <translation>Nur den sichtbaren Ausschnitt auslesen: kleinere Bilder, schneller</translation>
-    </message>
-    <message>
-        <source>it runs freely</source>
-        <translation>sie läuft frei</translation>
     </message>
     <message>
         <source>unchanged</source>
@@ -241,7 +161,7 @@
     </message>
     <message>
         <source>failed</source>
-        <translation>gescheitert</translation>
+        <translation>fehlgeschlagen</translation>
     </message>
     <message>
         <source>micro</source>
@@ -265,20 +185,8 @@
         <translation>Spitze fahren: {how}?</translation>
     </message>
     <message>
-        <source>nothing is moved: {why}</source>
-        <translation>nichts wird bewegt: {why}</translation>
-    </message>
-    <message>
         <source>Histogram with the levels of black and white</source>
         <translation>Histogramm mit Schwarz- und Weißpegel</translation>
-    </message>
-    <message>
-        <source>Drag a handle: the number that becomes black, or white</source>
-        <translation>Einen Griff ziehen: der Wert, der schwarz oder weiß wird</translation>
-    </message>
-    <message>
-        <source>{folder}: the folder cannot be made ({reason})</source>
-        <translation>{folder}: der Ordner lässt sich nicht anlegen ({reason})</translation>
     </message>
     <message>
         <source>a video is being recorded; end it first</source>
@@ -298,16 +206,8 @@
         <translation>{path} gespeichert: {pictures} Bilder aus {seconds:.1f} s</translation>
     </message>
     <message>
-        <source>{text}, {dropped} left out</source>
-        <translation>{text}, {dropped} ausgelassen</translation>
-    </message>
-    <message>
         <source>{pictures} pictures, {seconds:.0f} s, {megabytes:.0f} MB</source>
         <translation>{pictures} Bilder, {seconds:.0f} s, {megabytes:.0f} MB</translation>
-    </message>
-    <message>
-        <source>Keep</source>
-        <translation>Sichern</translation>
     </message>
     <message>
         <source>Snapshot</source>
@@ -320,18 +220,6 @@
     <message>
         <source>video with each recording</source>
         <translation>Video zu jeder Aufnahme</translation>
-    </message>
-    <message>
-        <source>Begin and end a video with the session&apos;s recording (panel Recorder)</source>
-        <translation>Ein Video mit der Aufnahme der Sitzung beginnen und beenden (Fenster Recorder)</translation>
-    </message>
-    <message>
-        <source>Files go to pictures and videos in {data}.</source>
-        <translation>Dateien kommen nach pictures und videos in {data}.</translation>
-    </message>
-    <message>
-        <source>Keep this picture: its numbers as TIFF, what is seen as PNG</source>
-        <translation>Dieses Bild sichern: Rohwerte als TIFF, Ansicht als PNG</translation>
     </message>
     <message>
         <source>■ End video</source>
@@ -366,16 +254,8 @@
         <translation>Klick zum Fahren</translation>
     </message>
     <message>
-        <source>Move, above the picture, lets a click or a drag send the tip there. Esc, or any stop, ends that.</source>
-        <translation>Mit „Fahren“ über dem Bild fährt die Spitze zum Klick oder Zugende. Esc oder jeder Halt beendet das.</translation>
-    </message>
-    <message>
         <source>Stage that a click moves</source>
         <translation>Tisch, den ein Klick fährt</translation>
-    </message>
-    <message>
-        <source>The stage that a click moves; nano where it reaches</source>
-        <translation>Der Tisch, den ein Klick fährt; Nano, soweit es reicht</translation>
     </message>
     <message>
         <source>Go back</source>
@@ -388,18 +268,6 @@
     <message>
         <source>the machine is not at rest</source>
         <translation>die Maschine ruht nicht</translation>
-    </message>
-    <message>
-        <source>Return to where the machine rested before its latest move</source>
-        <translation>Zurück zum Ruheort vor der letzten Fahrt</translation>
-    </message>
-    <message>
-        <source>nothing is under way</source>
-        <translation>nichts ist unterwegs</translation>
-    </message>
-    <message>
-        <source>Stop the machine where it is</source>
-        <translation>Maschine anhalten, wo sie ist</translation>
     </message>
     <message>
         <source>Targets</source>
@@ -422,28 +290,12 @@
         <translation>Leeren</translation>
     </message>
     <message>
-        <source>no target is marked; mark some with Mark, above the picture</source>
-        <translation>kein Ziel markiert; mit „Ziel“ über dem Bild setzen</translation>
-    </message>
-    <message>
         <source>every target has been visited</source>
         <translation>alle Ziele wurden angefahren</translation>
     </message>
     <message>
-        <source>Send the tip to the first target that was not visited</source>
-        <translation>Spitze zum ersten noch nicht angefahrenen Ziel fahren</translation>
-    </message>
-    <message>
-        <source>no target is chosen</source>
-        <translation>kein Ziel gewählt</translation>
-    </message>
-    <message>
         <source>the tip is on its way to a target</source>
         <translation>die Spitze ist unterwegs zu einem Ziel</translation>
-    </message>
-    <message>
-        <source>Delete the chosen target</source>
-        <translation>Das gewählte Ziel löschen</translation>
     </message>
     <message>
         <source>Delete all targets</source>
@@ -491,11 +343,11 @@
     </message>
     <message>
         <source>automatic levels</source>
-        <translation>automatische Stufen</translation>
+        <translation>automatische Pegel</translation>
     </message>
     <message>
         <source>Black and white at 0.1 and 99.9 % of the pixels</source>
-        <translation>Schwarz und Weiß bei 0.1 und 99.9 % der Pixel</translation>
+        <translation>Schwarz und Weiß bei 0,1 und 99,9 % der Pixel</translation>
     </message>
     <message>
         <source>Whole range</source>
@@ -518,10 +370,6 @@
         <translation>Gamma {gamma:.2f}</translation>
     </message>
     <message>
-        <source>{low:g} to {high:g}; 1: as light is; less brightens what is dark</source>
-        <translation>{low:g} bis {high:g}; 1: wie das Licht; weniger hellt Dunkles auf</translation>
-    </message>
-    <message>
         <source>Over the picture</source>
         <translation>Über dem Bild</translation>
     </message>
@@ -534,16 +382,8 @@
         <translation>Bild des Mikroskops</translation>
     </message>
     <message>
-        <source>Make the move</source>
-        <translation>Die Spitze fahren</translation>
-    </message>
-    <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
-    </message>
-    <message>
-        <source>Make no move</source>
-        <translation>Nicht fahren</translation>
     </message>
     <message>
         <source>{across:.1f}, {down:.1f} µm from the corner</source>
@@ -560,10 +400,6 @@
     <message>
         <source>not calibrated</source>
         <translation>nicht kalibriert</translation>
-    </message>
-    <message>
-        <source>by the robot file</source>
-        <translation>laut Roboterdatei</translation>
     </message>
     <message>
         <source>No camera</source>
@@ -607,43 +443,23 @@
     </message>
     <message>
         <source>{ms:.0f} ms old</source>
-        <translation>{ms:.0f} ms alt</translation>
+        <translation>vor {ms:.0f} ms</translation>
     </message>
     <message>
         <source>{s:.1f} s old</source>
-        <translation>{s:.1f} s alt</translation>
+        <translation>vor {s:.1f} s</translation>
     </message>
     <message>
         <source>the picture is not live: {state}</source>
         <translation>das Bild ist nicht live: {state}</translation>
     </message>
     <message>
-        <source>this camera and objective are not calibrated yet</source>
-        <translation>Kamera und Objektiv sind noch nicht kalibriert</translation>
-    </message>
-    <message>
-        <source>the tip is not tracked; click it with Tip, or switch tracking on under Vision</source>
-        <translation>die Spitze wird nicht verfolgt; mit „Spitze“ anklicken oder unter Erkennen einschalten</translation>
-    </message>
-    <message>
-        <source>{activity} is under way</source>
-        <translation>{activity} läuft</translation>
-    </message>
-    <message>
         <source>motion is locked: {locked}</source>
         <translation>Bewegung gesperrt: {locked}</translation>
     </message>
     <message>
-        <source>Click or drag: the tip goes there. Esc, or any stop, ends this</source>
-        <translation>Klicken oder ziehen: die Spitze fährt dorthin. Esc oder jeder Halt beendet das</translation>
-    </message>
-    <message>
         <source>Mark</source>
         <translation>Ziel</translation>
-    </message>
-    <message>
-        <source>Click: mark a target to be visited; nothing moves</source>
-        <translation>Klicken: ein Ziel zum Anfahren markieren; nichts bewegt sich</translation>
     </message>
     <message>
         <source>Measure</source>
@@ -690,30 +506,12 @@
         <translation>Spitze verfolgen</translation>
     </message>
     <message>
-        <source>Find the pipette&apos;s tip in every picture; Tip, above, shows where it is</source>
-        <translation>Die Pipettenspitze in jedem Bild finden; „Spitze“ oben zeigt, wo sie ist</translation>
-    </message>
-    <message>
         <source>Take background</source>
         <translation>Hintergrund aufnehmen</translation>
     </message>
     <message>
-        <source>Save the background, with the tip out of the way</source>
-        <translation>Den Hintergrund speichern, ohne die Spitze im Bild</translation>
-    </message>
-    <message>
         <source>watch the drift</source>
         <translation>Drift beobachten</translation>
-    </message>
-    <message>
-        <source>By how much the background has moved since it was taken</source>
-        <translation>Um wie viel sich der Hintergrund seit der Aufnahme bewegt hat</translation>
-    </message>
-    <message>
-        <source>
-{looked} pictures looked at, {passed} passed over</source>
-        <translation>
-{looked} Bilder ausgewertet, {passed} übergangen</translation>
     </message>
     <message>
         <source>taken</source>
@@ -722,18 +520,6 @@
     <message>
         <source>not taken yet</source>
         <translation>noch nicht aufgenommen</translation>
-    </message>
-    <message>
-        <source>Keep what lies beneath, with the tip out of the way, so that a cell misleads nobody; {about}</source>
-        <translation>Festhalten, was darunter liegt, ohne die Spitze, damit keine Zelle irreführt; {about}</translation>
-    </message>
-    <message>
-        <source>Cell, above the picture, outlines the cell that is clicked.</source>
-        <translation>„Zelle“ über dem Bild umreißt die angeklickte Zelle.</translation>
-    </message>
-    <message>
-        <source>Forget the cell</source>
-        <translation>Zelle verwerfen</translation>
     </message>
     <message>
         <source>Remove the outline</source>
@@ -754,18 +540,6 @@
     <message>
         <source>Focus</source>
         <translation>Fokus</translation>
-    </message>
-    <message>
-        <source>What is focused with</source>
-        <translation>Womit fokussiert wird</translation>
-    </message>
-    <message>
-        <source>How far to search each way, µm</source>
-        <translation>Suchweite je Richtung, µm</translation>
-    </message>
-    <message>
-        <source>How far to search each way from where it is, above 0 µm</source>
-        <translation>Suchweite je Richtung vom jetzigen Ort, über 0 µm</translation>
     </message>
     <message>
         <source>Autofocus</source>
@@ -792,24 +566,12 @@
         <translation>Z-Stapel</translation>
     </message>
     <message>
-        <source>What moves the focus</source>
-        <translation>Was den Fokus bewegt</translation>
-    </message>
-    <message>
         <source>first, µm</source>
         <translation>erster, µm</translation>
     </message>
     <message>
         <source>last, µm</source>
         <translation>letzter, µm</translation>
-    </message>
-    <message>
-        <source>First place, µm, within its range</source>
-        <translation>Erster Ort, µm, innerhalb seines Bereichs</translation>
-    </message>
-    <message>
-        <source>Last place, µm, within its range</source>
-        <translation>Letzter Ort, µm, innerhalb seines Bereichs</translation>
     </message>
     <message>
         <source>step, µm</source>
@@ -822,14 +584,6 @@
     <message>
         <source>Take stack</source>
         <translation>Stapel aufnehmen</translation>
-    </message>
-    <message>
-        <source>nothing can be focused with: open a camera, connect the machine</source>
-        <translation>nichts zum Fokussieren: Kamera öffnen, Maschine verbinden</translation>
-    </message>
-    <message>
-        <source>Take a picture at each place, and go back</source>
-        <translation>An jedem Ort ein Bild aufnehmen und zurückfahren</translation>
     </message>
     <message>
         <source>Writing a z-stack …</source>
@@ -848,24 +602,8 @@
         <translation>diese Kamera hat keinen Fokustrieb</translation>
     </message>
     <message>
-        <source>how far to search</source>
-        <translation>Suchweite</translation>
-    </message>
-    <message>
         <source>focus</source>
         <translation>Fokus</translation>
-    </message>
-    <message>
-        <source>{name}: {text!r} is no number; write one in µm</source>
-        <translation>{name}: {text!r} ist keine Zahl; eine in µm eingeben</translation>
-    </message>
-    <message>
-        <source>moves a little, and looks</source>
-        <translation>bewegt ein wenig und sieht hin</translation>
-    </message>
-    <message>
-        <source>goes back to where it began</source>
-        <translation>fährt an den Anfang zurück</translation>
     </message>
     <message>
         <source>calibrated</source>
@@ -876,10 +614,6 @@
         <translation>{name}: nicht kalibriert</translation>
     </message>
     <message>
-        <source>{name}: {found}, residual {residual:.2f} px, of {when}</source>
-        <translation>{name}: {found}, Restfehler {residual:.2f} px, vom {when}</translation>
-    </message>
-    <message>
         <source>, mirrored</source>
         <translation>, gespiegelt</translation>
     </message>
@@ -888,20 +622,12 @@
         <translation>{sizes} ± {doubts:.2f} nm/px, gedreht {rotation:.3f} ± {doubt:.3f}°, Scherung {skew:.3f}°{hand}</translation>
     </message>
     <message>
-        <source>{phase}: look {done} of {moves}</source>
-        <translation>{phase}: Blick {done} von {moves}</translation>
-    </message>
-    <message>
         <source>move {number}: {size:.2f} px</source>
         <translation>Bewegung {number}: {size:.2f} px</translation>
     </message>
     <message>
-        <source>, left out</source>
-        <translation>, ausgelassen</translation>
-    </message>
-    <message>
         <source>Failed: {reason}</source>
-        <translation>Gescheitert: {reason}</translation>
+        <translation>Fehlgeschlagen: {reason}</translation>
     </message>
     <message>
         <source>, {miss:.2f} px off</source>
@@ -946,10 +672,6 @@ Membran: {ahead} gegen frontal</translation>
         <translation>{right:.2f}, {down:.2f} px seit Aufnahme des Hintergrunds</translation>
     </message>
     <message>
-        <source>{places} places looked at</source>
-        <translation>{places} Orte angesehen</translation>
-    </message>
-    <message>
         <source>Sharpest at {place:.2f} ± {doubt:.2f} µm</source>
         <translation>Am schärfsten bei {place:.2f} ± {doubt:.2f} µm</translation>
     </message>
@@ -960,6 +682,280 @@ Membran: {ahead} gegen frontal</translation>
     <message>
         <source>axis {name}</source>
         <translation>Achse {name}</translation>
+    </message>
+    <message>
+        <source>With Move, above the picture, a click or a drag sends the tip there. Esc or any stop ends this mode.</source>
+        <translation>Mit „Fahren“ über dem Bild fährt die Spitze zum Klick oder Zugende. Esc oder jeder Halt beendet das.</translation>
+    </message>
+    <message>
+        <source>Stage that a click moves; nano within its range</source>
+        <translation>Tisch, den ein Klick fährt; Nano in seinem Bereich</translation>
+    </message>
+    <message>
+        <source>Return to the position before the latest move</source>
+        <translation>Zurück zur Position vor der letzten Fahrt</translation>
+    </message>
+    <message>
+        <source>no move is running</source>
+        <translation>keine Fahrt läuft</translation>
+    </message>
+    <message>
+        <source>Stop the machine in place</source>
+        <translation>Die Maschine anhalten</translation>
+    </message>
+    <message>
+        <source>no target is marked; use Mark above the picture</source>
+        <translation>kein Ziel markiert; „Ziel“ über dem Bild verwenden</translation>
+    </message>
+    <message>
+        <source>Send the tip to the first unvisited target</source>
+        <translation>Spitze zum ersten noch nicht angefahrenen Ziel fahren</translation>
+    </message>
+    <message>
+        <source>no target is selected</source>
+        <translation>kein Ziel gewählt</translation>
+    </message>
+    <message>
+        <source>Delete the selected target</source>
+        <translation>Das gewählte Ziel löschen</translation>
+    </message>
+    <message>
+        <source>Drive that moves the focus</source>
+        <translation>Antrieb, der den Fokus bewegt</translation>
+    </message>
+    <message>
+        <source>no focus drive is available: open a camera or connect the machine</source>
+        <translation>kein Antrieb zum Fokussieren: Kamera öffnen oder Maschine verbinden</translation>
+    </message>
+    <message>
+        <source>Take a picture at each position and return</source>
+        <translation>An jeder Position ein Bild aufnehmen und zurückfahren</translation>
+    </message>
+    <message>
+        <source>First position, µm, within the range of the drive</source>
+        <translation>Erste Position, µm, im Bereich des Antriebs</translation>
+    </message>
+    <message>
+        <source>Last position, µm, within the range of the drive</source>
+        <translation>Letzte Position, µm, im Bereich des Antriebs</translation>
+    </message>
+    <message>
+        <source>{name}: {text!r} is not a number; enter one in µm</source>
+        <translation>{name}: {text!r} ist keine Zahl; eine in µm eingeben</translation>
+    </message>
+    <message>
+        <source>{folder}: the folder cannot be created ({reason})</source>
+        <translation>{folder}: der Ordner lässt sich nicht anlegen ({reason})</translation>
+    </message>
+    <message>
+        <source>{text}, {dropped} dropped</source>
+        <translation>{text}, {dropped} ausgelassen</translation>
+    </message>
+    <message>
+        <source>Click or drag: the tip moves there. Esc or any stop ends this mode</source>
+        <translation>Klicken oder ziehen: die Spitze fährt dorthin. Esc oder jeder Halt beendet das</translation>
+    </message>
+    <message>
+        <source>Click: mark a target for a visit; nothing moves</source>
+        <translation>Klicken: ein Ziel zum Anfahren markieren; nichts bewegt sich</translation>
+    </message>
+    <message>
+        <source>makes small moves</source>
+        <translation>bewegt sich wenig</translation>
+    </message>
+    <message>
+        <source>returns to the start</source>
+        <translation>fährt an den Anfang zurück</translation>
+    </message>
+    <message>
+        <source>{name}: {found}, residual {residual:.2f} px, {when}</source>
+        <translation>{name}: {found}, Restfehler {residual:.2f} px, {when}</translation>
+    </message>
+    <message>
+        <source>{phase}: picture {done} of {moves}</source>
+        <translation>{phase}: Bild {done} von {moves}</translation>
+    </message>
+    <message>
+        <source>, omitted</source>
+        <translation>, ausgelassen</translation>
+    </message>
+    <message>
+        <source>{places} positions evaluated</source>
+        <translation>{places} Positionen ausgewertet</translation>
+    </message>
+    <message>
+        <source>1. Bring the tip to the middle of the picture and into focus.
+2. Choose the objective under Camera: each objective has its own calibration.
+3. Calibrate the micro stage, then the nano stage: the tip makes small moves around its position and returns.</source>
+        <translation>1. Spitze in die Bildmitte und in den Fokus bringen.
+2. Objektiv unter Kamera wählen: jedes hat eine eigene Kalibrierung.
+3. Mikrotisch, dann Nanotisch kalibrieren: die Spitze bewegt sich wenig um ihre Position und kehrt zurück.</translation>
+    </message>
+    <message>
+        <source>Move x and y by 40 µm around their position and evaluate the pictures</source>
+        <translation>x und y um 40 µm um ihre Position bewegen und die Bilder auswerten</translation>
+    </message>
+    <message>
+        <source>Move the tip by 15 µm with the piezos around its position and evaluate the pictures</source>
+        <translation>Die Spitze mit den Piezos um 15 µm um ihre Position bewegen und die Bilder auswerten</translation>
+    </message>
+    <message>
+        <source>Stop the machine in place and keep the previous calibration</source>
+        <translation>Die Maschine anhalten und die frühere Kalibrierung behalten</translation>
+    </message>
+    <message>
+        <source>For use without a visible pipette, if stage and specimen move together: track the picture itself</source>
+        <translation>Ohne sichtbare Pipette, wenn Tisch und Probe sich gemeinsam bewegen: das Bild selbst verfolgen</translation>
+    </message>
+    <message>
+        <source>Objective {objective!r} has no stored calibration.</source>
+        <translation>Objektiv {objective!r} hat keine gespeicherte Kalibrierung.</translation>
+    </message>
+    <message>
+        <source>Save the background without the tip in the picture</source>
+        <translation>Den Hintergrund speichern, ohne die Spitze im Bild</translation>
+    </message>
+    <message>
+        <source>With Cell, above the picture, a click outlines a cell.</source>
+        <translation>Mit „Zelle“ über dem Bild umreißt ein Klick eine Zelle.</translation>
+    </message>
+    <message>
+        <source>Remove cell</source>
+        <translation>Zelle verwerfen</translation>
+    </message>
+    <message>
+        <source>Drive for focusing</source>
+        <translation>Antrieb zum Fokussieren</translation>
+    </message>
+    <message>
+        <source>Search distance each way, µm</source>
+        <translation>Suchweite je Richtung, µm</translation>
+    </message>
+    <message>
+        <source>Find the pipette tip in every picture; to help the search, click it with Tip, above</source>
+        <translation>Die Pipettenspitze in jedem Bild finden; ein Klick mit „Spitze“ oben hilft der Suche</translation>
+    </message>
+    <message>
+        <source>Displacement of the background since it was taken</source>
+        <translation>Verschiebung des Hintergrunds seit der Aufnahme</translation>
+    </message>
+    <message>
+        <source>Search distance each way from the present position, above 0 µm</source>
+        <translation>Suchweite je Richtung von der jetzigen Position, über 0 µm</translation>
+    </message>
+    <message>
+        <source>search distance</source>
+        <translation>Suchweite</translation>
+    </message>
+    <message>
+        <source>
+{looked} pictures evaluated, {passed} skipped</source>
+        <translation>
+{looked} Bilder ausgewertet, {passed} übergangen</translation>
+    </message>
+    <message>
+        <source>Save the background without the tip, so that cells do not disturb the tracking; {about}</source>
+        <translation>Den Hintergrund ohne die Spitze speichern, damit Zellen die Verfolgung nicht stören; {about}</translation>
+    </message>
+    <message>
+        <source>{activity} is running</source>
+        <translation>{activity} läuft</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>{low:g} to {high:g}; 1: linear; smaller values brighten dark regions</source>
+        <translation>{low:g} bis {high:g}; 1: linear; kleinere Werte hellen Dunkles auf</translation>
+    </message>
+    <message>
+        <source>the tip is not tracked; click it with Tip, or turn on tracking under Vision</source>
+        <translation>die Spitze wird nicht verfolgt; mit „Spitze“ anklicken oder unter Erkennen einschalten</translation>
+    </message>
+    <message>
+        <source>this camera and objective are not calibrated</source>
+        <translation>Kamera und Objektiv sind nicht kalibriert</translation>
+    </message>
+    <message>
+        <source>this camera has no such setting</source>
+        <translation>diese Kamera hat diese Einstellung nicht</translation>
+    </message>
+    <message>
+        <source>{name}: {text!r} is not a number; enter one in {unit}</source>
+        <translation>{name}: {text!r} ist keine Zahl; eine in {unit} eingeben</translation>
+    </message>
+    <message>
+        <source>region: {text!r} is not valid; enter {whole}, or four integers: first column, first row, width and height, px</source>
+        <translation>Ausschnitt: {text!r} ist ungültig; {whole} oder vier ganze Zahlen eingeben: erste Spalte, erste Zeile, Breite und Höhe, px</translation>
+    </message>
+    <message>
+        <source>Save this picture: raw values as TIFF, the view as PNG</source>
+        <translation>Dieses Bild speichern: Rohwerte als TIFF, Ansicht als PNG</translation>
+    </message>
+    <message>
+        <source>Start and end a video with the recording of the session (panel Recorder)</source>
+        <translation>Ein Video mit der Aufnahme der Sitzung beginnen und beenden (Panel Rekorder)</translation>
+    </message>
+    <message>
+        <source>Files are saved to pictures and videos in {data}.</source>
+        <translation>Dateien kommen in die Ordner pictures und videos in {data}.</translation>
+    </message>
+    <message>
+        <source>from the robot file</source>
+        <translation>laut Roboterdatei</translation>
+    </message>
+    <message>
+        <source>no move: {why}</source>
+        <translation>keine Fahrt: {why}</translation>
+    </message>
+    <message>
+        <source>Open this camera and close the present one</source>
+        <translation>Diese Kamera öffnen und die jetzige schließen</translation>
+    </message>
+    <message>
+        <source>Objective in use; each has its own calibration. Enter a name to add one</source>
+        <translation>Verwendetes Objektiv; jedes hat eine eigene Kalibrierung. Ein neuer Name fügt eines hinzu</translation>
+    </message>
+    <message>
+        <source>no camera is selected or entered</source>
+        <translation>keine Kamera ist gewählt oder eingegeben</translation>
+    </message>
+    <message>
+        <source>Read out only the visible region</source>
+        <translation>Nur den sichtbaren Ausschnitt auslesen</translation>
+    </message>
+    <message>
+        <source>Read out only the visible region: smaller pictures at a higher rate</source>
+        <translation>Nur den sichtbaren Ausschnitt auslesen: kleinere Bilder, höhere Rate</translation>
+    </message>
+    <message>
+        <source>Camera outside the list: source, colon, and a file, folder, stream or number, such as opencv:film.avi or sequence:/data/pictures</source>
+        <translation>Nicht gelistete Kamera: Quelle, Doppelpunkt und Datei, Ordner, Stream oder Nummer, etwa opencv:film.avi oder sequence:/data/pictures</translation>
+    </message>
+    <message>
+        <source>Repeat a file or a sequence of pictures</source>
+        <translation>Eine Datei oder Bildfolge wiederholen</translation>
+    </message>
+    <message>
+        <source>the camera is free-running</source>
+        <translation>die Kamera läuft frei</translation>
+    </message>
+    <message>
+        <source>{text}; open the camera to see its limits</source>
+        <translation>{text}; die Grenzen zeigt die geöffnete Kamera</translation>
+    </message>
+    <message>
+        <source>Drag a handle to set the black or the white level</source>
+        <translation>Einen Griff ziehen, um den Schwarz- oder Weißpegel zu setzen</translation>
+    </message>
+    <message>
+        <source>Move the tip</source>
+        <translation>Die Spitze fahren</translation>
+    </message>
+    <message>
+        <source>Do not move</source>
+        <translation>Nicht fahren</translation>
     </message>
 </context>
 <context>

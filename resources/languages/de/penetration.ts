@@ -11,36 +11,8 @@
 <context>
     <name>penetration</name>
     <message>
-        <source>Cells for demonstrations belong to the simulator. On a real machine put a real one under the tip.</source>
-        <translation>Demonstrationszellen gibt es nur im Simulator. An der Maschine eine echte unter die Spitze legen.</translation>
-    </message>
-    <message>
-        <source>An elastic membrane, the effect “contact”; the other effects stay. It does not break: take it away during the thrust to let it give way.</source>
-        <translation>Eine elastische Membran, der Effekt „contact“; die anderen Effekte bleiben. Sie bricht nicht: während des Einstichs wegnehmen, damit sie nachgibt.</translation>
-    </message>
-    <message>
-        <source>From where the axis stands, above 0 µm</source>
-        <translation>Vom Ort der Achse aus, über 0 µm</translation>
-    </message>
-    <message>
-        <source>Way to the cell, µm</source>
-        <translation>Weg zur Zelle, µm</translation>
-    </message>
-    <message>
         <source>Stiffness of the cell</source>
         <translation>Steifigkeit der Zelle</translation>
-    </message>
-    <message>
-        <source>Over that of the axis itself, up to 30</source>
-        <translation>Bezogen auf die der Achse, bis 30</translation>
-    </message>
-    <message>
-        <source>Put a cell there</source>
-        <translation>Zelle setzen</translation>
-    </message>
-    <message>
-        <source>Take it away</source>
-        <translation>Wegnehmen</translation>
     </message>
     <message>
         <source>Ahead of the tip</source>
@@ -51,10 +23,6 @@
         <translation>Steifigkeit</translation>
     </message>
     <message>
-        <source>× the axis&apos;</source>
-        <translation>× Achse</translation>
-    </message>
-    <message>
         <source>the axis&apos; position is unknown</source>
         <translation>die Position der Achse ist unbekannt</translation>
     </message>
@@ -63,29 +31,8 @@
         <translation>Die simulierte Zelle entfernen</translation>
     </message>
     <message>
-        <source>Put a cell ahead of where the axis is now, or move it there</source>
-        <translation>Eine Zelle vor den jetzigen Ort der Achse setzen oder dorthin verschieben</translation>
-    </message>
-    <message>
-        <source>there is none</source>
-        <translation>es gibt keine</translation>
-    </message>
-    <message>
-        <source>way to the cell</source>
-        <translation>Weg zur Zelle</translation>
-    </message>
-    <message>
         <source>stiffness</source>
         <translation>Steifigkeit</translation>
-    </message>
-    <message>
-        <source>{name}: {text!r}; type a number above 0, with a decimal point</source>
-        <translation>{name}: {text!r}; eine Zahl über 0 eingeben, mit Dezimalkomma</translation>
-    </message>
-    <message>
-        <source>a cell at {at} of {axis}: must be {least} to {most}; move the axis away from its end first</source>
-        <extracomment>Where a cell is put and how stiff it is beside the axis itself, unless told otherwise.</extracomment>
-        <translation>eine Zelle bei {at} von {axis}: erlaubt {least} bis {most}; die Achse zuerst vom Ende wegfahren</translation>
     </message>
     <message>
         <source>{at} of {axis}</source>
@@ -136,10 +83,6 @@
         <translation>inverses Modell</translation>
     </message>
     <message>
-        <source>The thrust as points, a line each: time share, depth share.</source>
-        <translation>Der Einstich als Punkte, je Zeile: Zeitanteil, Tiefenanteil.</translation>
-    </message>
-    <message>
         <source>From 0, 0 to 1, 1; 2 to 200 points.</source>
         <translation>Von 0, 0 bis 1, 1; 2 bis 200 Punkte.</translation>
     </message>
@@ -152,44 +95,20 @@
         <translation>Speichern …</translation>
     </message>
     <message>
-        <source>Write these parameters into a TOML file</source>
-        <translation>Diese Parameter in eine TOML-Datei schreiben</translation>
-    </message>
-    <message>
-        <source>Take parameters from a TOML file in place of these</source>
-        <translation>Parameter aus einer TOML-Datei statt dieser laden</translation>
-    </message>
-    <message>
         <source>Axis of the penetration</source>
         <translation>Achse der Penetration</translation>
-    </message>
-    <message>
-        <source>The axis that goes into the cell</source>
-        <translation>Die Achse, die in die Zelle fährt</translation>
     </message>
     <message>
         <source>Direction</source>
         <translation>Richtung</translation>
     </message>
     <message>
-        <source>Where the cell is along the axis; down: towards smaller positions</source>
-        <translation>Wo die Zelle entlang der Achse liegt; abwärts: zu kleineren Positionen</translation>
-    </message>
-    <message>
         <source>Shape of the thrust</source>
         <translation>Form des Einstichs</translation>
     </message>
     <message>
-        <source>Its profile of speed</source>
-        <translation>Sein Geschwindigkeitsprofil</translation>
-    </message>
-    <message>
         <source>Input shaping</source>
         <translation>Impulsformung</translation>
-    </message>
-    <message>
-        <source>Against the axis&apos; resonance, as of the robot file. ZV, ZVD, ZVDD: impulses, each slower and surer; inverse model: follows best</source>
-        <translation>Gegen die Resonanz der Achse laut Roboterdatei. ZV, ZVD, ZVDD: Impulse, je langsamer und sicherer; inverses Modell: folgt am besten</translation>
     </message>
     <message>
         <source>Table of the thrust: time share, depth share</source>
@@ -198,14 +117,6 @@
     <message>
         <source>More ▸</source>
         <translation>Mehr ▸</translation>
-    </message>
-    <message>
-        <source>More of the contact detection</source>
-        <translation>Mehr zur Kontakterkennung</translation>
-    </message>
-    <message>
-        <source>How the contact is told from noise, hysteresis and creep</source>
-        <translation>Wie der Kontakt von Rauschen, Hysterese und Kriechen unterschieden wird</translation>
     </message>
     <message>
         <source>Axis</source>
@@ -236,28 +147,8 @@
         <translation>Läufe, der neueste zuerst</translation>
     </message>
     <message>
-        <source>All of the chosen run</source>
-        <translation>Alles zum gewählten Lauf</translation>
-    </message>
-    <message>
-        <source>All that was logged of the chosen run</source>
-        <translation>Alles, was zum gewählten Lauf protokolliert wurde</translation>
-    </message>
-    <message>
-        <source>Choose a run to see all of it.</source>
-        <translation>Einen Lauf wählen, um alles zu sehen.</translation>
-    </message>
-    <message>
-        <source>{count} shown, {ours} of this start. Log file: {path}</source>
-        <translation>{count} gezeigt, {ours} seit dem Start. Protokolldatei: {path}</translation>
-    </message>
-    <message>
         <source>Penetrations (*.toml);;All files (*)</source>
         <translation>Penetrationen (*.toml);;Alle Dateien (*)</translation>
-    </message>
-    <message>
-        <source>What the penetration does</source>
-        <translation>Was die Penetration tut</translation>
     </message>
     <message>
         <source>Thrust</source>
@@ -272,16 +163,8 @@
         <translation>Simulierte Zelle</translation>
     </message>
     <message>
-        <source>{name} is not taken: a penetration is armed or runs.</source>
-        <translation>{name} wird nicht übernommen: eine Penetration ist scharf oder läuft.</translation>
-    </message>
-    <message>
         <source>Reading {name} …</source>
         <translation>{name} wird gelesen …</translation>
-    </message>
-    <message>
-        <source>Nothing is saved: {reason}</source>
-        <translation>Nichts gespeichert: {reason}</translation>
     </message>
     <message>
         <source>waiting</source>
@@ -289,7 +172,7 @@
     </message>
     <message>
         <source>skipped</source>
-        <translation>ausgelassen</translation>
+        <translation>übersprungen</translation>
     </message>
     <message>
         <source>done</source>
@@ -297,7 +180,7 @@
     </message>
     <message>
         <source>failed</source>
-        <translation>misslungen</translation>
+        <translation>fehlgeschlagen</translation>
     </message>
     <message>
         <source>Tables (*.csv);;All files (*)</source>
@@ -329,7 +212,7 @@
     </message>
     <message>
         <source>Skip</source>
-        <translation>Auslassen</translation>
+        <translation>Überspringen</translation>
     </message>
     <message>
         <source>Penetrate</source>
@@ -344,52 +227,8 @@
         <translation>Exportieren …</translation>
     </message>
     <message>
-        <source>a penetration is armed or runs</source>
-        <translation>eine Penetration ist scharf oder läuft</translation>
-    </message>
-    <message>
-        <source>it moves</source>
-        <translation>sie bewegt sich</translation>
-    </message>
-    <message>
         <source>the list is empty</source>
         <translation>die Liste ist leer</translation>
-    </message>
-    <message>
-        <source>go to a cell</source>
-        <translation>erst zu einer Zelle fahren</translation>
-    </message>
-    <message>
-        <source>no other cell waits</source>
-        <translation>keine andere Zelle wartet</translation>
-    </message>
-    <message>
-        <source>its place is not known</source>
-        <translation>ihr Ort ist nicht bekannt</translation>
-    </message>
-    <message>
-        <source>Add a cell where the machine is now, the tip above it</source>
-        <translation>Eine Zelle dort hinzufügen, wo die Maschine jetzt steht, die Spitze darüber</translation>
-    </message>
-    <message>
-        <source>Go to the next cell that waits: up, across, down</source>
-        <translation>Zur nächsten wartenden Zelle fahren: auf, hinüber, ab</translation>
-    </message>
-    <message>
-        <source>Leave this cell out</source>
-        <translation>Diese Zelle auslassen</translation>
-    </message>
-    <message>
-        <source>Arm for this cell; Start, above, then moves</source>
-        <translation>Für diese Zelle scharf machen; erst Start, oben, bewegt</translation>
-    </message>
-    <message>
-        <source>Remove the marked cell</source>
-        <translation>Die markierte Zelle entfernen</translation>
-    </message>
-    <message>
-        <source>Write the list as CSV</source>
-        <translation>Die Liste als CSV schreiben</translation>
     </message>
     <message>
         <source>Writing {name} …</source>
@@ -412,10 +251,6 @@
         <translation>Parameter speichern</translation>
     </message>
     <message>
-        <source>it is armed or runs; disarm it first</source>
-        <translation>scharf oder im Lauf; zuerst sichern</translation>
-    </message>
-    <message>
         <source>The run was not logged: {problem}</source>
         <translation>Der Lauf wurde nicht protokolliert: {problem}</translation>
     </message>
@@ -424,16 +259,8 @@
         <translation>Bewegung gesperrt: {locked}</translation>
     </message>
     <message>
-        <source>{n} lines of the log are none: {first}</source>
-        <translation>{n} Zeilen des Protokolls sind unlesbar: {first}</translation>
-    </message>
-    <message>
         <source>Reading the log …</source>
         <translation>Protokoll wird gelesen …</translation>
-    </message>
-    <message>
-        <source>wanted</source>
-        <translation>Wunsch</translation>
     </message>
     <message>
         <source>commanded</source>
@@ -450,18 +277,6 @@
     <message>
         <source>Thrust over time</source>
         <translation>Einstich über der Zeit</translation>
-    </message>
-    <message>
-        <source>Wanted: the planned motion of the tip. Commanded: the output of the device. Measured: the latest run, its constant delay removed.</source>
-        <translation>Gewünscht: die geplante Bewegung der Spitze. Befohlen: die Ausgabe des Geräts. Gemessen: der letzte Lauf ohne seine konstante Verzögerung.</translation>
-    </message>
-    <message>
-        <source>What the plot shows</source>
-        <translation>Was das Diagramm zeigt</translation>
-    </message>
-    <message>
-        <source>Way into the cell, or speed</source>
-        <translation>Weg in die Zelle oder Geschwindigkeit</translation>
     </message>
     <message>
         <source>Position [µm]</source>
@@ -500,14 +315,6 @@
         <translation>{least} bis {most}; Vorgabe {preset}</translation>
     </message>
     <message>
-        <source>{title}: {text!r} is no number; type one{unit}, with a decimal point</source>
-        <translation>{title}: {text!r} ist keine Zahl; eine{unit} eingeben, mit Dezimalkomma</translation>
-    </message>
-    <message>
-        <source>{title}: {value} is refused: must be {least} to {most}</source>
-        <translation>{title}: {value} wird abgelehnt: erlaubt {least} bis {most}</translation>
-    </message>
-    <message>
         <source>Speed</source>
         <translation>Tempo</translation>
     </message>
@@ -520,32 +327,16 @@
         <translation>Höchstens</translation>
     </message>
     <message>
-        <source>Without a contact by then the tip goes back, and the run has failed</source>
-        <translation>Ohne Kontakt bis dahin fährt die Spitze zurück, der Lauf ist gescheitert</translation>
-    </message>
-    <message>
         <source>False alarms</source>
         <translation>Fehlalarme</translation>
-    </message>
-    <message>
-        <source>Of the detector, on noise alone; fewer make it slower</source>
-        <translation>Der Erkennung, bei bloßem Rauschen; weniger macht sie langsamer</translation>
     </message>
     <message>
         <source>Drift</source>
         <translation>Drift</translation>
     </message>
     <message>
-        <source>Slope of measured − model that hysteresis, creep and gain may cause; less finds softer membranes</source>
-        <translation>Steigung von gemessen − Modell, die Hysterese, Kriechen und Verstärkung verursachen dürfen; weniger findet weichere Membranen</translation>
-    </message>
-    <message>
         <source>Drift over</source>
         <translation>Drift über</translation>
-    </message>
-    <message>
-        <source>Way over which that slope may change by as much</source>
-        <translation>Weg, über den sich diese Steigung um ebenso viel ändern darf</translation>
     </message>
     <message>
         <source>Pause</source>
@@ -560,48 +351,24 @@
         <translation>Tiefe</translation>
     </message>
     <message>
-        <source>Of the thrust, from where the approach came to rest on the membrane</source>
-        <translation>Des Einstichs, vom Ruheort der Anfahrt auf der Membran</translation>
-    </message>
-    <message>
         <source>Duration</source>
         <translation>Dauer</translation>
-    </message>
-    <message>
-        <source>Of the thrust, shaping included</source>
-        <translation>Des Einstichs, mit Impulsformung</translation>
     </message>
     <message>
         <source>Ramp</source>
         <translation>Rampe</translation>
     </message>
     <message>
-        <source>Of an S-curve: share of the time to speed up, and again to slow down</source>
-        <translation>Einer S-Kurve: Zeitanteil zum Beschleunigen und ebenso zum Bremsen</translation>
-    </message>
-    <message>
         <source>Hold</source>
         <translation>Halten</translation>
-    </message>
-    <message>
-        <source>At depth, before the tool is switched on</source>
-        <translation>In der Tiefe, bevor das Werkzeug einschaltet</translation>
     </message>
     <message>
         <source>Inject</source>
         <translation>Injektion</translation>
     </message>
     <message>
-        <source>With the tool on; 0: the tool stays off</source>
-        <translation>Mit Werkzeug ein; 0: das Werkzeug bleibt aus</translation>
-    </message>
-    <message>
         <source>Hold after</source>
         <translation>Nachhalten</translation>
-    </message>
-    <message>
-        <source>At depth, after the tool was switched off</source>
-        <translation>In der Tiefe, nachdem das Werkzeug ausgeschaltet hat</translation>
     </message>
     <message>
         <source>Speed back</source>
@@ -612,20 +379,8 @@
         <translation>Geschwindigkeit des Rückzugs</translation>
     </message>
     <message>
-        <source>Greatest deviation of the axis from its set-point; beyond it, the tip retracts at once</source>
-        <translation>Größte Abweichung der Achse vom Sollwert; darüber geht die Spitze sofort zurück</translation>
-    </message>
-    <message>
-        <source>After this time it disarms automatically</source>
-        <translation>Nach dieser Zeit entschärft sie sich selbst</translation>
-    </message>
-    <message>
         <source>Depth off by</source>
         <translation>Tiefenfehler</translation>
-    </message>
-    <message>
-        <source>How far the measured depth may miss the asked one; else the run has failed</source>
-        <translation>Wie weit die gemessene Tiefe die gewünschte verfehlen darf; sonst ist der Lauf gescheitert</translation>
     </message>
     <message>
         <source>Overload</source>
@@ -648,48 +403,20 @@
         <translation>Spitzentempo</translation>
     </message>
     <message>
-        <source>Greatest instantaneous speed of the thrust</source>
-        <translation>Größte Momentangeschwindigkeit des Einstichs</translation>
-    </message>
-    <message>
         <source>End depth</source>
         <translation>Endtiefe</translation>
-    </message>
-    <message>
-        <source>Where the thrust is commanded to end, from where the approach came to rest</source>
-        <translation>Wo der Einstich laut Sollwert endet, vom Ruheort der Anfahrt</translation>
-    </message>
-    <message>
-        <source>Room needed</source>
-        <translation>Raumbedarf</translation>
     </message>
     <message>
         <source>Approach, halt and thrust together</source>
         <translation>Anfahrt, Anhalten und Einstich zusammen</translation>
     </message>
     <message>
-        <source>Room left</source>
-        <translation>Raum frei</translation>
-    </message>
-    <message>
-        <source>From where the axis stands to the end of its range, in the cell&apos;s direction</source>
-        <translation>Vom Ort der Achse bis zum Ende ihres Bereichs, in Richtung der Zelle</translation>
-    </message>
-    <message>
         <source>Way</source>
         <translation>Weg</translation>
     </message>
     <message>
-        <source>How far the axis is commanded from where the run began</source>
-        <translation>Wie weit der Sollwert vom Beginn des Laufs entfernt ist</translation>
-    </message>
-    <message>
         <source>Deviation</source>
         <translation>Abweichung</translation>
-    </message>
-    <message>
-        <source>Change of measured − model since the run began, against the motion</source>
-        <translation>Änderung von gemessen − Modell seit Beginn des Laufs, gegen die Bewegung</translation>
     </message>
     <message>
         <source>Load, up to the overload</source>
@@ -712,10 +439,6 @@
         <translation>Abweichung der Achse vom Sollwert.</translation>
     </message>
     <message>
-        <source>Beyond {most:.4g} µm the run has failed, and the tip goes back.</source>
-        <translation>Über {most:.4g} µm ist der Lauf gescheitert, und die Spitze fährt zurück.</translation>
-    </message>
-    <message>
         <source>Tool is on</source>
         <translation>Werkzeug ein</translation>
     </message>
@@ -726,14 +449,6 @@
     <message>
         <source>No tool</source>
         <translation>Kein Werkzeug</translation>
-    </message>
-    <message>
-        <source>{driver} has no tool that could be switched</source>
-        <translation>{driver} hat kein schaltbares Werkzeug</translation>
-    </message>
-    <message>
-        <source>the penetration switches it by itself while it runs</source>
-        <translation>im Lauf schaltet es die Penetration selbst</translation>
     </message>
     <message>
         <source>Switch the tool off</source>
@@ -764,14 +479,6 @@
         <translation>Phase der Penetration</translation>
     </message>
     <message>
-        <source>it is in {phase}; stop it first</source>
-        <translation>in Phase {phase}; zuerst anhalten</translation>
-    </message>
-    <message>
-        <source>Move Z nano back as far as the penetration needs; Z makes up for it, and the tip stays</source>
-        <translation>Z nano so weit zurückfahren, wie die Penetration braucht; Z gleicht es aus, die Spitze bleibt</translation>
-    </message>
-    <message>
         <source>Time</source>
         <translation>Zeit</translation>
     </message>
@@ -800,40 +507,12 @@
         <translation>Grund</translation>
     </message>
     <message>
-        <source>When the run was started</source>
-        <translation>Wann der Lauf gestartet wurde</translation>
-    </message>
-    <message>
-        <source>Height of the tip where the contact was told; where the axis was, without a tip</source>
-        <translation>Höhe der Spitze bei erkanntem Kontakt; ohne Spitze der Ort der Achse</translation>
-    </message>
-    <message>
-        <source>How far the axis went in the thrust, by its own sensor</source>
-        <translation>Wie weit die Achse im Einstich fuhr, laut eigenem Sensor</translation>
-    </message>
-    <message>
         <source>Average speed of the thrust, measured</source>
         <translation>Mittlere Geschwindigkeit des Einstichs, gemessen</translation>
     </message>
     <message>
-        <source>Greatest speed of the thrust, measured over five samples</source>
-        <translation>Größte Geschwindigkeit des Einstichs, über fünf Messwerte</translation>
-    </message>
-    <message>
-        <source>Greatest distance from the profile, a constant delay taken off</source>
-        <translation>Größter Abstand vom Profil, ohne konstante Totzeit</translation>
-    </message>
-    <message>
-        <source>Why it ended as it did</source>
-        <translation>Warum er so endete</translation>
-    </message>
-    <message>
         <source>robot {robot}, driver {driver}</source>
         <translation>Roboter {robot}, Treiber {driver}</translation>
-    </message>
-    <message>
-        <source>began at</source>
-        <translation>begann bei</translation>
     </message>
     <message>
         <source>contact at</source>
@@ -846,14 +525,6 @@
     <message>
         <source>contact, height of the tip</source>
         <translation>Kontakt, Höhe der Spitze</translation>
-    </message>
-    <message>
-        <source>contact told after</source>
-        <translation>Kontakt erkannt nach</translation>
-    </message>
-    <message>
-        <source>Done, aborted by the button, failed, or held by a stop; the tip is retracted unless held</source>
-        <translation>Fertig, durch die Taste abgebrochen, fehlgeschlagen oder durch einen Halt gehalten; die Spitze ist zurückgezogen, außer wenn gehalten</translation>
     </message>
     <message>
         <source>in contact from the start</source>
@@ -876,10 +547,6 @@
         <translation>geplante Spitzengeschwindigkeit</translation>
     </message>
     <message>
-        <source>cubics miss the profile by</source>
-        <translation>Abweichung der Polynome vom Profil</translation>
-    </message>
-    <message>
         <source>depth</source>
         <translation>Tiefe</translation>
     </message>
@@ -896,10 +563,6 @@
         <translation>Fehler gegen das Profil</translation>
     </message>
     <message>
-        <source>delay taken off</source>
-        <translation>abgezogene Totzeit</translation>
-    </message>
-    <message>
         <source>samples</source>
         <translation>Messwerte</translation>
     </message>
@@ -912,10 +575,6 @@
         <translation>Abweichung, am Ende</translation>
     </message>
     <message>
-        <source>membrane gave way</source>
-        <translation>Membran gab nach</translation>
-    </message>
-    <message>
         <source>yes</source>
         <translation>ja</translation>
     </message>
@@ -924,21 +583,12 @@
         <translation>nein</translation>
     </message>
     <message>
-        <source>table: {n} points; must be 2 to {most}, a line each, from 0, 0 to 1, 1</source>
-        <extracomment>What a table begins with: slow first, fast in the middle.</extracomment>
-        <translation>Tabelle: {n} Punkte; erlaubt 2 bis {most}, je eine Zeile, von 0, 0 bis 1, 1</translation>
-    </message>
-    <message>
         <source>table, point {number}: time {later:g} must be after {at:g}</source>
         <translation>Tabelle, Punkt {number}: Zeit {later:g} muss nach {at:g} liegen</translation>
     </message>
     <message>
         <source>table: must go from 0, 0 to 1, 1</source>
         <translation>Tabelle: muss von 0, 0 bis 1, 1 gehen</translation>
-    </message>
-    <message>
-        <source>table, line {number}: {line!r}; type a time share, a comma and a depth share, such as 0.3, 0.1</source>
-        <translation>Tabelle, Zeile {number}: {line!r}; Zeitanteil, Komma und Tiefenanteil eingeben, etwa 0.3, 0.1</translation>
     </message>
     <message>
         <source>time</source>
@@ -953,10 +603,6 @@
         <translation>Kontakt. Die Spitze ruht auf der Membran; der Einstich folgt.</translation>
     </message>
     <message>
-        <source>The device runs the thrust by itself.</source>
-        <translation>Das Gerät führt den Einstich selbst aus.</translation>
-    </message>
-    <message>
         <source>The tip holds at its depth.</source>
         <translation>Die Spitze hält in der Tiefe.</translation>
     </message>
@@ -969,41 +615,17 @@
         <translation>Das Werkzeug ist aus; die Spitze hält in der Tiefe.</translation>
     </message>
     <message>
-        <source>The tip goes back to where it began.</source>
-        <translation>Die Spitze fährt an den Anfang zurück.</translation>
-    </message>
-    <message>
-        <source>Bring the tip back to where the run began</source>
-        <translation>Die Spitze an den Beginn des Laufs zurückfahren</translation>
-    </message>
-    <message>
         <source>Stop and retract</source>
         <translation>Halt und Rückzug</translation>
     </message>
     <message>
-        <source>Halt, switch the tool off, and bring the tip back along its axis</source>
-        <translation>Anhalten, Werkzeug ausschalten und die Spitze entlang ihrer Achse zurückfahren</translation>
-    </message>
-    <message>
-        <source>Begin to approach the cell</source>
-        <translation>Die Anfahrt an die Zelle beginnen</translation>
-    </message>
-    <message>
-        <source>Check everything and reserve every axis; nothing moves until Start</source>
-        <translation>Alles prüfen und jede Achse reservieren; vor Start bewegt sich nichts</translation>
-    </message>
-    <message>
         <source>Disarm</source>
-        <translation>Sichern</translation>
+        <translation>Entschärfen</translation>
     </message>
     <message>
         <source>The tip approaches until it touches the membrane.</source>
         <extracomment>The phases of the strip, in their order. Phases in which the parameters are those of a run.</extracomment>
         <translation>Die Spitze nähert sich, bis sie die Membran berührt.</translation>
-    </message>
-    <message>
-        <source>Stop the retraction; the tip stays where it is</source>
-        <translation>Den Rückzug anhalten; die Spitze bleibt, wo sie ist</translation>
     </message>
     <message>
         <source>Release the axes; nothing has moved</source>
@@ -1014,28 +636,8 @@
         <translation>Achsen freigeben</translation>
     </message>
     <message>
-        <source>Leave the tip where it is, and let the axes be moved by hand</source>
-        <translation>Die Spitze bleibt, wo sie ist; die Achsen lassen sich von Hand fahren</translation>
-    </message>
-    <message>
-        <source>it is not armed; arm it first</source>
-        <translation>nicht scharf; zuerst scharfstellen</translation>
-    </message>
-    <message>
         <source> Why: {reason}.</source>
         <translation> Grund: {reason}.</translation>
-    </message>
-    <message>
-        <source>Held: {reason}. The tip stays where it is; press Retract to bring it back, or Free the axes to move it by hand.</source>
-        <translation>Gehalten: {reason}. Die Spitze bleibt, wo sie ist; „Rückzug“ bringt sie zurück, „Achsen freigeben“ erlaubt Fahren von Hand.</translation>
-    </message>
-    <message>
-        <source>Armed: every axis is reserved. Press Start; nothing moves before.</source>
-        <translation>Scharf: jede Achse ist reserviert. Start drücken; vorher bewegt sich nichts.</translation>
-    </message>
-    <message>
-        <source>Ready to be armed.</source>
-        <translation>Bereit zum Scharfstellen.</translation>
     </message>
     <message>
         <source>Cannot be armed now: {why_not}</source>
@@ -1043,15 +645,409 @@
     </message>
     <message>
         <source>Disarmed: {reason}</source>
-        <translation>Gesichert: {reason}</translation>
+        <translation>Entschärft: {reason}</translation>
     </message>
     <message>
-        <source>Done: {depth} deep, {speed} at most, {error} off its profile.</source>
-        <translation>Fertig: {depth} tief, höchstens {speed}, {error} neben dem Profil.</translation>
+        <source>Points of the thrust, one per line: time share, depth share.</source>
+        <translation>Punkte des Einstichs, je Zeile einer: Zeitanteil, Tiefenanteil.</translation>
     </message>
     <message>
-        <source>{verdict}: {reason} The tip is back.</source>
-        <translation>{verdict}: {reason} Die Spitze ist zurück.</translation>
+        <source>Save these parameters to a TOML file</source>
+        <translation>Diese Parameter in eine TOML-Datei speichern</translation>
+    </message>
+    <message>
+        <source>Replace these parameters by those of a TOML file</source>
+        <translation>Diese Parameter durch die einer TOML-Datei ersetzen</translation>
+    </message>
+    <message>
+        <source>Axis that penetrates the cell</source>
+        <translation>Achse, die in die Zelle einsticht</translation>
+    </message>
+    <message>
+        <source>Direction of the cell along the axis; down: towards smaller positions</source>
+        <translation>Richtung der Zelle entlang der Achse; abwärts: zu kleineren Positionen</translation>
+    </message>
+    <message>
+        <source>Speed profile of the thrust</source>
+        <translation>Geschwindigkeitsprofil des Einstichs</translation>
+    </message>
+    <message>
+        <source>Suppresses the resonance of the axis in the robot file. ZV, ZVD, ZVDD: impulses, increasingly slow and robust; inverse model: best tracking</source>
+        <translation>Unterdrückt die Resonanz der Achse laut Roboterdatei. ZV, ZVD, ZVDD: Impulse, zunehmend langsam und robust; inverses Modell: bestes Folgen</translation>
+    </message>
+    <message>
+        <source>More settings of the contact detection</source>
+        <translation>Weitere Einstellungen der Kontakterkennung</translation>
+    </message>
+    <message>
+        <source>Settings that distinguish contact from noise, hysteresis and creep</source>
+        <translation>Einstellungen, die Kontakt von Rauschen, Hysterese und Kriechen unterscheiden</translation>
+    </message>
+    <message>
+        <source>desired</source>
+        <translation>gewünscht</translation>
+    </message>
+    <message>
+        <source>Quantity of the plot</source>
+        <translation>Größe des Diagramms</translation>
+    </message>
+    <message>
+        <source>Distance into the cell, or speed</source>
+        <translation>Weg in die Zelle oder Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>Desired: planned motion of the tip. Commanded: output of the device. Measured: latest run, constant delay removed.</source>
+        <translation>Gewünscht: die geplante Bewegung der Spitze. Befohlen: die Ausgabe des Geräts. Gemessen: der letzte Lauf ohne seine konstante Verzögerung.</translation>
+    </message>
+    <message>
+        <source>Move Z nano back as far as needed; Z compensates, so the tip stays in place</source>
+        <translation>Z nano so weit wie nötig zurückfahren; Z gleicht aus, die Spitze bleibt am Ort</translation>
+    </message>
+    <message>
+        <source>the penetration is running ({phase}); stop it first</source>
+        <translation>die Penetration läuft ({phase}); zuerst anhalten</translation>
+    </message>
+    <message>
+        <source>The device executes the thrust.</source>
+        <translation>Das Gerät führt den Einstich aus.</translation>
+    </message>
+    <message>
+        <source>The tip returns to its start.</source>
+        <translation>Die Spitze fährt an ihren Anfang zurück.</translation>
+    </message>
+    <message>
+        <source>Stop the retraction; the tip stays in place</source>
+        <translation>Den Rückzug anhalten; die Spitze bleibt, wo sie ist</translation>
+    </message>
+    <message>
+        <source>Return the tip to the start of the run</source>
+        <translation>Die Spitze an den Beginn des Laufs zurückfahren</translation>
+    </message>
+    <message>
+        <source>Stop, switch the tool off, and retract the tip along its axis</source>
+        <translation>Anhalten, Werkzeug ausschalten und die Spitze entlang ihrer Achse zurückfahren</translation>
+    </message>
+    <message>
+        <source>Start the approach to the cell</source>
+        <translation>Die Anfahrt an die Zelle beginnen</translation>
+    </message>
+    <message>
+        <source>Check all conditions and reserve all axes; nothing moves before Start</source>
+        <translation>Alle Bedingungen prüfen und alle Achsen reservieren; vor Start bewegt sich nichts</translation>
+    </message>
+    <message>
+        <source>Leave the tip in place and release the axes for manual motion</source>
+        <translation>Die Spitze an Ort lassen und die Achsen für Handfahrt freigeben</translation>
+    </message>
+    <message>
+        <source>the penetration is not armed; arm it first</source>
+        <translation>die Penetration ist nicht scharf; zuerst scharfstellen</translation>
+    </message>
+    <message>
+        <source>Armed: all axes are reserved. Nothing moves until you press Start.</source>
+        <translation>Scharf: alle Achsen sind reserviert. Bis zum Start bewegt sich nichts.</translation>
+    </message>
+    <message>
+        <source>Ready to arm.</source>
+        <translation>Bereit zum Scharfstellen.</translation>
+    </message>
+    <message>
+        <source>{verdict}: {reason} The tip is retracted.</source>
+        <translation>{verdict}: {reason} Die Spitze ist zurückgezogen.</translation>
+    </message>
+    <message>
+        <source>Held: {reason}. The tip stays in place; press Retract to return it, or Free the axes to move it manually.</source>
+        <translation>Gehalten: {reason}. Die Spitze bleibt, wo sie ist; „Rückzug“ bringt sie zurück, „Achsen freigeben“ erlaubt Fahren von Hand.</translation>
+    </message>
+    <message>
+        <source>Done: depth {depth}, maximum speed {speed}, error {error} from the profile.</source>
+        <translation>Fertig: Tiefe {depth}, höchstens {speed}, Abweichung {error} vom Profil.</translation>
+    </message>
+    <message>
+        <source>Details of the selected run</source>
+        <translation>Einzelheiten des gewählten Laufs</translation>
+    </message>
+    <message>
+        <source>Log of the selected run</source>
+        <translation>Protokoll des gewählten Laufs</translation>
+    </message>
+    <message>
+        <source>Select a run to see its details.</source>
+        <translation>Einen Lauf wählen, um Einzelheiten zu sehen.</translation>
+    </message>
+    <message>
+        <source>{count} runs, {ours} since the program start. Log file: {path}</source>
+        <translation>{count} Läufe, {ours} seit dem Programmstart. Protokolldatei: {path}</translation>
+    </message>
+    <message>
+        <source>a penetration is armed or running</source>
+        <translation>eine Penetration ist scharf oder läuft</translation>
+    </message>
+    <message>
+        <source>the machine is moving</source>
+        <translation>die Maschine bewegt sich</translation>
+    </message>
+    <message>
+        <source>go to a cell first</source>
+        <translation>erst zu einer Zelle fahren</translation>
+    </message>
+    <message>
+        <source>no other cell is waiting</source>
+        <translation>keine andere Zelle wartet</translation>
+    </message>
+    <message>
+        <source>Add a cell at the present position, with the tip above it</source>
+        <translation>Eine Zelle an der jetzigen Position hinzufügen, die Spitze darüber</translation>
+    </message>
+    <message>
+        <source>Go to the next waiting cell: up, across, down</source>
+        <translation>Zur nächsten wartenden Zelle fahren: hoch, quer, ab</translation>
+    </message>
+    <message>
+        <source>Skip this cell</source>
+        <translation>Diese Zelle überspringen</translation>
+    </message>
+    <message>
+        <source>Arm for this cell; motion begins only with Start, above</source>
+        <translation>Für diese Zelle scharfstellen; erst Start, oben, bewegt</translation>
+    </message>
+    <message>
+        <source>Remove the selected cell</source>
+        <translation>Die gewählte Zelle entfernen</translation>
+    </message>
+    <message>
+        <source>Export the list as CSV</source>
+        <translation>Die Liste als CSV exportieren</translation>
+    </message>
+    <message>
+        <source>its position is unknown</source>
+        <translation>ihre Position ist unbekannt</translation>
+    </message>
+    <message>
+        <source>State of the penetration</source>
+        <translation>Zustand der Penetration</translation>
+    </message>
+    <message>
+        <source>the penetration is armed or running; disarm it first</source>
+        <translation>die Penetration ist scharf oder läuft; zuerst entschärfen</translation>
+    </message>
+    <message>
+        <source>Not saved: {reason}</source>
+        <translation>Nicht gespeichert: {reason}</translation>
+    </message>
+    <message>
+        <source>{name} is not applied: a penetration is armed or running.</source>
+        <translation>{name} wird nicht übernommen: eine Penetration ist scharf oder läuft.</translation>
+    </message>
+    <message>
+        <source>{n} lines of the log cannot be read: {first}</source>
+        <translation>{n} Zeilen des Protokolls sind unlesbar: {first}</translation>
+    </message>
+    <message>
+        <source>table: {n} points; must be 2 to {most}, one per line, from 0, 0 to 1, 1</source>
+        <extracomment>What a table begins with: slow first, fast in the middle.</extracomment>
+        <translation>Tabelle: {n} Punkte; erlaubt 2 bis {most}, je eine Zeile, von 0, 0 bis 1, 1</translation>
+    </message>
+    <message>
+        <source>table, line {number}: {line!r}; enter a time share, a comma and a depth share, such as 0.3, 0.1</source>
+        <translation>Tabelle, Zeile {number}: {line!r}; Zeitanteil, Komma und Tiefenanteil eingeben, etwa 0.3, 0.1</translation>
+    </message>
+    <message>
+        <source>Start time of the run</source>
+        <translation>Startzeit des Laufs</translation>
+    </message>
+    <message>
+        <source>Done, aborted by the button, failed, or held by a stop; the tip retracts unless held</source>
+        <translation>Fertig, durch die Taste abgebrochen, fehlgeschlagen oder durch einen Halt gehalten; die Spitze ist zurückgezogen, außer wenn gehalten</translation>
+    </message>
+    <message>
+        <source>Height of the tip at the detected contact; without a tip, position of the axis</source>
+        <translation>Höhe der Spitze bei erkanntem Kontakt; ohne Spitze die Position der Achse</translation>
+    </message>
+    <message>
+        <source>Travel of the axis in the thrust, by its own sensor</source>
+        <translation>Weg der Achse im Einstich, laut eigenem Sensor</translation>
+    </message>
+    <message>
+        <source>Maximum speed of the thrust, measured over five samples</source>
+        <translation>Größte Geschwindigkeit des Einstichs, über fünf Messwerte</translation>
+    </message>
+    <message>
+        <source>Maximum distance from the profile, without a constant delay</source>
+        <translation>Größter Abstand vom Profil, ohne konstante Totzeit</translation>
+    </message>
+    <message>
+        <source>Reason for the verdict</source>
+        <translation>Grund des Ausgangs</translation>
+    </message>
+    <message>
+        <source>started at</source>
+        <translation>begann bei</translation>
+    </message>
+    <message>
+        <source>contact detected after</source>
+        <translation>Kontakt erkannt nach</translation>
+    </message>
+    <message>
+        <source>deviation of the cubics from the profile</source>
+        <translation>Abweichung der Polynome vom Profil</translation>
+    </message>
+    <message>
+        <source>membrane ruptured</source>
+        <translation>Membran gab nach</translation>
+    </message>
+    <message>
+        <source>delay removed</source>
+        <translation>abgezogene Totzeit</translation>
+    </message>
+    <message>
+        <source>Travel needed</source>
+        <translation>Bedarf</translation>
+    </message>
+    <message>
+        <source>Travel available</source>
+        <translation>Verfügbar</translation>
+    </message>
+    <message>
+        <source>Maximum instantaneous speed of the thrust</source>
+        <translation>Größte Momentangeschwindigkeit des Einstichs</translation>
+    </message>
+    <message>
+        <source>Commanded end of the thrust, from the position of rest on the membrane</source>
+        <translation>Ende des Einstichs laut Sollwert, von der Ruheposition auf der Membran</translation>
+    </message>
+    <message>
+        <source>Travel from the present position to the end of the range, towards the cell</source>
+        <translation>Weg von der jetzigen Position bis zum Ende des Bereichs, in Richtung der Zelle</translation>
+    </message>
+    <message>
+        <source>Commanded distance from the start of the run</source>
+        <translation>Weg des Sollwerts vom Beginn des Laufs</translation>
+    </message>
+    <message>
+        <source>Change of measured − model since the start of the run, opposite to the motion</source>
+        <translation>Änderung von gemessen − Modell seit Beginn des Laufs, gegen die Bewegung</translation>
+    </message>
+    <message>
+        <source>the running penetration controls the tool</source>
+        <translation>die laufende Penetration schaltet das Werkzeug</translation>
+    </message>
+    <message>
+        <source>{driver} has no switchable tool</source>
+        <translation>{driver} hat kein schaltbares Werkzeug</translation>
+    </message>
+    <message>
+        <source>Above {most:.4g} µm the run fails and the tip retracts.</source>
+        <translation>Über {most:.4g} µm scheitert der Lauf, und die Spitze fährt zurück.</translation>
+    </message>
+    <message>
+        <source>Without contact within this distance the run fails and the tip retracts</source>
+        <translation>Ohne Kontakt innerhalb dieses Wegs scheitert der Lauf, und die Spitze fährt zurück</translation>
+    </message>
+    <message>
+        <source>Rate of false alarms from noise; fewer alarms make the detection slower</source>
+        <translation>Häufigkeit der Fehlalarme durch Rauschen; weniger machen die Erkennung langsamer</translation>
+    </message>
+    <message>
+        <source>Slope of measured − model that hysteresis, creep and gain may cause; a smaller value detects softer membranes</source>
+        <translation>Steigung von gemessen − Modell, die Hysterese, Kriechen und Verstärkung verursachen dürfen; ein kleinerer Wert erkennt weichere Membranen</translation>
+    </message>
+    <message>
+        <source>Distance over which that slope may change by the same amount</source>
+        <translation>Weg, über den sich diese Steigung um ebenso viel ändern darf</translation>
+    </message>
+    <message>
+        <source>Depth of the thrust, from the position of rest on the membrane</source>
+        <translation>Tiefe des Einstichs, von der Ruheposition auf der Membran</translation>
+    </message>
+    <message>
+        <source>Duration of the thrust, with shaping</source>
+        <translation>Dauer des Einstichs, mit Impulsformung</translation>
+    </message>
+    <message>
+        <source>S-curve: share of the time for acceleration, and the same for deceleration</source>
+        <translation>S-Kurve: Zeitanteil zum Beschleunigen, ebenso viel zum Bremsen</translation>
+    </message>
+    <message>
+        <source>Time at depth before the tool is switched on</source>
+        <translation>Zeit in der Tiefe, bevor das Werkzeug einschaltet</translation>
+    </message>
+    <message>
+        <source>Time with the tool on; 0: the tool stays off</source>
+        <translation>Zeit mit Werkzeug ein; 0: das Werkzeug bleibt aus</translation>
+    </message>
+    <message>
+        <source>Time at depth after the tool is switched off</source>
+        <translation>Zeit in der Tiefe, nachdem das Werkzeug ausschaltet</translation>
+    </message>
+    <message>
+        <source>Permitted deviation of the measured from the requested depth; above it, the run fails</source>
+        <translation>Erlaubte Abweichung der gemessenen von der verlangten Tiefe; darüber scheitert der Lauf</translation>
+    </message>
+    <message>
+        <source>Maximum deviation of the axis from its set-point; above it, the tip retracts at once</source>
+        <translation>Größte Abweichung der Achse vom Sollwert; darüber geht die Spitze sofort zurück</translation>
+    </message>
+    <message>
+        <source>Time after which the penetration disarms automatically</source>
+        <translation>Zeit, nach der sich die Penetration selbst entschärft</translation>
+    </message>
+    <message>
+        <source>{title}: {text!r} is not a number; enter one{unit} with a decimal point</source>
+        <translation>{title}: {text!r} ist keine Zahl; eine{unit} eingeben, mit Dezimalkomma</translation>
+    </message>
+    <message>
+        <source>{title}: {value} must be {least} to {most}</source>
+        <translation>{title}: {value}, erlaubt {least} bis {most}</translation>
+    </message>
+    <message>
+        <source>Demonstration cells exist only in the simulator. On a real machine put a real cell under the tip.</source>
+        <translation>Demonstrationszellen gibt es nur im Simulator. An einer echten Maschine eine echte Zelle unter die Spitze legen.</translation>
+    </message>
+    <message>
+        <source>Elastic membrane (effect “contact”); other effects stay. The membrane does not break: remove it during the thrust to simulate a rupture.</source>
+        <translation>Elastische Membran (Effekt „contact“); andere Effekte bleiben. Sie bricht nicht: während des Einstichs entfernen, um einen Durchbruch zu simulieren.</translation>
+    </message>
+    <message>
+        <source>Distance from the present position of the axis, above 0 µm</source>
+        <translation>Abstand von der jetzigen Position der Achse, über 0 µm</translation>
+    </message>
+    <message>
+        <source>Distance to the cell, µm</source>
+        <translation>Abstand zur Zelle, µm</translation>
+    </message>
+    <message>
+        <source>Relative to the stiffness of the axis, up to 30</source>
+        <translation>Relativ zur Steifigkeit der Achse, bis 30</translation>
+    </message>
+    <message>
+        <source>Place a cell ahead of the present position of the axis, or move it there</source>
+        <translation>Eine Zelle vor der jetzigen Position der Achse setzen oder dorthin verschieben</translation>
+    </message>
+    <message>
+        <source>Place cell</source>
+        <translation>Zelle setzen</translation>
+    </message>
+    <message>
+        <source>× axis</source>
+        <translation>× Achse</translation>
+    </message>
+    <message>
+        <source>there is no cell</source>
+        <translation>es gibt keine Zelle</translation>
+    </message>
+    <message>
+        <source>a cell at {at} of {axis} must be within {least} to {most}; move the axis away from its end first</source>
+        <extracomment>Where a cell is put and how stiff it is beside the axis itself, unless told otherwise.</extracomment>
+        <translation>eine Zelle bei {at} von {axis} muss in {least} bis {most} liegen; die Achse zuerst vom Ende wegfahren</translation>
+    </message>
+    <message>
+        <source>distance to the cell</source>
+        <translation>Abstand zur Zelle</translation>
+    </message>
+    <message>
+        <source>{name}: {text!r}; enter a number above 0 with a decimal point</source>
+        <translation>{name}: {text!r}; eine Zahl über 0 eingeben, mit Dezimalkomma</translation>
     </message>
 </context>
 </TS>

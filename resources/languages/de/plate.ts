@@ -11,10 +11,6 @@
 <context>
     <name>plate</name>
     <message>
-        <source>Drag to turn, wheel to zoom, double click to see it as at first; arrow keys, + and − too</source>
-        <translation>Ziehen dreht, das Rad zoomt, Doppelklick zeigt die erste Ansicht; auch Pfeiltasten, + und −</translation>
-    </message>
-    <message>
         <source>The plate in 3-D</source>
         <translation>Die Platte in 3-D</translation>
     </message>
@@ -23,24 +19,12 @@
         <translation>relativ</translation>
     </message>
     <message>
-        <source>Hub moved</source>
-        <translation>Nabe bewegt</translation>
-    </message>
-    <message>
-        <source>What is shown</source>
-        <translation>Was gezeigt wird</translation>
-    </message>
-    <message>
         <source>The plate with its hub moved, or one of its modes</source>
         <translation>Die Platte mit bewegter Nabe oder eine ihrer Eigenformen</translation>
     </message>
     <message>
         <source>Colours</source>
         <translation>Farben</translation>
-    </message>
-    <message>
-        <source>What the colours mean</source>
-        <translation>Was die Farben bedeuten</translation>
     </message>
     <message>
         <source>{axis} of the hub</source>
@@ -83,16 +67,8 @@
         <translation>Form {title}</translation>
     </message>
     <message>
-        <source>there is no solved plate yet</source>
-        <translation>es gibt noch keine berechnete Platte</translation>
-    </message>
-    <message>
         <source>Mesh</source>
         <translation>Netz</translation>
-    </message>
-    <message>
-        <source>A finer mesh is truer and takes longer</source>
-        <translation>Ein feineres Netz ist genauer und dauert länger</translation>
     </message>
     <message>
         <source>Solve</source>
@@ -103,24 +79,12 @@
         <translation>Abbrechen</translation>
     </message>
     <message>
-        <source>Compute the plate that the robot file describes; motion goes on</source>
-        <translation>Die Platte der Roboterdatei berechnen; die Bewegung geht weiter</translation>
-    </message>
-    <message>
-        <source>Cancel the computation; motion goes on</source>
-        <translation>Die Berechnung abbrechen; die Bewegung geht weiter</translation>
-    </message>
-    <message>
         <source>Save VTU …</source>
         <translation>VTU speichern …</translation>
     </message>
     <message>
         <source>Save PNG …</source>
         <translation>PNG speichern …</translation>
-    </message>
-    <message>
-        <source>At this pose</source>
-        <translation>In dieser Stellung</translation>
     </message>
     <message>
         <source>The plate as a whole</source>
@@ -145,14 +109,6 @@
     <message>
         <source>Solving: {stage} …</source>
         <translation>Berechnung: {stage} …</translation>
-    </message>
-    <message>
-        <source>Mesh, displacement, stress and modes for ParaView and the like</source>
-        <translation>Netz, Verschiebung, Spannung und Eigenformen für ParaView und Ähnliches</translation>
-    </message>
-    <message>
-        <source>The picture as it is shown</source>
-        <translation>Das Bild, wie es gezeigt wird</translation>
     </message>
     <message>
         <source>Writing {name} …</source>
@@ -273,6 +229,50 @@
     <message>
         <source>hub tilts about {angle}</source>
         <translation>Nabe kippt um {angle}</translation>
+    </message>
+    <message>
+        <source>no plate is solved yet</source>
+        <translation>es gibt noch keine berechnete Platte</translation>
+    </message>
+    <message>
+        <source>A finer mesh is more accurate and takes longer</source>
+        <translation>Ein feineres Netz ist genauer und dauert länger</translation>
+    </message>
+    <message>
+        <source>Compute the plate of the robot file; motion continues</source>
+        <translation>Die Platte der Roboterdatei berechnen; die Bewegung geht weiter</translation>
+    </message>
+    <message>
+        <source>Cancel the computation; motion continues</source>
+        <translation>Die Berechnung abbrechen; die Bewegung geht weiter</translation>
+    </message>
+    <message>
+        <source>In this pose</source>
+        <translation>In dieser Stellung</translation>
+    </message>
+    <message>
+        <source>Mesh, displacement, stress and modes for ParaView and similar programs</source>
+        <translation>Netz, Verschiebung, Spannung und Eigenformen für ParaView und ähnliche Programme</translation>
+    </message>
+    <message>
+        <source>The displayed picture</source>
+        <translation>Das gezeigte Bild</translation>
+    </message>
+    <message>
+        <source>Drag to rotate, use the wheel to zoom, double-click to reset; also arrow keys, + and −</source>
+        <translation>Ziehen dreht, das Rad zoomt, ein Doppelklick setzt zurück; auch Pfeiltasten, + und −</translation>
+    </message>
+    <message>
+        <source>Moved hub</source>
+        <translation>Bewegte Nabe</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>Quantity of the colours</source>
+        <translation>Größe der Farben</translation>
     </message>
 </context>
 </TS>

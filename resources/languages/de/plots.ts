@@ -19,16 +19,8 @@
         <translation>Zeit [s]</translation>
     </message>
     <message>
-        <source>Cursors: Δx and Δy of each loop stand above it.</source>
-        <translation>Cursor: Δx und Δy jeder Schleife stehen darüber.</translation>
-    </message>
-    <message>
         <source>cursor outside</source>
         <translation>Cursor außerhalb</translation>
-    </message>
-    <message>
-        <source>a cursor stands where nothing was measured</source>
-        <translation>ein Cursor steht, wo nichts gemessen wurde</translation>
     </message>
     <message>
         <source>Plots of the axes</source>
@@ -40,7 +32,7 @@
     </message>
     <message>
         <source>model in use</source>
-        <translation>Modell im Einsatz</translation>
+        <translation>verwendetes Modell</translation>
     </message>
     <message>
         <source>measured</source>
@@ -75,24 +67,12 @@
         <translation>Der neueste Messwert ist {n} s alt</translation>
     </message>
     <message>
-        <source>There is no other run to align: choose one.</source>
-        <translation>Es gibt keinen anderen Lauf zum Ausrichten: einen wählen.</translation>
-    </message>
-    <message>
         <source>{name} has no motion to align by: the ends are aligned.</source>
         <translation>{name} hat keine Bewegung zum Ausrichten: die Enden sind ausgerichtet.</translation>
     </message>
     <message>
         <source>Saved {path}</source>
         <translation>Gespeichert: {path}</translation>
-    </message>
-    <message>
-        <source>What the plots show</source>
-        <translation>Was die Diagramme zeigen</translation>
-    </message>
-    <message>
-        <source>How far back the plots show</source>
-        <translation>Wie weit die Diagramme zurückreichen</translation>
     </message>
     <message>
         <source>Another run beside the present one</source>
@@ -107,24 +87,12 @@
         <translation>Lauf merken</translation>
     </message>
     <message>
-        <source>Run in hand</source>
-        <translation>Letzter Lauf</translation>
-    </message>
-    <message>
-        <source>Keep this run: what is shown now stays beside what comes.</source>
-        <translation>Diesen Lauf behalten: was jetzt zu sehen ist, bleibt neben dem, was kommt.</translation>
-    </message>
-    <message>
         <source>nominal</source>
         <translation>nominal</translation>
     </message>
     <message>
         <source>Record …</source>
         <translation>Aufzeichnung …</translation>
-    </message>
-    <message>
-        <source>Run in hand: the record that was opened or played last.</source>
-        <translation>Letzter Lauf: die zuletzt geöffnete oder abgespielte Aufzeichnung.</translation>
     </message>
     <message>
         <source>Record …: one of the library.</source>
@@ -135,24 +103,12 @@
         <translation>Cursor</translation>
     </message>
     <message>
-        <source>Two lines to be dragged; what they read stands above each plot</source>
-        <translation>Zwei verschiebbare Linien; ihre Werte stehen über jedem Diagramm</translation>
-    </message>
-    <message>
         <source>Pause</source>
         <translation>Pause</translation>
     </message>
     <message>
-        <source>Freeze the plots; motion, recording and replay go on</source>
-        <translation>Die Diagramme anhalten; Bewegung, Aufzeichnung und Wiedergabe gehen weiter</translation>
-    </message>
-    <message>
         <source>More</source>
         <translation>Mehr</translation>
-    </message>
-    <message>
-        <source>Further views, alignment, and files of what is shown</source>
-        <translation>Ausrichtung und Dateien des Gezeigten</translation>
     </message>
     <message>
         <source>Align the other run</source>
@@ -179,32 +135,12 @@
         <translation>Der gemerkte Lauf</translation>
     </message>
     <message>
-        <source>There is no run in hand: open or play one.</source>
-        <translation>Es gibt keinen letzten Lauf: einen öffnen oder abspielen.</translation>
-    </message>
-    <message>
-        <source>plots: no samples are shown, so there is no run to keep</source>
-        <translation>Diagramme: keine Messwerte gezeigt, also kein Lauf zum Merken</translation>
-    </message>
-    <message>
-        <source>plots: no samples are shown, so there is nothing to save</source>
-        <translation>Diagramme: keine Messwerte gezeigt, also nichts zu speichern</translation>
-    </message>
-    <message>
         <source>Gap of {axis}</source>
         <translation>Abweichung von {axis}</translation>
     </message>
     <message>
-        <source>Gap of the {n} s before, while something moves; the scale is logarithmic</source>
-        <translation>Abweichung der {n} s davor, solange sich etwas bewegt; die Skala ist logarithmisch</translation>
-    </message>
-    <message>
         <source>Band: noise floor of the sensor, {floor}</source>
         <translation>Band: Rauschgrenze des Sensors, {floor}</translation>
-    </message>
-    <message>
-        <source>Amber: more than noise makes, {noise}</source>
-        <translation>Gelb: mehr, als Rauschen ausmacht, {noise}</translation>
     </message>
     <message>
         <source>Red: beyond the following bound, {bound}</source>
@@ -215,12 +151,76 @@
         <translation>{name} wird gelesen …</translation>
     </message>
     <message>
-        <source>The library has no records yet: play or record something.</source>
-        <translation>Die Bibliothek hat noch keine Aufzeichnungen: etwas abspielen oder aufnehmen.</translation>
-    </message>
-    <message>
         <source>Record beside the present run</source>
         <translation>Aufzeichnung neben dem jetzigen Lauf</translation>
+    </message>
+    <message>
+        <source>The library has no records: play or record a motion first.</source>
+        <translation>Die Bibliothek hat keine Aufzeichnungen: zuerst eine Bewegung abspielen oder aufnehmen.</translation>
+    </message>
+    <message>
+        <source>Contents of the plots</source>
+        <translation>Inhalt der Diagramme</translation>
+    </message>
+    <message>
+        <source>Time span of the plots</source>
+        <translation>Zeitspanne der Diagramme</translation>
+    </message>
+    <message>
+        <source>Two lines to drag; their values appear above each plot</source>
+        <translation>Zwei verschiebbare Linien; ihre Werte stehen über jedem Diagramm</translation>
+    </message>
+    <message>
+        <source>Freeze the plots; motion, recording and replay continue</source>
+        <translation>Die Diagramme anhalten; Bewegung, Aufzeichnung und Wiedergabe gehen weiter</translation>
+    </message>
+    <message>
+        <source>Alignment, and files of the plots</source>
+        <translation>Ausrichtung und Dateien der Diagramme</translation>
+    </message>
+    <message>
+        <source>There is no second run to align: choose one.</source>
+        <translation>Es gibt keinen zweiten Lauf zum Ausrichten: einen wählen.</translation>
+    </message>
+    <message>
+        <source>Keep this run: displays it next to the following one.</source>
+        <translation>Lauf merken: er bleibt neben dem folgenden zu sehen.</translation>
+    </message>
+    <message>
+        <source>Latest run: the record that was opened or played last.</source>
+        <translation>Letzter Lauf: die zuletzt geöffnete oder abgespielte Aufzeichnung.</translation>
+    </message>
+    <message>
+        <source>There is no latest run: open or play one.</source>
+        <translation>Es gibt keinen letzten Lauf: einen öffnen oder abspielen.</translation>
+    </message>
+    <message>
+        <source>Latest run</source>
+        <translation>Letzter Lauf</translation>
+    </message>
+    <message>
+        <source>plots: there are no samples to save</source>
+        <translation>Diagramme: keine Messwerte zum Speichern</translation>
+    </message>
+    <message>
+        <source>Gap of the last {n} s, while an axis moves; logarithmic scale</source>
+        <translation>Abweichung der letzten {n} s, solange sich eine Achse bewegt; logarithmische Skala</translation>
+    </message>
+    <message>
+        <source>Amber: above the noise, {noise}</source>
+        <translation>Gelb: über dem Rauschen, {noise}</translation>
+    </message>
+    <message>
+        <source>Cursors: Δx and Δy of each loop appear above it.</source>
+        <translation>Cursor: Δx und Δy jeder Schleife stehen darüber.</translation>
+    </message>
+    <message>
+        <source>a cursor is where nothing was measured</source>
+        <translation>ein Cursor steht, wo nichts gemessen wurde</translation>
+    </message>
+    <message>
+        <source>plots: there are no samples, so no run to keep</source>
+        <translation>Diagramme: keine Messwerte, also kein Lauf zum Merken</translation>
     </message>
 </context>
 </TS>

@@ -15,10 +15,6 @@
         <translation>Zeit</translation>
     </message>
     <message>
-        <source>What</source>
-        <translation>Was</translation>
-    </message>
-    <message>
         <source>Text</source>
         <translation>Text</translation>
     </message>
@@ -71,48 +67,24 @@
         <translation>Eine Aufnahme öffnen, um ihre Ereignisse zu sehen.</translation>
     </message>
     <message>
-        <source>with states and log lines</source>
-        <translation>mit Zuständen und Protokoll</translation>
-    </message>
-    <message>
-        <source>Show these too, beside what the operator did and was told</source>
-        <translation>Auch diese zeigen, neben Handlungen und Meldungen</translation>
-    </message>
-    <message>
-        <source>{name}: {n} of {all} events; click to jump</source>
-        <translation>{name}: {n} von {all} Ereignissen; Klick springt hin</translation>
-    </message>
-    <message>
-        <source>Events of the recording that is shown</source>
-        <translation>Ereignisse der gezeigten Aufnahme</translation>
-    </message>
-    <message>
         <source>Recover</source>
-        <translation>Retten</translation>
-    </message>
-    <message>
-        <source>Make finished recordings of all that was recorded of them</source>
-        <translation>Aus allem, was davon aufgenommen wurde, fertige Aufnahmen machen</translation>
+        <translation>Herstellen</translation>
     </message>
     <message>
         <source>Recovering …</source>
-        <translation>Wird gerettet …</translation>
+        <translation>Wird hergestellt …</translation>
     </message>
     <message>
         <source>Recovering {names} …</source>
-        <translation>{names} wird gerettet …</translation>
+        <translation>{names}: wird wiederhergestellt …</translation>
     </message>
     <message>
         <source>Recovered {names}</source>
-        <translation>Gerettet: {names}</translation>
+        <translation>Wiederhergestellt: {names}</translation>
     </message>
     <message>
         <source>{folder}: cannot be read ({reason})</source>
         <translation>{folder}: nicht lesbar ({reason})</translation>
-    </message>
-    <message>
-        <source>What is shown</source>
-        <translation>Was gezeigt wird</translation>
     </message>
     <message>
         <source>Records</source>
@@ -121,10 +93,6 @@
     <message>
         <source>Events</source>
         <translation>Ereignisse</translation>
-    </message>
-    <message>
-        <source>Recordings that were cut off: {names}. Recover them in the panel {title}.</source>
-        <translation>Abgebrochene Aufnahmen: {names}. Im Panel {title} zu retten.</translation>
     </message>
     <message>
         <source>● Record</source>
@@ -143,10 +111,6 @@
         <translation>Bemerkung zur Aufnahme</translation>
     </message>
     <message>
-        <source>Written into the recording with the time of Enter</source>
-        <translation>Kommt mit der Zeit von Enter in die Aufnahme</translation>
-    </message>
-    <message>
         <source>Write the remark into the recording</source>
         <translation>Die Bemerkung in die Aufnahme schreiben</translation>
     </message>
@@ -155,16 +119,8 @@
         <translation>Ab jedem Start aufnehmen</translation>
     </message>
     <message>
-        <source>Begin a recording by itself when the program is started</source>
-        <translation>Beim Start des Programms von selbst eine Aufnahme beginnen</translation>
-    </message>
-    <message>
         <source>Folder of recordings</source>
         <translation>Ordner der Aufnahmen</translation>
-    </message>
-    <message>
-        <source>The folder of recordings, to be copied</source>
-        <translation>Der Ordner der Aufnahmen, zum Kopieren</translation>
     </message>
     <message>
         <source>File</source>
@@ -187,52 +143,12 @@
         <translation>■ Aufnahme beenden</translation>
     </message>
     <message>
-        <source>End it and keep it in one file</source>
-        <translation>Beenden und in einer Datei behalten</translation>
-    </message>
-    <message>
-        <source>Record everything from now on</source>
-        <translation>Ab jetzt alles aufnehmen</translation>
-    </message>
-    <message>
-        <source>wait until that is done</source>
-        <translation>warten, bis das fertig ist</translation>
-    </message>
-    <message>
         <source>nothing is being recorded</source>
         <translation>es wird nichts aufgenommen</translation>
     </message>
     <message>
-        <source>Enter puts it into the recording, at this time</source>
-        <translation>Enter schreibt sie mit dieser Zeit in die Aufnahme</translation>
-    </message>
-    <message>
-        <source>Add the remark to the recording at this time</source>
-        <translation>Die Bemerkung mit dieser Zeit in die Aufnahme schreiben</translation>
-    </message>
-    <message>
-        <source>Nothing is recorded now: {failure}. Make room; motion goes on.</source>
-        <translation>Jetzt wird nichts aufgenommen: {failure}. Platz schaffen; die Bewegung läuft weiter.</translation>
-    </message>
-    <message>
-        <source>Beginning …</source>
-        <translation>Beginnt …</translation>
-    </message>
-    <message>
-        <source>Beginning to record …</source>
-        <translation>Die Aufnahme beginnt …</translation>
-    </message>
-    <message>
         <source>Ending …</source>
         <translation>Endet …</translation>
-    </message>
-    <message>
-        <source>Ending the recording: {size} are put together …</source>
-        <translation>Die Aufnahme endet: {size} werden zusammengestellt …</translation>
-    </message>
-    <message>
-        <source>Recorded {path}</source>
-        <translation>Aufgenommen: {path}</translation>
     </message>
     <message>
         <source>{target}: it is the recording itself; name another file</source>
@@ -248,7 +164,7 @@
     </message>
     <message>
         <source>{stem} again</source>
-        <translation>{stem} nochmals</translation>
+        <translation>{stem} nochmal</translation>
     </message>
     <message>
         <source>Reading the commands of {name} …</source>
@@ -256,7 +172,7 @@
     </message>
     <message>
         <source>Replay</source>
-        <translation>Zeigen</translation>
+        <translation>Ansehen</translation>
     </message>
     <message>
         <source>Export …</source>
@@ -319,32 +235,8 @@
         <translation>Vergleichen</translation>
     </message>
     <message>
-        <source>Show the recording in place of the machine</source>
-        <translation>Die Aufnahme anstelle der Maschine zeigen</translation>
-    </message>
-    <message>
         <source>Compare the record with the model in use</source>
-        <translation>Die Aufzeichnung mit dem benutzten Modell vergleichen</translation>
-    </message>
-    <message>
-        <source>Write the stretch as an ASCII record, to be compared and diagnosed</source>
-        <translation>Den Abschnitt als ASCII-Aufzeichnung schreiben, zum Vergleichen und Diagnostizieren</translation>
-    </message>
-    <message>
-        <source>Take the commands of the stretch in hand, to be played on the machine; every axis must stand at both ends</source>
-        <translation>Die Sollwerte des Abschnitts als Trajektorie übernehmen; jede Achse muss an beiden Enden stehen</translation>
-    </message>
-    <message>
-        <source>this recording is not shown</source>
-        <translation>diese Aufnahme wird nicht gezeigt</translation>
-    </message>
-    <message>
-        <source>Let the stretch begin where the replay is</source>
-        <translation>Den Abschnitt beginnen lassen, wo die Wiedergabe ist</translation>
-    </message>
-    <message>
-        <source>Let the stretch end where the replay is</source>
-        <translation>Den Abschnitt enden lassen, wo die Wiedergabe ist</translation>
+        <translation>Die Aufzeichnung mit dem verwendeten Modell vergleichen</translation>
     </message>
     <message>
         <source>Export a record</source>
@@ -363,16 +255,8 @@
         <translation>Wo ist {name}?</translation>
     </message>
     <message>
-        <source>Delete {names}? This deletes {size} on the disk for good. Files in other folders stay; they only leave the list.</source>
-        <translation>{names} löschen? Dies löscht {size} endgültig vom Datenträger. Dateien in anderen Ordnern bleiben; sie verlassen nur die Liste.</translation>
-    </message>
-    <message>
         <source>{names} and {n} more</source>
         <translation>{names} und {n} weitere</translation>
-    </message>
-    <message>
-        <source>it is a record already; only a recording is exported</source>
-        <translation>es ist schon eine Aufzeichnung; nur eine Aufnahme wird exportiert</translation>
     </message>
     <message>
         <source>Change name or note, find or open a file, delete</source>
@@ -381,18 +265,6 @@
     <message>
         <source>Delete</source>
         <translation>Löschen</translation>
-    </message>
-    <message>
-        <source>{end} of the stretch in seconds</source>
-        <translation>{end} des Abschnitts in Sekunden</translation>
-    </message>
-    <message>
-        <source>Seconds from the begin of the recording; empty: its {end}</source>
-        <translation>Sekunden ab Beginn der Aufnahme; leer: ihr {end}</translation>
-    </message>
-    <message>
-        <source>begin</source>
-        <translation>Beginn</translation>
     </message>
     <message>
         <source>end</source>
@@ -415,32 +287,12 @@
         <translation>{size}, für {left}</translation>
     </message>
     <message>
-        <source>Only {free} are free, and ending the recording takes {size}: make room. Motion goes on in any case.</source>
-        <translation>Nur {free} sind frei, und das Beenden der Aufnahme braucht {size}: Platz schaffen. Die Bewegung läuft auf jeden Fall weiter.</translation>
-    </message>
-    <message>
-        <source>Not ended, as the program or its computer was cut off: {names}.</source>
-        <translation>Nicht beendet, weil Programm oder Rechner ausfielen: {names}.</translation>
-    </message>
-    <message>
-        <source>{name} is being recorded by another program.</source>
-        <translation>{name} wird von einem anderen Programm aufgenommen.</translation>
-    </message>
-    <message>
         <source> and {n} more</source>
         <translation> und {n} weitere</translation>
     </message>
     <message>
-        <source>from {begin:g} s to {end:g} s: the end must be later than the begin</source>
-        <translation>von {begin:g} s bis {end:g} s: das Ende muss nach dem Beginn liegen</translation>
-    </message>
-    <message>
         <source>from {begin:g} s: the recording lasts {duration:.3f} s</source>
         <translation>ab {begin:g} s: die Aufnahme dauert {duration:.3f} s</translation>
-    </message>
-    <message>
-        <source>{text!r} is no {what}: type seconds from the begin of the recording, 0 or more, with a decimal point, or nothing</source>
-        <translation>{text!r} ist kein {what}: Sekunden ab Beginn der Aufnahme eingeben, 0 oder mehr, mit Dezimalkomma, oder nichts</translation>
     </message>
     <message>
         <source>Run</source>
@@ -455,8 +307,152 @@
         <translation>Probe</translation>
     </message>
     <message>
-        <source>Stands in every playback and recording from now on</source>
-        <translation>Steht von jetzt an in jeder Wiedergabe und Aufnahme</translation>
+        <source>it is already a record; only recordings can be exported</source>
+        <translation>es ist schon eine Aufzeichnung; nur Aufnahmen lassen sich exportieren</translation>
+    </message>
+    <message>
+        <source>Export the section as an ASCII record for comparison and diagnosis</source>
+        <translation>Den Abschnitt als ASCII-Aufzeichnung exportieren, zum Vergleichen und Diagnostizieren</translation>
+    </message>
+    <message>
+        <source>Use the commands of the section as a trajectory; every axis must be at rest at both ends</source>
+        <translation>Die Sollwerte des Abschnitts als Trajektorie verwenden; jede Achse muss an beiden Enden in Ruhe sein</translation>
+    </message>
+    <message>
+        <source>Display the recording instead of the machine</source>
+        <translation>Die Aufnahme anstelle der Maschine zeigen</translation>
+    </message>
+    <message>
+        <source>this recording is not displayed</source>
+        <translation>diese Aufnahme wird nicht gezeigt</translation>
+    </message>
+    <message>
+        <source>Start the section at the present time of the replay</source>
+        <translation>Den Abschnitt am jetzigen Zeitpunkt der Wiedergabe beginnen</translation>
+    </message>
+    <message>
+        <source>End the section at the present time of the replay</source>
+        <translation>Den Abschnitt am jetzigen Zeitpunkt der Wiedergabe beenden</translation>
+    </message>
+    <message>
+        <source>Delete {names}? This permanently deletes {size} from the disk. Files in other folders stay; only their entries are removed.</source>
+        <translation>{names} löschen? Das löscht {size} endgültig vom Datenträger. Dateien in anderen Ordnern bleiben; nur ihre Einträge werden entfernt.</translation>
+    </message>
+    <message>
+        <source>{end} of the section in seconds</source>
+        <translation>{end} des Abschnitts in Sekunden</translation>
+    </message>
+    <message>
+        <source>Seconds from the start of the recording; empty: its {end}</source>
+        <translation>Sekunden ab Beginn der Aufnahme; leer: ihr {end}</translation>
+    </message>
+    <message>
+        <source>start</source>
+        <translation>Beginn</translation>
+    </message>
+    <message>
+        <source>Another program is recording {name}.</source>
+        <translation>Ein anderes Programm nimmt {name} auf.</translation>
+    </message>
+    <message>
+        <source>Interrupted because the program or the computer stopped: {names}.</source>
+        <translation>Unterbrochen, weil Programm oder Rechner ausfielen: {names}.</translation>
+    </message>
+    <message>
+        <source>from {begin:g} s to {end:g} s: the end must be later than the start</source>
+        <translation>von {begin:g} s bis {end:g} s: das Ende muss nach dem Beginn liegen</translation>
+    </message>
+    <message>
+        <source>Starting …</source>
+        <translation>Beginnt …</translation>
+    </message>
+    <message>
+        <source>Only {free} are free, but ending the recording needs {size}. Free disk space; the motion continues in any case.</source>
+        <translation>Nur {free} sind frei, aber das Beenden der Aufnahme braucht {size}. Speicherplatz schaffen; die Bewegung läuft in jedem Fall weiter.</translation>
+    </message>
+    <message>
+        <source>Enter writes the remark into the recording with the present time</source>
+        <translation>Enter schreibt die Bemerkung mit der jetzigen Zeit in die Aufnahme</translation>
+    </message>
+    <message>
+        <source>Start a recording whenever the program starts</source>
+        <translation>Bei jedem Programmstart eine Aufnahme beginnen</translation>
+    </message>
+    <message>
+        <source>Folder of the recordings; select the text to copy it</source>
+        <translation>Ordner der Aufnahmen; den Text zum Kopieren markieren</translation>
+    </message>
+    <message>
+        <source>End the recording and save it in one file</source>
+        <translation>Die Aufnahme beenden und in einer Datei speichern</translation>
+    </message>
+    <message>
+        <source>Record all signals and events from now on</source>
+        <translation>Ab jetzt alle Signale und Ereignisse aufnehmen</translation>
+    </message>
+    <message>
+        <source>Write the remark into the recording with the present time</source>
+        <translation>Die Bemerkung mit der jetzigen Zeit in die Aufnahme schreiben</translation>
+    </message>
+    <message>
+        <source>Starting the recording …</source>
+        <translation>Die Aufnahme beginnt …</translation>
+    </message>
+    <message>
+        <source>wait for the running work</source>
+        <translation>warten, bis die laufende Arbeit fertig ist</translation>
+    </message>
+    <message>
+        <source>Ending the recording: {size} are being merged …</source>
+        <translation>Die Aufnahme endet: {size} werden zusammengefügt …</translation>
+    </message>
+    <message>
+        <source>Saved the recording {path}</source>
+        <translation>Aufnahme gespeichert: {path}</translation>
+    </message>
+    <message>
+        <source>The recording has failed: {failure}. Free disk space; the motion continues.</source>
+        <translation>Die Aufnahme ist fehlgeschlagen: {failure}. Speicherplatz schaffen; die Bewegung läuft weiter.</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>Interrupted recordings: {names}. Recover them in the panel {title}.</source>
+        <translation>Unterbrochene Aufnahmen: {names}. Im Panel {title} lassen sie sich wiederherstellen.</translation>
+    </message>
+    <message>
+        <source>Stored with every playback and recording from now on</source>
+        <translation>Wird ab jetzt mit jeder Wiedergabe und Aufnahme gespeichert</translation>
+    </message>
+    <message>
+        <source>Event</source>
+        <translation>Ereignis</translation>
+    </message>
+    <message>
+        <source>Events of the displayed recording</source>
+        <translation>Ereignisse der gezeigten Aufnahme</translation>
+    </message>
+    <message>
+        <source>with states and log</source>
+        <translation>mit Zuständen und Protokoll</translation>
+    </message>
+    <message>
+        <source>Also show states and log lines, not only actions and messages</source>
+        <translation>Auch Zustände und Protokoll zeigen, nicht nur Handlungen und Meldungen</translation>
+    </message>
+    <message>
+        <source>{name}: {n} of {all} events; click one to jump there</source>
+        <translation>{name}: {n} von {all} Ereignissen; ein Klick springt dorthin</translation>
+    </message>
+    <message>
+        <source>Complete interrupted recordings with the data on the disk</source>
+        <translation>Unterbrochene Aufnahmen mit den Daten auf dem Datenträger vervollständigen</translation>
+    </message>
+    <message>
+        <source>{what}: {text!r} is not valid. Enter seconds from the start of the recording, 0 or more, with a decimal point, or leave the field empty.</source>
+        <translation>{what}: {text!r} ist ungültig. Sekunden ab Beginn der Aufnahme eingeben, 0 oder mehr, mit Dezimalkomma, oder das Feld leer lassen.</translation>
     </message>
 </context>
 </TS>

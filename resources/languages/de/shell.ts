@@ -491,24 +491,12 @@
         <translation>Die Anordnung ist als {name!r} gespeichert.</translation>
     </message>
     <message>
-        <source>The layout {name!r} cannot be read; delete it and save it anew.</source>
-        <translation>Die Anordnung {name!r} ist nicht lesbar; löschen und neu speichern.</translation>
-    </message>
-    <message>
-        <source>a fault of the program: {name}: {error}</source>
-        <translation>ein Fehler des Programms: {name}: {error}</translation>
-    </message>
-    <message>
         <source>Inspecting {name} …</source>
         <translation>{name} wird untersucht …</translation>
     </message>
     <message>
         <source>Columns of {name}</source>
         <translation>Spalten von {name}</translation>
-    </message>
-    <message>
-        <source>The file has no header. Say what each column holds:</source>
-        <translation>Die Datei hat keinen Kopf. Was steht in welcher Spalte?</translation>
     </message>
     <message>
         <source>column {number}</source>
@@ -547,10 +535,6 @@
         <translation>Trajektorie aus Auf&amp;zeichnung …</translation>
     </message>
     <message>
-        <source>Take the commands of a record of the library in hand</source>
-        <translation>Die Sollwerte einer Aufzeichnung der Bibliothek laden</translation>
-    </message>
-    <message>
         <source>&amp;Open record …</source>
         <translation>Aufzeichnung &amp;öffnen …</translation>
     </message>
@@ -587,10 +571,6 @@
         <translation>es liegt kein Fehler vor</translation>
     </message>
     <message>
-        <source>it is connected</source>
-        <translation>es ist verbunden</translation>
-    </message>
-    <message>
         <source>&amp;Motion</source>
         <translation>&amp;Bewegung</translation>
     </message>
@@ -607,20 +587,8 @@
         <translation>&amp;Halt</translation>
     </message>
     <message>
-        <source>Stop all axes and hold (Esc)</source>
-        <translation>Alle Achsen anhalten und halten (Esc)</translation>
-    </message>
-    <message>
-        <source>Latched (Shift+Esc)</source>
-        <translation>Rastet ein (Umschalt+Esc)</translation>
-    </message>
-    <message>
         <source>the machine is not locked</source>
         <translation>die Maschine ist nicht gesperrt</translation>
-    </message>
-    <message>
-        <source>there is no move to undo</source>
-        <translation>keine Bewegung zum Zurücknehmen</translation>
     </message>
     <message>
         <source>Stop and loc&amp;k</source>
@@ -633,10 +601,6 @@
     <message>
         <source>Let axes move</source>
         <translation>Achsen dürfen sich bewegen</translation>
-    </message>
-    <message>
-        <source>&amp;Back to before the latest move</source>
-        <translation>Letzte Bewegung &amp;rückgängig</translation>
     </message>
     <message>
         <source>Retract, travel, approach</source>
@@ -653,10 +617,6 @@
     <message>
         <source>&amp;Clear fault</source>
         <translation>Fehler &amp;quittieren</translation>
-    </message>
-    <message>
-        <source>Acknowledge it</source>
-        <translation>Zur Kenntnis nehmen</translation>
     </message>
     <message>
         <source>C&amp;onnect …</source>
@@ -681,14 +641,6 @@
     <message>
         <source>Stop and disconnect</source>
         <translation>Anhalten und trennen</translation>
-    </message>
-    <message>
-        <source>Save it under a name</source>
-        <translation>Unter einem Namen speichern</translation>
-    </message>
-    <message>
-        <source>Put all docks back</source>
-        <translation>Alle Panels zurücksetzen</translation>
     </message>
     <message>
         <source>The panel that has the focus</source>
@@ -727,20 +679,12 @@
         <translation>Schrift passend zum Bildschirm</translation>
     </message>
     <message>
-        <source>By its height</source>
-        <translation>Nach seiner Höhe</translation>
-    </message>
-    <message>
         <source>&amp;Help</source>
         <translation>&amp;Hilfe</translation>
     </message>
     <message>
         <source>&amp;Find a command …</source>
         <translation>Befehl &amp;suchen …</translation>
-    </message>
-    <message>
-        <source>By letters</source>
-        <translation>Mit Buchstaben</translation>
     </message>
     <message>
         <source>Help on this &amp;panel</source>
@@ -771,10 +715,6 @@
         <translation>Support-Pa&amp;ket …</translation>
     </message>
     <message>
-        <source>Log, settings, versions and record for those who help</source>
-        <translation>Protokoll, Einstellungen, Versionen und Aufzeichnung für Helfende</translation>
-    </message>
-    <message>
         <source>A&amp;bout RoTeMiNa</source>
         <translation>&amp;Über RoTeMiNa</translation>
     </message>
@@ -785,10 +725,6 @@
     <message>
         <source>Panel</source>
         <translation>Panel</translation>
-    </message>
-    <message>
-        <source>its panel does not allow it now</source>
-        <translation>sein Panel lässt es jetzt nicht zu</translation>
     </message>
     <message>
         <source>Help on {title} (F1)</source>
@@ -819,36 +755,8 @@
         <translation>Alle Seiten (Alt+Pos1)</translation>
     </message>
     <message>
-        <source>{address} is not carried by the program; it is in the folder docs of its source, and on the site that `make docs` makes.</source>
-        <translation>{address} ist nicht im Programm enthalten; zu finden im Ordner docs der Quellen und auf den Seiten, die `make docs` macht.</translation>
-    </message>
-    <message>
-        <source># No such page
-
-The program carries no page {name!r}. [All pages]</source>
-        <translation># Keine solche Seite
-
-Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
-    </message>
-    <message>
         <source>Help: {text}</source>
         <translation>Hilfe: {text}</translation>
-    </message>
-    <message>
-        <source>there is no page before this one</source>
-        <translation>es gibt keine Seite vor dieser</translation>
-    </message>
-    <message>
-        <source>The page before (Alt+Left)</source>
-        <translation>Die Seite davor (Alt+Links)</translation>
-    </message>
-    <message>
-        <source>Stop all axes and hold; a stop by software</source>
-        <translation>Alle Achsen anhalten und halten; ein Halt durch Software</translation>
-    </message>
-    <message>
-        <source>Stop and lock: nothing moves until it is released; a stop by software</source>
-        <translation>Halt und sperren: Nichts bewegt sich bis zur Freigabe; ein Halt durch Software</translation>
     </message>
     <message>
         <source>Keys</source>
@@ -861,10 +769,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>My layouts</source>
         <translation>Eigene Anordnungen</translation>
-    </message>
-    <message>
-        <source>None is saved yet</source>
-        <translation>Noch keine gespeichert</translation>
     </message>
     <message>
         <source>Delete</source>
@@ -883,10 +787,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>&amp;Bedienen</translation>
     </message>
     <message>
-        <source>Drive the machine: control, job, events, trajectory, penetration, recorder</source>
-        <translation>Die Maschine fahren: Steuerung, Auftrag, Ereignisse, Trajektorie, Penetration, Rekorder</translation>
-    </message>
-    <message>
         <source>T&amp;une</source>
         <translation>Ab&amp;stimmen</translation>
     </message>
@@ -899,10 +799,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Dia&amp;gnose</translation>
     </message>
     <message>
-        <source>Find out why the machine departs from its model: gap, comparison, effects</source>
-        <translation>Herausfinden, warum die Maschine vom Modell abweicht: Abweichung, Vergleich, Effekte</translation>
-    </message>
-    <message>
         <source>&amp;Set up</source>
         <translation>&amp;Einrichten</translation>
     </message>
@@ -911,20 +807,8 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Die Maschine vorbereiten: Verbindung, Geräte, Kamera, Kalibrierung, Halteplatte</translation>
     </message>
     <message>
-        <source>write a name</source>
-        <translation>einen Namen schreiben</translation>
-    </message>
-    <message>
-        <source>the name has {n} letters; {most} are the most</source>
-        <translation>der Name hat {n} Zeichen; höchstens {most} sind möglich</translation>
-    </message>
-    <message>
         <source>{name} is a layout of the program; choose another name</source>
         <translation>{name} ist eine Anordnung des Programms; einen anderen Namen wählen</translation>
-    </message>
-    <message>
-        <source>{n} layouts are kept, which is the most; delete one first</source>
-        <translation>{n} Anordnungen sind gespeichert, mehr geht nicht; erst eine löschen</translation>
     </message>
     <message>
         <source>Time</source>
@@ -971,40 +855,20 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Fehler</translation>
     </message>
     <message>
-        <source>How long the window took to react since it was started. When it does not react for a quarter of a second, the log says what it did.</source>
-        <translation>Wie lange das Fenster seit dem Start zum Reagieren brauchte. Reagiert es eine Viertelsekunde nicht, sagt das Protokoll, was es tat.</translation>
-    </message>
-    <message>
         <source>Log</source>
         <translation>Protokoll</translation>
-    </message>
-    <message>
-        <source>Which messages</source>
-        <translation>Welche Meldungen</translation>
     </message>
     <message>
         <source>search words</source>
         <translation>Suchwörter</translation>
     </message>
     <message>
-        <source>Words to search the messages for</source>
-        <translation>Wörter, nach denen die Meldungen durchsucht werden</translation>
-    </message>
-    <message>
         <source>Copy</source>
         <translation>Kopieren</translation>
     </message>
     <message>
-        <source>Help on the chosen message</source>
-        <translation>Hilfe zur gewählten Meldung</translation>
-    </message>
-    <message>
         <source>{n} of {all} messages</source>
         <translation>{n} von {all} Meldungen</translation>
-    </message>
-    <message>
-        <source>Copy the selected messages, or all that are shown</source>
-        <translation>Die gewählten Meldungen kopieren oder alle gezeigten</translation>
     </message>
     <message>
         <source>no message is shown</source>
@@ -1013,18 +877,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>Window late by {usual} ms at most in 99 %, worst {worst} ms</source>
         <translation>Fenster zu 99 % höchstens {usual} ms verspätet, schlimmstens {worst} ms</translation>
-    </message>
-    <message>
-        <source>no page is about it</source>
-        <translation>keine Seite handelt davon</translation>
-    </message>
-    <message>
-        <source>choose one message</source>
-        <translation>eine Meldung wählen</translation>
-    </message>
-    <message>
-        <source>What the message means: {page}</source>
-        <translation>Was die Meldung bedeutet: {page}</translation>
     </message>
     <message>
         <source>Messages, newest first</source>
@@ -1075,24 +927,12 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Anordnung</translation>
     </message>
     <message>
-        <source>The window closes as soon as everything is written. Close it once more to leave at once: a recording can be recovered at the next start.</source>
-        <translation>Das Fenster schließt, sobald alles geschrieben ist. Nochmals schließen beendet sofort: Eine Aufnahme ist beim nächsten Start wiederherstellbar.</translation>
-    </message>
-    <message>
-        <source>A trajectory is playing. Quitting stops it; what was played is kept.</source>
-        <translation>Eine Trajektorie wird abgespielt. Beenden hält sie an; was abgespielt wurde, bleibt erhalten.</translation>
-    </message>
-    <message>
         <source>The machine is moving. Quitting stops it.</source>
         <translation>Die Maschine bewegt sich. Beenden hält sie an.</translation>
     </message>
     <message>
         <source>Stop and quit</source>
         <translation>Anhalten und beenden</translation>
-    </message>
-    <message>
-        <source>The last played record is in no file yet: quitting now loses it. Stay, and save it with Ctrl+S.</source>
-        <translation>Die zuletzt abgespielte Aufzeichnung ist noch in keiner Datei: Beenden verliert sie. Bleiben Sie, und speichern Sie sie mit Strg+S.</translation>
     </message>
     <message>
         <source>Quit and lose it</source>
@@ -1111,10 +951,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Dies ist ein Halt durch Software, nicht der Not-Aus-Schalter der Maschine.</translation>
     </message>
     <message>
-        <source>Stop all axes, and let nothing move until it is released (Shift+Esc).</source>
-        <translation>Alle Achsen anhalten; nichts bewegt sich bis zur Freigabe (Umschalt+Esc).</translation>
-    </message>
-    <message>
         <source>Stop and lock</source>
         <translation>Halt und sperren</translation>
     </message>
@@ -1125,10 +961,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>Locked: {latched}.</source>
         <translation>Gesperrt: {latched}.</translation>
-    </message>
-    <message>
-        <source>Press to release; nothing moves until it is told to.</source>
-        <translation>Drücken gibt frei; ohne Befehl bewegt sich nichts.</translation>
     </message>
     <message>
         <source>Warnings and errors since the log was opened (Ctrl+L)</source>
@@ -1155,10 +987,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Freigeben</translation>
     </message>
     <message>
-        <source>Let the machine move again; nothing moves by itself</source>
-        <translation>Die Maschine darf sich wieder bewegen; von selbst bewegt sich nichts</translation>
-    </message>
-    <message>
         <source>Clear fault</source>
         <translation>Fehler quittieren</translation>
     </message>
@@ -1171,24 +999,12 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Referenzfahrt</translation>
     </message>
     <message>
-        <source>Find the limit switches of all axes that have some: they move</source>
-        <translation>Die Endschalter aller Achsen suchen, die welche haben: sie bewegen sich</translation>
-    </message>
-    <message>
         <source>STOP (Esc)</source>
         <translation>HALT (Esc)</translation>
     </message>
     <message>
-        <source>Stop all axes and hold (Esc); a second press within 1 s locks.</source>
-        <translation>Alle Achsen anhalten und halten (Esc); ein zweiter Druck innerhalb von 1 s sperrt.</translation>
-    </message>
-    <message>
         <source>Close this notice</source>
         <translation>Diese Meldung schließen</translation>
-    </message>
-    <message>
-        <source>What this means, and what to do: {page}</source>
-        <translation>Was das bedeutet und was zu tun ist: {page}</translation>
     </message>
     <message>
         <source>Help on this notice</source>
@@ -1292,11 +1108,11 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>Stopped by the operator at {time}</source>
-        <translation>Vom Bediener um {time} gestoppt</translation>
+        <translation>Vom Bediener um {time} angehalten</translation>
     </message>
     <message>
         <source>Stopped by the program at {time}</source>
-        <translation>Vom Programm um {time} gestoppt</translation>
+        <translation>Vom Programm um {time} angehalten</translation>
     </message>
     <message>
         <source>Phase of the session</source>
@@ -1314,10 +1130,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     <message>
         <source>{doing} Cancelled; nothing was changed.</source>
         <translation>{doing} Abgebrochen; nichts wurde geändert.</translation>
-    </message>
-    <message>
-        <source>{doing} Being cancelled.</source>
-        <translation>{doing} Wird abgebrochen.</translation>
     </message>
     <message>
         <source>{doing} Running for {passed}.</source>
@@ -1348,36 +1160,16 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>● {time}  {size}</translation>
     </message>
     <message>
-        <source>A recording runs: its time and size</source>
-        <translation>Eine Aufzeichnung läuft: ihre Dauer und Größe</translation>
-    </message>
-    <message>
         <source>Phase in the recording</source>
         <translation>Phase in der Aufnahme</translation>
-    </message>
-    <message>
-        <source>The machine&apos;s state at that time; its present state is in the tool bar</source>
-        <translation>Damaliger Zustand der Maschine; der jetzige steht in der Werkzeugleiste</translation>
-    </message>
-    <message>
-        <source>The machine moves now</source>
-        <translation>Die Maschine bewegt sich</translation>
     </message>
     <message>
         <source>Back to live</source>
         <translation>Zurück zu live</translation>
     </message>
     <message>
-        <source>Show the machine again, and let it be moved</source>
-        <translation>Wieder die Maschine zeigen und bewegen lassen</translation>
-    </message>
-    <message>
         <source>Resume or pause the replay</source>
         <translation>Wiedergabe fortsetzen oder anhalten</translation>
-    </message>
-    <message>
-        <source>Time of the recording. Marks: faults, then stops, refusals and warnings, then the rest</source>
-        <translation>Zeit der Aufnahme. Marken: Fehler, dann Halte, Ablehnungen und Warnungen, dann der Rest</translation>
     </message>
     <message>
         <source>Time of the replay and its length</source>
@@ -1424,18 +1216,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Herausfinden, warum Modell und Maschine voneinander abweichen</translation>
     </message>
     <message>
-        <source>the axes still move</source>
-        <translation>die Achsen bewegen sich noch</translation>
-    </message>
-    <message>
-        <source>Nothing real moves with the simulator</source>
-        <translation>Mit dem Simulator bewegt sich nichts Wirkliches</translation>
-    </message>
-    <message>
-        <source>A trajectory for this robot, tried on the model first</source>
-        <translation>Eine Trajektorie für diesen Roboter, erst am Modell probiert</translation>
-    </message>
-    <message>
         <source>Esc stops</source>
         <translation>Esc hält an</translation>
     </message>
@@ -1448,36 +1228,12 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Tempo der Wiedergabe</translation>
     </message>
     <message>
-        <source>a replay of {name} is shown; go back to live first</source>
-        <translation>eine Wiedergabe von {name} wird gezeigt; erst zurück zu live</translation>
-    </message>
-    <message>
         <source>{name} cannot be shown: a penetration is {phase}; end it first</source>
         <translation>{name} kann nicht gezeigt werden: eine Penetration läuft ({phase}); erst beenden</translation>
     </message>
     <message>
-        <source>{name} cannot be shown: the machine moves; wait, or stop it first</source>
-        <translation>{name} kann nicht gezeigt werden: die Maschine bewegt sich; warten oder erst anhalten</translation>
-    </message>
-    <message>
-        <source>{name}: recorded on robot {robot!r} with axes {axes}; this window&apos;s has {here}. Start a window for it: rotemina recording info --robot-file {path} &gt; {file} &amp;&amp; rotemina --robot {file}</source>
-        <translation>{name}: aufgenommen am Roboter {robot!r} mit den Achsen {axes}; der dieses Fensters hat {here}. Ein Fenster dafür starten: rotemina recording info --robot-file {path} &gt; {file} &amp;&amp; rotemina --robot {file}</translation>
-    </message>
-    <message>
-        <source>{name}: recorded with another robot file; ranges and scales on the screen are those of this window&apos;s</source>
-        <translation>{name}: mit einer anderen Roboterdatei aufgenommen; Bereiche und Skalen sind die dieses Fensters</translation>
-    </message>
-    <message>
-        <source>driver {name!r} cannot be made: {kind}: {error}</source>
-        <translation>Treiber {name!r} lässt sich nicht anlegen: {kind}: {error}</translation>
-    </message>
-    <message>
-        <source>{latched} latched</source>
-        <translation>{latched} eingerastet</translation>
-    </message>
-    <message>
         <source>data {age} old</source>
-        <translation>Daten {age} alt</translation>
+        <translation>Daten von vor {age}</translation>
     </message>
     <message>
         <source>stop latency {ms:.1f} ms (99.9 %)</source>
@@ -1492,28 +1248,12 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Meldungen des Programms seit dem Start</translation>
     </message>
     <message>
-        <source>Preferences of the screen, and settings of drivers</source>
-        <translation>Vorlieben der Anzeige und Einstellungen der Treiber</translation>
-    </message>
-    <message>
         <source>Versions of the program, its libraries and plugins</source>
         <translation>Versionen des Programms, seiner Bibliotheken und Plugins</translation>
     </message>
     <message>
-        <source>Robot, driver, and how the connection stands</source>
-        <translation>Roboter, Treiber und Stand der Verbindung</translation>
-    </message>
-    <message>
-        <source>How late the window reacted; the log says to what</source>
-        <translation>Wie spät das Fenster reagierte; das Protokoll sagt, worauf</translation>
-    </message>
-    <message>
         <source>The last record: commands and readings</source>
         <translation>Die letzte Aufzeichnung: Sollwerte und Messwerte</translation>
-    </message>
-    <message>
-        <source>This is what the bundle will hold. User names, home folders and the name of this computer are taken out already. Nothing is sent: the archive is written where you choose.</source>
-        <translation>Das wird das Paket enthalten. Benutzernamen, Heimatordner und der Name dieses Rechners sind schon entfernt. Nichts wird gesendet: Das Archiv entsteht am gewählten Ort.</translation>
     </message>
     <message>
         <source>Support bundle</source>
@@ -1556,10 +1296,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>das Paket wird noch zusammengestellt</translation>
     </message>
     <message>
-        <source>Write all of it into one zip archive</source>
-        <translation>Alles in ein Zip-Archiv schreiben</translation>
-    </message>
-    <message>
         <source>Time of the replay</source>
         <translation>Zeit der Wiedergabe</translation>
     </message>
@@ -1600,24 +1336,8 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Abspielen angehalten: {text}. Die Maschine prüfen, dann fortsetzen oder beenden.</translation>
     </message>
     <message>
-        <source>Playbacks take {size}, more than {most} GB (preference {key}). None is deleted by itself: delete those that you do not need in the panel Recorder.</source>
-        <translation>Wiedergaben belegen {size}, mehr als {most} GB (Einstellung {key}). Keine wird von selbst gelöscht: Löschen Sie im Panel Rekorder, was Sie nicht brauchen.</translation>
-    </message>
-    <message>
-        <source>Only {free} are free where records are kept, of which playbacks take {size}. None is deleted by itself: delete those that you do not need in the panel Recorder.</source>
-        <translation>Nur {free} sind frei, wo Aufzeichnungen liegen; Wiedergaben belegen {size}. Keine wird von selbst gelöscht: Löschen Sie im Panel Rekorder, was Sie nicht brauchen.</translation>
-    </message>
-    <message>
-        <source>{parent}: cannot be made: {strerror}</source>
-        <translation>{parent}: lässt sich nicht anlegen: {strerror}</translation>
-    </message>
-    <message>
-        <source>Keeping {name} …</source>
-        <translation>{name} wird aufbewahrt …</translation>
-    </message>
-    <message>
         <source>The nominal model is in use again: {why}.</source>
-        <translation>Das Nominalmodell ist wieder im Einsatz: {why}.</translation>
+        <translation>Das Nominalmodell wird wieder verwendet: {why}.</translation>
     </message>
     <message>
         <source>{name}: stopped before its first row was played.</source>
@@ -1644,11 +1364,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Sp&amp;rache</translation>
     </message>
     <message>
-        <source>RoTeMiNa has a fault: {error}. The log has more; save a support bundle.</source>
-        <extracomment>What a panel may raise in slots and timers before it is left out.</extracomment>
-        <translation>RoTeMiNa hat einen Fehler: {error}. Mehr steht im Protokoll; speichern Sie ein Support-Paket.</translation>
-    </message>
-    <message>
         <source>Panel {name!r} is left out: it cannot be drawn: {error}</source>
         <translation>Panel {name!r} wird ausgelassen: es lässt sich nicht zeichnen: {error}</translation>
     </message>
@@ -1661,18 +1376,6 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Das Panel {name!r} hat einen Fehler gemeldet: {error}</translation>
     </message>
     <message>
-        <source>No range is narrowed: {error}. Narrow them again in Control, Axes.</source>
-        <translation>Kein Bereich ist eingeengt: {error}. Unter Steuerung, Achsen wieder einengen.</translation>
-    </message>
-    <message>
-        <source>The preferences begin anew: {fault}. That file is kept as {path}.</source>
-        <translation>Die Einstellungen beginnen neu: {fault}. Diese Datei ist als {path} aufgehoben.</translation>
-    </message>
-    <message>
-        <source>The preferences begin anew, and none is kept: {fault}. Move that file away.</source>
-        <translation>Die Einstellungen beginnen neu, und keine wird behalten: {fault}. Verschieben Sie diese Datei.</translation>
-    </message>
-    <message>
         <source>Gap, last 10 s</source>
         <translation>Abweichung, letzte 10 s</translation>
     </message>
@@ -1681,16 +1384,12 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Abweichung, dieser Lauf</translation>
     </message>
     <message>
-        <source>nothing moved</source>
-        <translation>nichts hat sich bewegt</translation>
-    </message>
-    <message>
         <source>without offset {without} · nominal {nominal}</source>
         <translation>ohne Versatz {without} · nominal {nominal}</translation>
     </message>
     <message>
         <source>Model in use</source>
-        <translation>Modell im Einsatz</translation>
+        <translation>Verwendetes Modell</translation>
     </message>
     <message>
         <source>Back to nominal</source>
@@ -1698,15 +1397,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>The model that plots, comparison, dry run and 3-D view use.</source>
-        <translation>Das Modell, das Kurven, Vergleich, Probelauf und 3-D-Ansicht verwenden.</translation>
-    </message>
-    <message>
-        <source>Predictions only: what is sent to the machine does not change; Compensate does that.</source>
-        <translation>Nur Vorhersagen: Was an die Maschine geht, ändert sich nicht; das tut „Kompensieren“.</translation>
-    </message>
-    <message>
-        <source>≈ What {axes} did before is not known: until it has swung through its range, the model may be off by the band in the plots.</source>
-        <translation>≈ Was {axes} zuvor getan hat, ist nicht bekannt: Bis der ganze Bereich einmal durchfahren ist, kann das Modell um das Band in den Kurven danebenliegen.</translation>
+        <translation>Das Modell, das Diagramme, Vergleich, Probelauf und 3-D-Ansicht verwenden.</translation>
     </message>
     <message>
         <source>Nominal model</source>
@@ -1729,26 +1420,8 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>MASCHINE</translation>
     </message>
     <message>
-        <source>The built-in simulator: nothing real moves.</source>
-        <translation>Der eingebaute Simulator: nichts Wirkliches bewegt sich.</translation>
-    </message>
-    <message>
-        <source>Boards that this computer emulates, behind ports of its own: nothing real moves.</source>
-        <translation>Karten, die dieser Rechner an eigenen Anschlüssen nachbildet: nichts Wirkliches bewegt sich.</translation>
-    </message>
-    <message>
-        <source>A real machine moves when this window says so.</source>
-        <translation>Eine wirkliche Maschine bewegt sich, wenn dieses Fenster es sagt.</translation>
-    </message>
-    <message>
         <source>About RoTeMiNa</source>
         <translation>Über RoTeMiNa</translation>
-    </message>
-    <message>
-        <source>RoTeMiNa {version}
-The window of a hybrid robot of cell manipulation, with the diagnosis of its gap between model and machine.</source>
-        <translation>RoTeMiNa {version}
-Das Fenster eines hybriden Roboters zur Zellmanipulation, mit der Diagnose der Abweichung zwischen Modell und Maschine.</translation>
     </message>
     <message>
         <source>Licence: MIT
@@ -1769,24 +1442,12 @@ Einstellungen: {settings}</translation>
         <translation>Zuletzt verwendete &amp;Dateien</translation>
     </message>
     <message>
-        <source>None yet</source>
-        <translation>Noch keine</translation>
-    </message>
-    <message>
         <source>Who moves the machine</source>
         <translation>Wer die Maschine bewegt</translation>
     </message>
     <message>
         <source>Free</source>
         <translation>Frei</translation>
-    </message>
-    <message>
-        <source>Who moves the machine: an axis that moves is one owner&apos;s</source>
-        <translation>Wer die Maschine bewegt: Eine Achse, die fährt, gehört nur einem</translation>
-    </message>
-    <message>
-        <source>Nobody does now.</source>
-        <translation>Zurzeit niemand.</translation>
     </message>
     <message>
         <source>Open or close this panel</source>
@@ -1799,18 +1460,6 @@ Einstellungen: {settings}</translation>
     <message>
         <source>Other file …</source>
         <translation>Andere Datei …</translation>
-    </message>
-    <message>
-        <source>choose a record in the table</source>
-        <translation>eine Aufzeichnung in der Tabelle wählen</translation>
-    </message>
-    <message>
-        <source>Use the chosen records</source>
-        <translation>Die gewählten Aufzeichnungen benutzen</translation>
-    </message>
-    <message>
-        <source>Gap from the model in use at that time, of the axis with most noise floors</source>
-        <translation>Abweichung vom damals benutzten Modell, von der Achse mit den meisten Rauschpegeln</translation>
     </message>
     <message>
         <source>Search</source>
@@ -1827,10 +1476,6 @@ Einstellungen: {settings}</translation>
     <message>
         <source>Kind of the records</source>
         <translation>Art der Aufzeichnungen</translation>
-    </message>
-    <message>
-        <source>Which kind of records is listed</source>
-        <translation>Welche Art von Aufzeichnungen aufgelistet wird</translation>
     </message>
     <message>
         <source>All records</source>
@@ -1858,7 +1503,7 @@ Einstellungen: {settings}</translation>
     </message>
     <message>
         <source>Note</source>
-        <translation>Vermerk</translation>
+        <translation>Notiz</translation>
     </message>
     <message>
         <source>Sample</source>
@@ -1913,20 +1558,12 @@ Einstellungen: {settings}</translation>
         <translation>Datei</translation>
     </message>
     <message>
-        <source>Files from elsewhere</source>
-        <translation>Andere Dateien</translation>
-    </message>
-    <message>
-        <source>The file is not there: delete the entry, or say where it is now</source>
-        <translation>Die Datei fehlt: den Eintrag löschen, oder sagen, wo sie jetzt ist</translation>
-    </message>
-    <message>
         <source>cannot be opened: {problem}</source>
         <translation>lässt sich nicht öffnen: {problem}</translation>
     </message>
     <message>
         <source>The file has changed since it was listed</source>
-        <translation>Die Datei hat sich geändert, seit sie in der Liste ist</translation>
+        <translation>Die Datei hat sich seit dem Eintrag geändert</translation>
     </message>
     <message>
         <source>Run: {run}</source>
@@ -1935,6 +1572,369 @@ Einstellungen: {settings}</translation>
     <message>
         <source>Events: {n}</source>
         <translation>Ereignisse: {n}</translation>
+    </message>
+    <message>
+        <source>there is no previous page</source>
+        <translation>es gibt keine vorige Seite</translation>
+    </message>
+    <message>
+        <source>Previous page (Alt+Left)</source>
+        <translation>Vorige Seite (Alt+Links)</translation>
+    </message>
+    <message>
+        <source># No such page
+
+The program has no page {name!r}. [All pages]</source>
+        <translation># Keine solche Seite
+
+Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
+    </message>
+    <message>
+        <source>The program does not contain {address}; see the folder docs of its source, or the site that `make docs` builds.</source>
+        <translation>Das Programm enthält {address} nicht; siehe den Ordner docs der Quellen oder die Seiten, die `make docs` erzeugt.</translation>
+    </message>
+    <message>
+        <source>Stop all axes and hold their positions; a software stop</source>
+        <translation>Alle Achsen anhalten und ihre Position halten; ein Halt durch Software</translation>
+    </message>
+    <message>
+        <source>Stop and lock: nothing moves until release; a software stop</source>
+        <translation>Halt und sperren: bis zur Freigabe bewegt sich nichts; ein Halt durch Software</translation>
+    </message>
+    <message>
+        <source>Release the lock; nothing moves by itself</source>
+        <translation>Die Sperre lösen; von selbst bewegt sich nichts</translation>
+    </message>
+    <message>
+        <source>Find the limit switches of all axes with switches; these axes move</source>
+        <translation>Die Endschalter aller Achsen suchen, die welche haben; diese Achsen bewegen sich</translation>
+    </message>
+    <message>
+        <source>Operate the machine: control, job, events, trajectory, penetration, recorder</source>
+        <translation>Die Maschine bedienen: Steuerung, Auftrag, Ereignisse, Trajektorie, Penetration, Rekorder</translation>
+    </message>
+    <message>
+        <source>Find out why machine and model differ: gap, comparison, effects</source>
+        <translation>Herausfinden, warum die Maschine vom Modell abweicht: Abweichung, Vergleich, Effekte</translation>
+    </message>
+    <message>
+        <source>enter a name</source>
+        <translation>einen Namen eingeben</translation>
+    </message>
+    <message>
+        <source>the name has {n} letters; at most {most} are possible</source>
+        <translation>der Name hat {n} Zeichen; höchstens {most} sind möglich</translation>
+    </message>
+    <message>
+        <source>{n} layouts, the maximum, are saved; delete one first</source>
+        <translation>{n} Anordnungen, die Höchstzahl, sind gespeichert; erst eine löschen</translation>
+    </message>
+    <message>
+        <source>Meaning and remedy: {page}</source>
+        <translation>Bedeutung und Abhilfe: {page}</translation>
+    </message>
+    <message>
+        <source>driver {name!r} cannot be created: {kind}: {error}</source>
+        <translation>Treiber {name!r} lässt sich nicht anlegen: {kind}: {error}</translation>
+    </message>
+    <message>
+        <source>select a record in the table</source>
+        <translation>eine Aufzeichnung in der Tabelle wählen</translation>
+    </message>
+    <message>
+        <source>Use the selected records</source>
+        <translation>Die gewählten Aufzeichnungen benutzen</translation>
+    </message>
+    <message>
+        <source>Gap from the model in use at that time, of the axis with the most noise floors</source>
+        <translation>Abweichung vom damals verwendeten Modell, von der Achse mit den meisten Rauschgrenzen</translation>
+    </message>
+    <message>
+        <source>Kind of records to list</source>
+        <translation>Art der aufgelisteten Aufzeichnungen</translation>
+    </message>
+    <message>
+        <source>Storing {name} …</source>
+        <translation>{name} wird gespeichert …</translation>
+    </message>
+    <message>
+        <source>The built-in simulator: no real machine moves.</source>
+        <translation>Der eingebaute Simulator: keine wirkliche Maschine bewegt sich.</translation>
+    </message>
+    <message>
+        <source>Boards that this computer emulates on its own ports: no real machine moves.</source>
+        <translation>Karten, die dieser Rechner an eigenen Anschlüssen nachbildet: keine wirkliche Maschine bewegt sich.</translation>
+    </message>
+    <message>
+        <source>Commands of this window move a real machine.</source>
+        <translation>Befehle dieses Fensters bewegen eine wirkliche Maschine.</translation>
+    </message>
+    <message>
+        <source>Other files</source>
+        <translation>Andere Dateien</translation>
+    </message>
+    <message>
+        <source>The file is missing: delete the entry, or find the file</source>
+        <translation>Die Datei fehlt: den Eintrag löschen oder die Datei suchen</translation>
+    </message>
+    <message>
+        <source>No layout is saved</source>
+        <translation>Keine gespeichert</translation>
+    </message>
+    <message>
+        <source>Display preferences, and driver settings</source>
+        <translation>Einstellungen der Anzeige und der Treiber</translation>
+    </message>
+    <message>
+        <source>Robot, driver and state of the connection</source>
+        <translation>Roboter, Treiber und Zustand der Verbindung</translation>
+    </message>
+    <message>
+        <source>Delays of the window; the log names their causes</source>
+        <translation>Verzögerungen des Fensters; das Protokoll nennt ihre Ursachen</translation>
+    </message>
+    <message>
+        <source>its panel does not permit it now</source>
+        <translation>sein Panel lässt es jetzt nicht zu</translation>
+    </message>
+    <message>
+        <source>State of the machine at that time; the tool bar shows the present state</source>
+        <translation>Damaliger Zustand der Maschine; die Werkzeugleiste zeigt den jetzigen</translation>
+    </message>
+    <message>
+        <source>The machine is moving now</source>
+        <translation>Die Maschine bewegt sich</translation>
+    </message>
+    <message>
+        <source>Show the machine again and permit motion</source>
+        <translation>Wieder die Maschine zeigen und Bewegung zulassen</translation>
+    </message>
+    <message>
+        <source>Time of the recording. Marks, by importance: faults; stops, refusals and warnings; others</source>
+        <translation>Zeit der Aufnahme. Marken nach Wichtigkeit: Fehler; Halte, Ablehnungen und Warnungen; andere</translation>
+    </message>
+    <message>
+        <source>The window closes as soon as everything is written. Close it again to leave at once; the recording can then be recovered at the next start.</source>
+        <translation>Das Fenster schließt, sobald alles geschrieben ist. Nochmals schließen beendet sofort; die Aufnahme lässt sich dann beim nächsten Start wiederherstellen.</translation>
+    </message>
+    <message>
+        <source>{doing} Cancelling.</source>
+        <translation>{doing} Wird abgebrochen.</translation>
+    </message>
+    <message>
+        <source>Predictions only: commands to the machine do not change. The panel Compensation changes them.</source>
+        <translation>Nur Vorhersagen: Sollwerte an die Maschine ändern sich nicht. Das tut das Panel Kompensation.</translation>
+    </message>
+    <message>
+        <source>≈ The history of {axes} is unknown: until it has swept its range, the model may be off by the band in the plots.</source>
+        <translation>≈ Die Vorgeschichte von {axes} ist unbekannt: bis der ganze Bereich einmal durchfahren ist, kann das Modell um das Band in den Diagrammen danebenliegen.</translation>
+    </message>
+    <message>
+        <source>the axes are still moving</source>
+        <translation>die Achsen bewegen sich noch</translation>
+    </message>
+    <message>
+        <source>The simulator moves no real machine</source>
+        <translation>Der Simulator bewegt keine wirkliche Maschine</translation>
+    </message>
+    <message>
+        <source>A trajectory for this robot, checked on the model first</source>
+        <translation>Eine Trajektorie für diesen Roboter, zuerst am Modell geprüft</translation>
+    </message>
+    <message>
+        <source>Load the commands of a record of the library</source>
+        <translation>Die Sollwerte einer Aufzeichnung der Bibliothek laden</translation>
+    </message>
+    <message>
+        <source>there is no previous position</source>
+        <translation>es gibt keine frühere Position</translation>
+    </message>
+    <message>
+        <source>already connected</source>
+        <translation>schon verbunden</translation>
+    </message>
+    <message>
+        <source>Stop all axes and hold their positions (Esc)</source>
+        <translation>Alle Achsen anhalten und ihre Position halten (Esc)</translation>
+    </message>
+    <message>
+        <source>Locks until release (Shift+Esc)</source>
+        <translation>Sperrt bis zur Freigabe (Umschalt+Esc)</translation>
+    </message>
+    <message>
+        <source>&amp;Back to the previous position</source>
+        <translation>&amp;Zurück zur vorigen Position</translation>
+    </message>
+    <message>
+        <source>Acknowledge the fault</source>
+        <translation>Den Fehler quittieren</translation>
+    </message>
+    <message>
+        <source>Save the layout under a name</source>
+        <translation>Die Anordnung unter einem Namen speichern</translation>
+    </message>
+    <message>
+        <source>Restore all docks</source>
+        <translation>Alle Panels zurücksetzen</translation>
+    </message>
+    <message>
+        <source>By the height of the screen</source>
+        <translation>Nach der Höhe des Bildschirms</translation>
+    </message>
+    <message>
+        <source>By letters of its name</source>
+        <translation>Nach Buchstaben des Namens</translation>
+    </message>
+    <message>
+        <source>Log, settings, versions and record for support</source>
+        <translation>Protokoll, Einstellungen, Versionen und Aufzeichnung für den Support</translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation>Keine</translation>
+    </message>
+    <message>
+        <source>Reaction time of the window since its start. The log names the cause of any delay above a quarter of a second.</source>
+        <translation>Reaktionszeit des Fensters seit dem Start. Das Protokoll nennt die Ursache jeder Verzögerung über einer Viertelsekunde.</translation>
+    </message>
+    <message>
+        <source>Copy the selected messages, or all displayed ones</source>
+        <translation>Die gewählten Meldungen kopieren oder alle gezeigten</translation>
+    </message>
+    <message>
+        <source>Messages to show</source>
+        <translation>Gezeigte Meldungen</translation>
+    </message>
+    <message>
+        <source>Words to search for in the messages</source>
+        <translation>Wörter, nach denen die Meldungen durchsucht werden</translation>
+    </message>
+    <message>
+        <source>Help on the selected message</source>
+        <translation>Hilfe zur gewählten Meldung</translation>
+    </message>
+    <message>
+        <source>no page describes it</source>
+        <translation>keine Seite beschreibt sie</translation>
+    </message>
+    <message>
+        <source>select one message</source>
+        <translation>eine Meldung wählen</translation>
+    </message>
+    <message>
+        <source>Meaning of the message: {page}</source>
+        <translation>Bedeutung der Meldung: {page}</translation>
+    </message>
+    <message>
+        <source>The preferences were reset: {fault}. The old file is kept as {path}.</source>
+        <translation>Die Einstellungen wurden zurückgesetzt: {fault}. Die alte Datei bleibt als {path} erhalten.</translation>
+    </message>
+    <message>
+        <source>No range is limited: {error}. Set the limits again in Control, Axes.</source>
+        <translation>Kein Bereich ist begrenzt: {error}. Die Grenzen unter Steuerung, Achsen neu setzen.</translation>
+    </message>
+    <message>
+        <source>The preferences were reset and cannot be saved: {fault}. Move that file away.</source>
+        <translation>Die Einstellungen wurden zurückgesetzt und lassen sich nicht speichern: {fault}. Diese Datei verschieben.</translation>
+    </message>
+    <message>
+        <source>The bundle will contain these files. User names, home folders and the name of this computer are already removed. Nothing is sent: you choose where the archive is saved.</source>
+        <translation>Diese Dateien wird das Paket enthalten. Benutzernamen, Heimatordner und der Name dieses Rechners sind schon entfernt. Nichts wird gesendet: das Archiv wird am gewählten Ort gespeichert.</translation>
+    </message>
+    <message>
+        <source>Write all files into one zip archive</source>
+        <translation>Alle Dateien in ein Zip-Archiv schreiben</translation>
+    </message>
+    <message>
+        <source>Who moves the machine: each moving axis has one owner</source>
+        <translation>Wer die Maschine bewegt: jede bewegte Achse hat einen Besitzer</translation>
+    </message>
+    <message>
+        <source>Nobody at present.</source>
+        <translation>Zurzeit niemand.</translation>
+    </message>
+    <message>
+        <source>no motion</source>
+        <translation>keine Bewegung</translation>
+    </message>
+    <message>
+        <source>The record of the last playback is not saved: quitting now loses it. To save it, stay and press Ctrl+S.</source>
+        <translation>Die Aufzeichnung der letzten Wiedergabe ist nicht gespeichert: Beenden verliert sie. Zum Speichern bleiben und Strg+S drücken.</translation>
+    </message>
+    <message>
+        <source>A trajectory is playing. Quitting stops it and keeps the record so far.</source>
+        <translation>Eine Trajektorie wird abgespielt. Beenden hält sie an und behält die bisherige Aufzeichnung.</translation>
+    </message>
+    <message>
+        <source>Stop all axes and block motion until release (Shift+Esc).</source>
+        <translation>Alle Achsen anhalten und Bewegung bis zur Freigabe sperren (Umschalt+Esc).</translation>
+    </message>
+    <message>
+        <source>Press to release; nothing moves without a command.</source>
+        <translation>Drücken gibt frei; ohne Befehl bewegt sich nichts.</translation>
+    </message>
+    <message>
+        <source>Stop all axes and hold their positions (Esc); a second press within 1 s locks.</source>
+        <translation>Alle Achsen anhalten und halten (Esc); ein zweiter Druck innerhalb von 1 s sperrt.</translation>
+    </message>
+    <message>
+        <source>The file has no header. Choose the content of each column:</source>
+        <translation>Die Datei hat keine Kopfzeile. Den Inhalt jeder Spalte wählen:</translation>
+    </message>
+    <message>
+        <source>Playbacks occupy {size}, more than {most} GB (preference {key}). The program deletes none of them: delete unneeded ones in the panel Recorder.</source>
+        <translation>Wiedergaben belegen {size}, mehr als {most} GB (Einstellung {key}). Das Programm löscht keine: nicht mehr benötigte im Panel Rekorder löschen.</translation>
+    </message>
+    <message>
+        <source>Only {free} are free on the disk of the records; playbacks occupy {size}. The program deletes none of them: delete unneeded ones in the panel Recorder.</source>
+        <translation>Nur {free} sind frei auf dem Datenträger der Aufzeichnungen; Wiedergaben belegen {size}. Das Programm löscht keine: nicht mehr benötigte im Panel Rekorder löschen.</translation>
+    </message>
+    <message>
+        <source>{parent}: cannot be created: {strerror}</source>
+        <translation>{parent}: lässt sich nicht anlegen: {strerror}</translation>
+    </message>
+    <message>
+        <source>Program error: {error}. The log has details; please save a support bundle.</source>
+        <extracomment>What a panel may raise in slots and timers before it is left out.</extracomment>
+        <translation>Programmfehler: {error}. Das Protokoll enthält Einzelheiten; bitte ein Support-Paket speichern.</translation>
+    </message>
+    <message>
+        <source>Time and size of the running recording</source>
+        <translation>Dauer und Größe der laufenden Aufnahme</translation>
+    </message>
+    <message>
+        <source>program error: {name}: {error}</source>
+        <translation>Programmfehler: {name}: {error}</translation>
+    </message>
+    <message>
+        <source>{latched} active</source>
+        <translation>{latched} aktiv</translation>
+    </message>
+    <message>
+        <source>{name}: recorded with another robot file; ranges and scales on the screen are those of this window</source>
+        <translation>{name}: mit einer anderen Roboterdatei aufgenommen; Bereiche und Skalen sind die dieses Fensters</translation>
+    </message>
+    <message>
+        <source>a replay of {name} is displayed; go back to live first</source>
+        <translation>eine Wiedergabe von {name} wird gezeigt; erst zurück zu live</translation>
+    </message>
+    <message>
+        <source>{name}: recorded on robot {robot!r} with axes {axes}, but the robot of this window has {here}. Start a window for that robot: rotemina recording info --robot-file {path} &gt; {file} &amp;&amp; rotemina --robot {file}</source>
+        <translation>{name}: aufgenommen am Roboter {robot!r} mit den Achsen {axes}, aber der Roboter dieses Fensters hat {here}. Ein Fenster für jenen Roboter starten: rotemina recording info --robot-file {path} &gt; {file} &amp;&amp; rotemina --robot {file}</translation>
+    </message>
+    <message>
+        <source>{name} cannot be shown: the machine is moving; wait, or stop it first</source>
+        <translation>{name} kann nicht gezeigt werden: die Maschine bewegt sich; warten oder erst anhalten</translation>
+    </message>
+    <message>
+        <source>RoTeMiNa {version}
+Operator&apos;s window of a hybrid robot for cell manipulation, with diagnosis of the gap between model and machine.</source>
+        <translation>RoTeMiNa {version}
+Bedienfenster eines hybriden Roboters zur Zellmanipulation, mit Diagnose der Abweichung zwischen Modell und Maschine.</translation>
+    </message>
+    <message>
+        <source>The layout {name!r} cannot be read; delete it and save it again.</source>
+        <translation>Die Anordnung {name!r} ist nicht lesbar; löschen und neu speichern.</translation>
     </message>
 </context>
 </TS>

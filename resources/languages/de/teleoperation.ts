@@ -23,20 +23,12 @@
         <translation>Schrittvorgabe</translation>
     </message>
     <message>
-        <source>Factor on way, speed and force of every coordinate</source>
-        <translation>Faktor auf Weg, Geschwindigkeit und Kraft jeder Koordinate</translation>
-    </message>
-    <message>
-        <source>Factor that acts now</source>
-        <translation>Faktor, der jetzt wirkt</translation>
-    </message>
-    <message>
         <source>Step</source>
         <translation>Schritt</translation>
     </message>
     <message>
         <source>Moved by {source} of the stick</source>
-        <translation>Bewegt durch {source} des Knüppels</translation>
+        <translation>Bewegt durch {source} des Joysticks</translation>
     </message>
     <message>
         <source>{name} reference in {unit}</source>
@@ -48,27 +40,15 @@
     </message>
     <message>
         <source>{name} deflection of the stick</source>
-        <translation>{name} Auslenkung des Knüppels</translation>
+        <translation>{name} Auslenkung des Joysticks</translation>
     </message>
     <message>
         <source>Deflection of the stick, −100 % to 100 %; dashed: none is active</source>
-        <translation>Auslenkung des Knüppels, −100 % bis 100 %; gestrichelt: keine verlässliche</translation>
+        <translation>Auslenkung des Joysticks, −100 % bis 100 %; gestrichelt: keine wirksam</translation>
     </message>
     <message>
         <source>{name} scaling</source>
         <translation>{name} Skalierung</translation>
-    </message>
-    <message>
-        <source>Felt</source>
-        <translation>Gefühlt</translation>
-    </message>
-    <message>
-        <source>{name} felt contact force</source>
-        <translation>{name} gefühlte Kontaktkraft</translation>
-    </message>
-    <message>
-        <source>How hard a contact pushes back, −100 % to 100 % of the stick&apos;s force</source>
-        <translation>Wie stark ein Kontakt zurückdrückt, −100 % bis 100 % der Kraft des Knüppels</translation>
     </message>
     <message>
         <source>tip</source>
@@ -77,10 +57,6 @@
     <message>
         <source>Coordinates</source>
         <translation>Koordinaten</translation>
-    </message>
-    <message>
-        <source>Shown as soon as the axes&apos; positions are known and a device is there.</source>
-        <translation>Erscheinen, sobald die Achspositionen bekannt sind und ein Gerät da ist.</translation>
     </message>
     <message>
         <source>Scales</source>
@@ -99,14 +75,6 @@
         <translation>Vorgaben</translation>
     </message>
     <message>
-        <source>the axes&apos; positions are not known yet</source>
-        <translation>die Achspositionen sind noch nicht bekannt</translation>
-    </message>
-    <message>
-        <source>they are the presets</source>
-        <translation>es sind die Vorgaben</translation>
-    </message>
-    <message>
         <source>Reset all scales of this mode to their presets</source>
         <translation>Alle Skalen dieses Modus auf die Vorgaben zurücksetzen</translation>
     </message>
@@ -115,24 +83,12 @@
         <translation>{title} von {name} {unit}</translation>
     </message>
     <message>
-        <source>How teleoperation stands</source>
-        <translation>Stand der Teleoperation</translation>
-    </message>
-    <message>
-        <source>Device that drives</source>
-        <translation>Gerät, das steuert</translation>
-    </message>
-    <message>
         <source>Whether the stick is active</source>
-        <translation>Ob es verlässlich ist</translation>
+        <translation>Ob der Joystick wirksam ist</translation>
     </message>
     <message>
         <source>Latest refusal or slowdown</source>
         <translation>Letzte Ablehnung oder Verlangsamung</translation>
-    </message>
-    <message>
-        <source>Why nothing moves</source>
-        <translation>Warum sich nichts bewegt</translation>
     </message>
     <message>
         <source>Last: {refused}</source>
@@ -140,11 +96,7 @@
     </message>
     <message>
         <source>Press and drag: the cross moves x and y, the slider z; both spring back when released.</source>
-        <translation>Drücken und ziehen: das Kreuz bewegt x und y, der Schieber z; losgelassen kehren beide zurück.</translation>
-    </message>
-    <message>
-        <source>With the keyboard on it: arrows x and y, page up and down z, shift coarse, ctrl fine, space clutch.</source>
-        <translation>Mit Tastatur: Pfeile x und y, Bild auf und ab z, Umschalt grob, Strg fein, Leertaste Kupplung.</translation>
+        <translation>Drücken und ziehen: das Kreuz bewegt x und y, der Schieber z; beim Loslassen kehren beide zurück.</translation>
     </message>
     <message>
         <source>Pad for x, y and z</source>
@@ -163,7 +115,7 @@ space  clutch</source>
         <translation>Pfeile  x y
 Bild ↑ ↓  z
 Umschalt  × 10
-Strg  × 0.1
+Strg  × 0,1
 Leer  Kupplung</translation>
     </message>
     <message>
@@ -179,44 +131,16 @@ Leer  Kupplung</translation>
         <translation>Auslenkung des Felds in Prozent</translation>
     </message>
     <message>
-        <source>Deflection at the ends of the pad, and of its keys</source>
-        <translation>Auslenkung an den Enden des Felds und der Tasten</translation>
-    </message>
-    <message>
         <source>Take over</source>
         <translation>Übernehmen</translation>
     </message>
     <message>
-        <source>the pad drives; the other device gets the drive back by being moved</source>
-        <translation>das Feld steuert; das andere Gerät übernimmt wieder, sobald es bewegt wird</translation>
-    </message>
-    <message>
-        <source>Let the pad drive, as long as the other device is left alone</source>
-        <translation>Das Feld steuern lassen, solange das andere Gerät ruht</translation>
-    </message>
-    <message>
         <source>1 mm of stick = {way} of {what}</source>
-        <translation>1 mm Knüppel = {way} {what}</translation>
-    </message>
-    <message>
-        <source>full stick = {way}</source>
-        <translation>voller Knüppel = {way}</translation>
-    </message>
-    <message>
-        <source>full stick ends at {speed}, time constant {after}</source>
-        <translation>voller Knüppel: {speed}, Zeitkonstante {after}</translation>
-    </message>
-    <message>
-        <source>full stick ends {travel} away: {hz:.3g} Hz, damping ratio {damping:.3g}, time constant {after}</source>
-        <translation>voller Knüppel: {travel} entfernt, {hz:.3g} Hz, Dämpfung {damping:.3g}, Zeitkonstante {after}</translation>
+        <translation>1 mm Joystick = {way} {what}</translation>
     </message>
     <message>
         <source>Piezo range</source>
         <translation>Piezobereich</translation>
-    </message>
-    <message>
-        <source>Piezo range left in percent</source>
-        <translation>Übriger Piezobereich in Prozent</translation>
     </message>
     <message>
         <source>100 %: the piezo is in the middle of its range; 0 %: at an end</source>
@@ -225,14 +149,6 @@ Leer  Kupplung</translation>
     <message>
         <source>Tilt of the tool since the mode began</source>
         <translation>Neigung des Werkzeugs seit Beginn des Modus</translation>
-    </message>
-    <message>
-        <source>By how much the mode has turned the tool since it began</source>
-        <translation>Um wie viel der Modus das Werkzeug seit seinem Beginn gedreht hat</translation>
-    </message>
-    <message>
-        <source>Left</source>
-        <translation>Übrig</translation>
     </message>
     <message>
         <source>Tilt</source>
@@ -245,10 +161,6 @@ Leer  Kupplung</translation>
     <message>
         <source>Re-centre all</source>
         <translation>Alle zentrieren</translation>
-    </message>
-    <message>
-        <source>to mid-range while the tables keep the tip where it is</source>
-        <translation>in die Mitte bringen, während die Tische die Spitze am Ort halten</translation>
     </message>
     <message>
         <source>Bring zn {stays}</source>
@@ -279,52 +191,24 @@ Leer  Kupplung</translation>
         <translation>höchstens {bound}</translation>
     </message>
     <message>
-        <source>Way at full stick</source>
-        <translation>Weg bei vollem Knüppel</translation>
-    </message>
-    <message>
-        <source>Position; and impedance on a spring</source>
-        <translation>Position; und Impedanz an einer Feder</translation>
-    </message>
-    <message>
         <source>Speed at full stick</source>
-        <translation>Tempo bei vollem Knüppel</translation>
-    </message>
-    <message>
-        <source>Rate; and impedance without a spring</source>
-        <translation>Rate; und Impedanz ohne Feder</translation>
+        <translation>Tempo bei vollem Ausschlag</translation>
     </message>
     <message>
         <source>Time constant</source>
         <translation>Zeitkonstante</translation>
     </message>
     <message>
-        <source>Impedance without a spring: in which the virtual mass gets to its speed</source>
-        <translation>Impedanz ohne Feder: in der die virtuelle Masse ihre Geschwindigkeit erreicht</translation>
-    </message>
-    <message>
         <source>Spring frequency</source>
         <translation>Federfrequenz</translation>
-    </message>
-    <message>
-        <source>Impedance: how fast the virtual mass swings; 0 is no spring, and it glides</source>
-        <translation>Impedanz: wie schnell die virtuelle Masse schwingt; 0 ist keine Feder, sie gleitet</translation>
     </message>
     <message>
         <source>Damping ratio</source>
         <translation>Dämpfungsgrad</translation>
     </message>
     <message>
-        <source>Impedance on a spring: below 1 it overshoots, above 1 it creeps</source>
-        <translation>Impedanz an einer Feder: unter 1 schwingt sie über, über 1 kriecht sie</translation>
-    </message>
-    <message>
         <source>Contact gain</source>
         <translation>Kontaktverstärkung</translation>
-    </message>
-    <message>
-        <source>Impedance: how much of the greatest safe force a contact pushes back; 0 is none</source>
-        <translation>Impedanz: mit welchem Teil der größten sicheren Kraft ein Kontakt zurückdrückt; 0 ist keiner</translation>
     </message>
     <message>
         <source>above 0, up to {most}</source>
@@ -339,68 +223,32 @@ Leer  Kupplung</translation>
         <translation>{title} von {name}</translation>
     </message>
     <message>
-        <source>{title}: {text!r} is no number; type one{unit} with a decimal point</source>
-        <translation>{title}: {text!r} ist keine Zahl; eine{unit} mit Dezimalkomma eingeben</translation>
-    </message>
-    <message>
         <source>{typed}: must be {bound}</source>
         <translation>{typed}: erlaubt {bound}</translation>
-    </message>
-    <message>
-        <source>{typed}: must be at most {most}, its range</source>
-        <translation>{typed}: höchstens {most}, der Bereich</translation>
-    </message>
-    <message>
-        <source>{typed}: must be at most {most}, its greatest speed</source>
-        <translation>{typed}: höchstens {most}, die größte Geschwindigkeit</translation>
     </message>
     <message>
         <source>a finite number</source>
         <translation>eine endliche Zahl</translation>
     </message>
     <message>
-        <source>bring the stick to the middle first</source>
-        <translation>zuerst den Knüppel in die Mitte bringen</translation>
-    </message>
-    <message>
         <source>Micro</source>
         <translation>Mikro</translation>
-    </message>
-    <message>
-        <source>The stick moves the tables: millimetres, in steps of 0.1 µm.</source>
-        <translation>Der Knüppel bewegt die Tische: Millimeter, in Schritten von 0.1 µm.</translation>
     </message>
     <message>
         <source>Nano</source>
         <translation>Nano</translation>
     </message>
     <message>
-        <source>The stick moves the piezos: two tilts, and micrometres along z.</source>
-        <translation>Der Knüppel bewegt die Piezos: zwei Neigungen und Mikrometer entlang z.</translation>
-    </message>
-    <message>
         <source>Hybrid z</source>
         <translation>Hybrid z</translation>
-    </message>
-    <message>
-        <source>The stick moves the tip: along z the piezo takes what fits and the table the rest.</source>
-        <translation>Der Knüppel bewegt die Spitze: entlang z übernimmt der Piezo, was passt, der Tisch den Rest.</translation>
     </message>
     <message>
         <source>Fine x/y</source>
         <translation>Fein x/y</translation>
     </message>
     <message>
-        <source>The stick moves the tip by piezos alone: x and y by tilting the tool, which costs its orientation.</source>
-        <translation>Der Knüppel bewegt die Spitze nur mit Piezos: x und y durch Neigen des Werkzeugs, auf Kosten der Orientierung.</translation>
-    </message>
-    <message>
         <source>Pivot</source>
         <translation>Pivot</translation>
-    </message>
-    <message>
-        <source>The stick tilts the tool while the tables hold its tip where it is.</source>
-        <translation>Der Knüppel neigt das Werkzeug, während die Tische seine Spitze am Ort halten.</translation>
     </message>
     <message>
         <source>All axes</source>
@@ -408,7 +256,7 @@ Leer  Kupplung</translation>
     </message>
     <message>
         <source>The stick moves the robot&apos;s first three axes.</source>
-        <translation>Der Knüppel bewegt die ersten drei Achsen des Roboters.</translation>
+        <translation>Der Joystick bewegt die ersten drei Achsen des Roboters.</translation>
     </message>
     <message>
         <source>Position</source>
@@ -431,12 +279,8 @@ Leer  Kupplung</translation>
         <translation>Impedanz</translation>
     </message>
     <message>
-        <source>The stick pushes a virtual mass, which glides or is on a spring; a contact pushes back.</source>
-        <translation>Der Knüppel schiebt eine virtuelle Masse, gleitend oder an einer Feder; ein Kontakt drückt zurück.</translation>
-    </message>
-    <message>
         <source>The stick moves the axes of stage {mode!r}.</source>
-        <translation>Der Knüppel bewegt die Achsen der Stufe {mode!r}.</translation>
+        <translation>Der Joystick bewegt die Achsen der Stufe {mode!r}.</translation>
     </message>
     <message>
         <source>On-screen pad</source>
@@ -447,36 +291,20 @@ Leer  Kupplung</translation>
         <translation> und </translation>
     </message>
     <message>
-        <source>No device drives</source>
-        <translation>Kein Gerät steuert</translation>
-    </message>
-    <message>
-        <source>Plug one in, or choose a profile for what is there.</source>
-        <translation>Eines anstecken oder ein passendes Profil wählen.</translation>
-    </message>
-    <message>
         <source>Not active: {parts}</source>
-        <translation>Nicht verlässlich: {parts}</translation>
+        <translation>Nicht wirksam: {parts}</translation>
     </message>
     <message>
         <source>Active</source>
-        <translation>Aktiv</translation>
+        <translation>Wirksam</translation>
     </message>
     <message>
         <source>no answer</source>
         <translation>keine Antwort</translation>
     </message>
     <message>
-        <source>driving</source>
-        <translation>steuert</translation>
-    </message>
-    <message>
         <source>setting up</source>
         <translation>Einrichten</translation>
-    </message>
-    <message>
-        <source>held</source>
-        <translation>gehalten</translation>
     </message>
     <message>
         <source>waiting</source>
@@ -487,48 +315,12 @@ Leer  Kupplung</translation>
         <translation>bereit</translation>
     </message>
     <message>
-        <source>The loop of the input devices does not answer: stop the machine and restart the program.</source>
-        <translation>Die Schleife der Eingabegeräte antwortet nicht: die Maschine anhalten und das Programm neu starten.</translation>
-    </message>
-    <message>
-        <source>Release the stick to let the robot rest where it is.</source>
-        <translation>Den Joystick loslassen, damit der Roboter bleibt, wo er ist.</translation>
-    </message>
-    <message>
-        <source>Nothing moves: {reason}.</source>
-        <translation>Nichts bewegt sich: {reason}.</translation>
-    </message>
-    <message>
-        <source>Moves when the stick does.</source>
-        <translation>Bewegt sich mit dem Knüppel.</translation>
-    </message>
-    <message>
-        <source>the input devices are just being opened</source>
-        <translation>die Eingabegeräte werden gerade geöffnet</translation>
-    </message>
-    <message>
         <source>input devices are being set up</source>
         <translation>Eingabegeräte werden eingerichtet</translation>
     </message>
     <message>
-        <source>the profile has nothing for the pad</source>
-        <translation>das Profil hat nichts für das Feld</translation>
-    </message>
-    <message>
-        <source>{driver} drives; take over to use the pad</source>
-        <translation>{driver} steuert; zum Benutzen des Felds übernehmen</translation>
-    </message>
-    <message>
         <source>now × {factor:g}</source>
         <translation>jetzt × {factor:g}</translation>
-    </message>
-    <message>
-        <source>Clutch held: the stick moves, the robot does not.</source>
-        <translation>Gekuppelt: der Knüppel bewegt sich, der Roboter nicht.</translation>
-    </message>
-    <message>
-        <source>Hold the clutch (space on the pad) to bring the stick back without the robot.</source>
-        <translation>Kupplung halten (Leertaste im Feld), um den Knüppel ohne den Roboter zurückzubringen.</translation>
     </message>
     <message>
         <source>Tip {name}</source>
@@ -545,6 +337,214 @@ Leer  Kupplung</translation>
     <message>
         <source>not by this mode</source>
         <translation>nicht in diesem Modus</translation>
+    </message>
+    <message>
+        <source>Factor on distance, speed and force of every coordinate</source>
+        <translation>Faktor auf Weg, Geschwindigkeit und Kraft jeder Koordinate</translation>
+    </message>
+    <message>
+        <source>Present factor</source>
+        <translation>Jetziger Faktor</translation>
+    </message>
+    <message>
+        <source>to mid-range while the tables hold the tip in place</source>
+        <translation>in die Mitte bringen, während die Tische die Spitze am Ort halten</translation>
+    </message>
+    <message>
+        <source>Remaining piezo range in percent</source>
+        <translation>Übriger Piezobereich in Prozent</translation>
+    </message>
+    <message>
+        <source>Rotation of the tool since the mode began</source>
+        <translation>Drehung des Werkzeugs seit Beginn des Modus</translation>
+    </message>
+    <message>
+        <source>Remaining</source>
+        <translation>Übrig</translation>
+    </message>
+    <message>
+        <source>Distance at full stick</source>
+        <translation>Weg bei vollem Ausschlag</translation>
+    </message>
+    <message>
+        <source>Position, and impedance with a spring</source>
+        <translation>Position, und Impedanz mit Feder</translation>
+    </message>
+    <message>
+        <source>Rate, and impedance without a spring</source>
+        <translation>Rate, und Impedanz ohne Feder</translation>
+    </message>
+    <message>
+        <source>Impedance without a spring: time in which the virtual mass reaches its speed</source>
+        <translation>Impedanz ohne Feder: Zeit, in der die virtuelle Masse ihre Geschwindigkeit erreicht</translation>
+    </message>
+    <message>
+        <source>Impedance: frequency of the virtual mass; 0: no spring, the mass glides</source>
+        <translation>Impedanz: Frequenz der virtuellen Masse; 0: keine Feder, die Masse gleitet</translation>
+    </message>
+    <message>
+        <source>Impedance with a spring: overshoots below 1, creeps above 1</source>
+        <translation>Impedanz mit Feder: unter 1 schwingt sie über, über 1 kriecht sie</translation>
+    </message>
+    <message>
+        <source>Impedance: contact force relative to the largest safe force; 0: none</source>
+        <translation>Impedanz: Kontaktkraft relativ zur größten sicheren Kraft; 0: keine</translation>
+    </message>
+    <message>
+        <source>{title}: {text!r} is not a number; enter one{unit} with a decimal point</source>
+        <translation>{title}: {text!r} ist keine Zahl; eine{unit} mit Dezimalkomma eingeben</translation>
+    </message>
+    <message>
+        <source>{typed}: must be at most the range of {most}</source>
+        <translation>{typed}: höchstens der Bereich von {most}</translation>
+    </message>
+    <message>
+        <source>{typed}: must be at most the maximum speed of {most}</source>
+        <translation>{typed}: höchstens die Höchstgeschwindigkeit von {most}</translation>
+    </message>
+    <message>
+        <source>Deflection at the ends of the pad and for its keys</source>
+        <translation>Auslenkung an den Enden des Felds und für die Tasten</translation>
+    </message>
+    <message>
+        <source>Control with the pad until the other device is moved</source>
+        <translation>Mit dem Feld steuern, bis das andere Gerät bewegt wird</translation>
+    </message>
+    <message>
+        <source>the pad is in control; moving the other device returns control to it</source>
+        <translation>das Feld steuert; das andere Gerät übernimmt wieder, sobald es bewegt wird</translation>
+    </message>
+    <message>
+        <source>State of teleoperation</source>
+        <translation>Zustand der Teleoperation</translation>
+    </message>
+    <message>
+        <source>Device in control</source>
+        <translation>Steuerndes Gerät</translation>
+    </message>
+    <message>
+        <source>Reason for no motion</source>
+        <translation>Warum sich nichts bewegt</translation>
+    </message>
+    <message>
+        <source>centre the stick first</source>
+        <translation>zuerst den Joystick in die Mitte bringen</translation>
+    </message>
+    <message>
+        <source>Press the clutch (space on the pad) to return the stick without the robot.</source>
+        <translation>Kupplung drücken (Leertaste im Feld), um den Joystick ohne den Roboter zurückzubringen.</translation>
+    </message>
+    <message>
+        <source>The stick moves the tables over millimetres in steps of 0.1 µm.</source>
+        <translation>Der Joystick bewegt die Tische über Millimeter in Schritten von 0,1 µm.</translation>
+    </message>
+    <message>
+        <source>The stick moves the piezos: two tilts and some micrometres along z.</source>
+        <translation>Der Joystick bewegt die Piezos: zwei Neigungen und einige Mikrometer entlang z.</translation>
+    </message>
+    <message>
+        <source>The stick moves the tip; along z the piezo moves within its range, the table does the rest.</source>
+        <translation>Der Joystick bewegt die Spitze; entlang z fährt der Piezo in seinem Bereich, der Tisch den Rest.</translation>
+    </message>
+    <message>
+        <source>The stick moves the tip only by piezos: x and y by tilting the tool.</source>
+        <translation>Der Joystick bewegt die Spitze nur mit Piezos: x und y durch Neigen des Werkzeugs.</translation>
+    </message>
+    <message>
+        <source>The stick tilts the tool while the tables hold its tip in place.</source>
+        <translation>Der Knüppel neigt das Werkzeug, während die Tische seine Spitze am Ort halten.</translation>
+    </message>
+    <message>
+        <source>The stick pushes a virtual mass with or without a spring; a contact pushes back.</source>
+        <translation>Der Joystick schiebt eine virtuelle Masse mit oder ohne Feder; ein Kontakt drückt zurück.</translation>
+    </message>
+    <message>
+        <source>No device in control</source>
+        <translation>Kein Gerät steuert</translation>
+    </message>
+    <message>
+        <source>The input devices do not respond: stop the machine and restart the program.</source>
+        <translation>Die Eingabegeräte antworten nicht: die Maschine anhalten und das Programm neu starten.</translation>
+    </message>
+    <message>
+        <source>Moves with the stick.</source>
+        <translation>Bewegt sich mit dem Joystick.</translation>
+    </message>
+    <message>
+        <source>the input devices are being opened</source>
+        <translation>die Eingabegeräte werden gerade geöffnet</translation>
+    </message>
+    <message>
+        <source>the profile does not map the pad</source>
+        <translation>das Profil belegt das Feld nicht</translation>
+    </message>
+    <message>
+        <source>Clutch pressed: the stick moves without the robot.</source>
+        <translation>Kupplung gedrückt: der Joystick bewegt sich ohne den Roboter.</translation>
+    </message>
+    <message>
+        <source>Release the stick to stop the robot in place.</source>
+        <translation>Den Joystick loslassen, um den Roboter anzuhalten.</translation>
+    </message>
+    <message>
+        <source>Plug in a device, or choose a profile for a connected one.</source>
+        <translation>Ein Gerät anstecken oder ein passendes Profil wählen.</translation>
+    </message>
+    <message>
+        <source>in control</source>
+        <translation>steuert</translation>
+    </message>
+    <message>
+        <source>blocked</source>
+        <translation>blockiert</translation>
+    </message>
+    <message>
+        <source>No motion: {reason}.</source>
+        <translation>Keine Bewegung: {reason}.</translation>
+    </message>
+    <message>
+        <source>{driver} is in control; take over to use the pad</source>
+        <translation>{driver} steuert; übernehmen, um das Feld zu benutzen</translation>
+    </message>
+    <message>
+        <source>the positions of the axes are unknown</source>
+        <translation>die Achspositionen sind unbekannt</translation>
+    </message>
+    <message>
+        <source>all scales have their presets</source>
+        <translation>alle Skalen haben ihre Vorgaben</translation>
+    </message>
+    <message>
+        <source>Keyboard, when the pad has the focus: arrows x and y, page up and down z, shift coarse, ctrl fine, space clutch.</source>
+        <translation>Tastatur, wenn das Feld den Fokus hat: Pfeile x und y, Bild auf und ab z, Umschalt grob, Strg fein, Leertaste Kupplung.</translation>
+    </message>
+    <message>
+        <source>full deflection: {travel}, {hz:.3g} Hz, damping ratio {damping:.3g}, time constant {after}</source>
+        <translation>voller Ausschlag: {travel}, {hz:.3g} Hz, Dämpfung {damping:.3g}, Zeitkonstante {after}</translation>
+    </message>
+    <message>
+        <source>full deflection: {speed}, time constant {after}</source>
+        <translation>voller Ausschlag: {speed}, Zeitkonstante {after}</translation>
+    </message>
+    <message>
+        <source>full deflection = {way}</source>
+        <translation>voller Ausschlag = {way}</translation>
+    </message>
+    <message>
+        <source>Force</source>
+        <translation>Kraft</translation>
+    </message>
+    <message>
+        <source>Force of a contact at the stick, −100 % to 100 % of its maximum</source>
+        <translation>Kraft eines Kontakts am Joystick, −100 % bis 100 % des Höchstwerts</translation>
+    </message>
+    <message>
+        <source>Available when the positions of the axes are known and a device is connected.</source>
+        <translation>Verfügbar, sobald die Achspositionen bekannt sind und ein Gerät angeschlossen ist.</translation>
+    </message>
+    <message>
+        <source>{name} contact force at the stick</source>
+        <translation>{name} Kontaktkraft am Joystick</translation>
     </message>
 </context>
 </TS>

@@ -11,14 +11,6 @@
 <context>
     <name>trajectory</name>
     <message>
-        <source>No trajectory is loaded. Load one to see what it asks of each axis before it is played.</source>
-        <translation>Keine Trajektorie geladen. Eine laden, um vor dem Abspielen zu sehen, was sie von jeder Achse verlangt.</translation>
-    </message>
-    <message>
-        <source>The playback pauses when readings are farther from the model than this for 20 ms; double-click to change it, empty it for no bound</source>
-        <translation>Die Wiedergabe pausiert, wenn Messwerte 20 ms lang weiter vom Modell entfernt sind; Doppelklick zum Ändern, leer für keine Grenze</translation>
-    </message>
-    <message>
         <source>Load …</source>
         <translation>Laden …</translation>
     </message>
@@ -35,10 +27,6 @@
         <translation>Von hier aus nicht abspielbar: {why}</translation>
     </message>
     <message>
-        <source>Dry run: inside all limits of the axes and of the tip.</source>
-        <translation>Probelauf: innerhalb aller Grenzen der Achsen und der Spitze.</translation>
-    </message>
-    <message>
         <source>from {begin:.6g} s</source>
         <translation>ab {begin:.6g} s</translation>
     </message>
@@ -47,20 +35,12 @@
         <translation> (und {n} weitere)</translation>
     </message>
     <message>
-        <source>Load a trajectory from a text file and try it on the model (Ctrl+T)</source>
-        <translation>Eine Trajektorie aus einer Textdatei laden und am Modell erproben (Strg+T)</translation>
-    </message>
-    <message>
         <source>Resample the loaded trajectory to another rate, in Hz</source>
         <translation>Die geladene Trajektorie auf eine andere Rate abtasten, in Hz</translation>
     </message>
     <message>
         <source>Teach</source>
-        <translation>Lernen</translation>
-    </message>
-    <message>
-        <source>Make a trajectory of points where the machine has been</source>
-        <translation>Eine Trajektorie aus Punkten machen, an denen die Maschine war</translation>
+        <translation>Einlernen</translation>
     </message>
     <message>
         <source>Not playable: {objection}{more}</source>
@@ -71,20 +51,8 @@
         <translation>ab </translation>
     </message>
     <message>
-        <source>Begin of the playback in seconds</source>
-        <translation>Beginn der Wiedergabe in Sekunden</translation>
-    </message>
-    <message>
         <source>Passes</source>
         <translation>Durchgänge</translation>
-    </message>
-    <message>
-        <source>How often it is played, 1 to {most}: it must end where it begins</source>
-        <translation>Wie oft abgespielt wird, 1 bis {most}: sie muss enden, wo sie beginnt</translation>
-    </message>
-    <message>
-        <source>Where the first pass begins, 0 to {last:.7g} s: before its last row</source>
-        <translation>Wo der erste Durchgang beginnt, 0 bis {last:.7g} s: vor der letzten Zeile</translation>
     </message>
     <message>
         <source>{name}, resampled</source>
@@ -101,10 +69,6 @@
     <message>
         <source>linear – straight lines between rows</source>
         <translation>linear – Geraden zwischen Zeilen</translation>
-    </message>
-    <message>
-        <source>cubic – smooth, may swing beyond the rows</source>
-        <translation>kubisch – glatt, kann über die Zeilen schwingen</translation>
     </message>
     <message>
         <source>Resample the trajectory</source>
@@ -163,14 +127,6 @@
         <translation>{rms} effektiv, {peak} Spitze</translation>
     </message>
     <message>
-        <source>{text!r} is no bound: type a number above 0 in {unit}, with a decimal point, or nothing</source>
-        <translation>{text!r} ist keine Grenze: eine Zahl über 0 in {unit} mit Dezimalkomma eingeben, oder nichts</translation>
-    </message>
-    <message>
-        <source>no bound is declared in the robot file</source>
-        <translation>in der Roboterdatei ist keine Grenze angegeben</translation>
-    </message>
-    <message>
         <source>{share} of {bound}</source>
         <translation>{share} von {bound}</translation>
     </message>
@@ -179,20 +135,12 @@
         <translation>{rms} effektiv</translation>
     </message>
     <message>
-        <source>the model expects up to {peak} between command and position</source>
-        <translation>das Modell erwartet bis {peak} zwischen Sollwert und Position</translation>
-    </message>
-    <message>
         <source>the model gives no prediction for this trajectory</source>
         <translation>das Modell gibt keine Vorhersage für diese Trajektorie</translation>
     </message>
     <message>
         <source>no trajectory is loaded</source>
         <translation>keine Trajektorie geladen</translation>
-    </message>
-    <message>
-        <source>the dry run does not allow it</source>
-        <translation>der Probelauf erlaubt es nicht</translation>
     </message>
     <message>
         <source>Play</source>
@@ -215,10 +163,6 @@
         <translation>Zeilen je Schritt</translation>
     </message>
     <message>
-        <source>How many rows of the trajectory a step goes, 1 to 1000</source>
-        <translation>Wie viele Zeilen der Trajektorie ein Schritt geht, 1 bis 1000</translation>
-    </message>
-    <message>
         <source>1 row</source>
         <translation>1 Zeile</translation>
     </message>
@@ -231,24 +175,12 @@
         <translation>Tempofaktor</translation>
     </message>
     <message>
-        <source>Pace of the playback, {slowest:g} to {fastest:g} times that of the trajectory; a faster one is checked against all limits first. Changed in a pause, it holds from there on</source>
-        <translation>Tempo der Wiedergabe, {slowest:g}- bis {fastest:g}-fach; ein schnelleres wird zuerst gegen alle Grenzen geprüft. In einer Pause geändert, gilt es von dort an</translation>
-    </message>
-    <message>
         <source>Pause</source>
         <translation>Pause</translation>
     </message>
     <message>
         <source>Resume</source>
         <translation>Weiter</translation>
-    </message>
-    <message>
-        <source>the axes still move</source>
-        <translation>die Achsen bewegen sich noch</translation>
-    </message>
-    <message>
-        <source>Play, pause or resume (Ctrl+P); the axes first go to the first row</source>
-        <translation>Abspielen, anhalten oder fortsetzen (Strg+P); die Achsen fahren zuerst zur ersten Zeile</translation>
     </message>
     <message>
         <source>nothing is playing</source>
@@ -261,10 +193,6 @@
     <message>
         <source>a trajectory is playing</source>
         <translation>eine Trajektorie wird abgespielt</translation>
-    </message>
-    <message>
-        <source>Go to the next rows at the axes&apos; own speed, and rest there</source>
-        <translation>Zu den nächsten Zeilen im eigenen Tempo der Achsen fahren und dort ruhen</translation>
     </message>
     <message>
         <source>nothing is paused</source>
@@ -288,15 +216,7 @@
     </message>
     <message>
         <source>Path of the tip</source>
-        <translation>Weg der Spitze</translation>
-    </message>
-    <message>
-        <source>The tip&apos;s path from above and from the side; dashed: the way to its first row. Red is forbidden: floor, objective, radius. The frame is what the axes can reach.</source>
-        <translation>Der Weg der Spitze von oben und von der Seite; gestrichelt: der Weg zur ersten Zeile. Rot ist verboten: Boden, Objektiv, Radius. Der Rahmen ist, was die Achsen erreichen.</translation>
-    </message>
-    <message>
-        <source>Click to see all of the reach, or the path alone.</source>
-        <translation>Klicken zeigt die ganze Reichweite oder den Weg allein.</translation>
+        <translation>Bahn der Spitze</translation>
     </message>
     <message>
         <source>{share:.0f} % of the rows are forbidden</source>
@@ -311,22 +231,6 @@
         <translation>Seite: x, z</translation>
     </message>
     <message>
-        <source>{n} points: a trajectory needs two or more; take another</source>
-        <translation>{n} Punkte: eine Trajektorie braucht zwei oder mehr; noch einen nehmen</translation>
-    </message>
-    <message>
-        <source>the points take more than {hours} h; shorten pauses, or go faster</source>
-        <translation>die Punkte dauern mehr als {hours} h; Pausen kürzen, oder schneller fahren</translation>
-    </message>
-    <message>
-        <source>point {number}: a speed of {speed} %: must be above 0 and at most 100</source>
-        <translation>Punkt {number}: ein Tempo von {speed} %: muss über 0 und höchstens 100 sein</translation>
-    </message>
-    <message>
-        <source>point {number}: a pause of {pause} s: must be 0 to {most} s</source>
-        <translation>Punkt {number}: eine Pause von {pause} s: muss 0 bis {most} s sein</translation>
-    </message>
-    <message>
         <source>speed [%]</source>
         <translation>Tempo [%]</translation>
     </message>
@@ -336,15 +240,7 @@
     </message>
     <message>
         <source>Taught points</source>
-        <translation>Geteachte Punkte</translation>
-    </message>
-    <message>
-        <source>Take point</source>
-        <translation>Punkt nehmen</translation>
-    </message>
-    <message>
-        <source>Take anew</source>
-        <translation>Neu nehmen</translation>
+        <translation>Eingelernte Punkte</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -355,36 +251,8 @@
         <translation>Trajektorie machen</translation>
     </message>
     <message>
-        <source>its place is not known</source>
-        <translation>ihr Ort ist nicht bekannt</translation>
-    </message>
-    <message>
-        <source>mark a point first</source>
-        <translation>erst einen Punkt markieren</translation>
-    </message>
-    <message>
-        <source>take two points or more</source>
-        <translation>zwei oder mehr Punkte nehmen</translation>
-    </message>
-    <message>
-        <source>Add where the machine is sent now, behind the marked point</source>
-        <translation>Hinzufügen, wohin die Maschine jetzt geschickt ist, hinter dem markierten Punkt</translation>
-    </message>
-    <message>
-        <source>Put the marked point where the machine is sent now</source>
-        <translation>Den markierten Punkt dorthin setzen, wohin die Maschine jetzt geschickt ist</translation>
-    </message>
-    <message>
-        <source>Remove the marked point</source>
-        <translation>Den markierten Punkt entfernen</translation>
-    </message>
-    <message>
-        <source>Make a trajectory of the points; the dry run tries it</source>
-        <translation>Eine Trajektorie aus den Punkten machen; der Trockenlauf probiert sie</translation>
-    </message>
-    <message>
         <source>{n} taught points</source>
-        <translation>{n} geteachte Punkte</translation>
+        <translation>{n} eingelernte Punkte</translation>
     </message>
     <message>
         <source>must be {low} to {high}</source>
@@ -401,6 +269,138 @@
     <message>
         <source>Point {number}, {column}: {text!r}: {bound}</source>
         <translation>Punkt {number}, {column}: {text!r}: {bound}</translation>
+    </message>
+    <message>
+        <source>Add point</source>
+        <translation>Punkt hinzufügen</translation>
+    </message>
+    <message>
+        <source>Replace</source>
+        <translation>Ersetzen</translation>
+    </message>
+    <message>
+        <source>the position is unknown</source>
+        <translation>die Position ist unbekannt</translation>
+    </message>
+    <message>
+        <source>select a point first</source>
+        <translation>erst einen Punkt auswählen</translation>
+    </message>
+    <message>
+        <source>add two points or more</source>
+        <translation>zwei oder mehr Punkte hinzufügen</translation>
+    </message>
+    <message>
+        <source>Add the present target of the machine after the selected point</source>
+        <translation>Das jetzige Ziel der Maschine hinter dem gewählten Punkt hinzufügen</translation>
+    </message>
+    <message>
+        <source>Replace the selected point by the present target of the machine</source>
+        <translation>Den gewählten Punkt durch das jetzige Ziel der Maschine ersetzen</translation>
+    </message>
+    <message>
+        <source>Remove the selected point</source>
+        <translation>Den gewählten Punkt entfernen</translation>
+    </message>
+    <message>
+        <source>Make a trajectory from the points and check it in a dry run</source>
+        <translation>Aus den Punkten eine Trajektorie machen und im Probelauf prüfen</translation>
+    </message>
+    <message>
+        <source>Path of the tip from above and from the side; dashed: approach to the first row; red: forbidden by floor, objective or radius; frame: reach of the axes.</source>
+        <translation>Bahn der Spitze von oben und von der Seite; gestrichelt: Anfahrt zur ersten Zeile; rot: verboten durch Boden, Objektiv oder Radius; Rahmen: Reichweite der Achsen.</translation>
+    </message>
+    <message>
+        <source>Click to switch between the whole reach and the path.</source>
+        <translation>Ein Klick wechselt zwischen ganzer Reichweite und Bahn.</translation>
+    </message>
+    <message>
+        <source>the dry run found an objection</source>
+        <translation>der Probelauf fand einen Einwand</translation>
+    </message>
+    <message>
+        <source>the axes are still moving</source>
+        <translation>die Achsen bewegen sich noch</translation>
+    </message>
+    <message>
+        <source>Play, pause or resume (Ctrl+P); the axes first move to the first row</source>
+        <translation>Abspielen, anhalten oder fortsetzen (Strg+P); die Achsen fahren zuerst zur ersten Zeile</translation>
+    </message>
+    <message>
+        <source>Move to the next rows at the speed of the axes and stop there</source>
+        <translation>Mit der Geschwindigkeit der Achsen zu den nächsten Zeilen fahren und dort anhalten</translation>
+    </message>
+    <message>
+        <source>Rows of the trajectory per step, 1 to 1000</source>
+        <translation>Zeilen der Trajektorie je Schritt, 1 bis 1000</translation>
+    </message>
+    <message>
+        <source>Speed of the playback, {slowest:g} to {fastest:g} times that of the trajectory; a higher one is checked against all limits first. A change during a pause applies from there on</source>
+        <translation>Tempo der Wiedergabe, {slowest:g}- bis {fastest:g}-fach; ein höheres wird zuerst gegen alle Grenzen geprüft. Eine Änderung in einer Pause gilt von dort an</translation>
+    </message>
+    <message>
+        <source>cubic – smooth, may overshoot the rows</source>
+        <translation>kubisch – glatt, kann über die Zeilen hinausschwingen</translation>
+    </message>
+    <message>
+        <source>No trajectory is loaded. Load one to see its demands on each axis before playing it.</source>
+        <translation>Keine Trajektorie geladen. Eine laden, um vor dem Abspielen zu sehen, was sie von jeder Achse verlangt.</translation>
+    </message>
+    <message>
+        <source>The playback pauses when readings differ from the model by more than this for 20 ms; double-click to change it, empty: no bound</source>
+        <translation>Die Wiedergabe pausiert, wenn Messwerte 20 ms lang stärker vom Modell abweichen; Doppelklick zum Ändern, leer: keine Grenze</translation>
+    </message>
+    <message>
+        <source>Load a trajectory from a text file and check it on the model (Ctrl+T)</source>
+        <translation>Eine Trajektorie aus einer Textdatei laden und am Modell prüfen (Strg+T)</translation>
+    </message>
+    <message>
+        <source>Make a trajectory from taught points</source>
+        <translation>Eine Trajektorie aus eingelernten Punkten machen</translation>
+    </message>
+    <message>
+        <source>Start of the playback in seconds</source>
+        <translation>Beginn der Wiedergabe in Sekunden</translation>
+    </message>
+    <message>
+        <source>Dry run: within all limits of the axes and of the tip.</source>
+        <translation>Probelauf: innerhalb aller Grenzen der Achsen und der Spitze.</translation>
+    </message>
+    <message>
+        <source>Number of passes, 1 to {most}; the trajectory must end where it starts</source>
+        <translation>Anzahl der Durchgänge, 1 bis {most}; die Trajektorie muss enden, wo sie beginnt</translation>
+    </message>
+    <message>
+        <source>Start of the first pass, 0 to {last:.7g} s, before the last row</source>
+        <translation>Beginn des ersten Durchgangs, 0 bis {last:.7g} s, vor der letzten Zeile</translation>
+    </message>
+    <message>
+        <source>{n} points: a trajectory needs two or more; add another</source>
+        <translation>{n} Punkte: eine Trajektorie braucht zwei oder mehr; noch einen hinzufügen</translation>
+    </message>
+    <message>
+        <source>point {number}: the speed of {speed} % must be above 0 and at most 100 %</source>
+        <translation>Punkt {number}: das Tempo von {speed} % muss über 0 und höchstens 100 % sein</translation>
+    </message>
+    <message>
+        <source>point {number}: the pause of {pause} s must be 0 to {most} s</source>
+        <translation>Punkt {number}: die Pause von {pause} s muss 0 bis {most} s sein</translation>
+    </message>
+    <message>
+        <source>the points take more than {hours} h; shorten pauses or increase speeds</source>
+        <translation>die Punkte dauern mehr als {hours} h; Pausen kürzen oder schneller fahren</translation>
+    </message>
+    <message>
+        <source>the robot file states no bound</source>
+        <translation>die Roboterdatei nennt keine Grenze</translation>
+    </message>
+    <message>
+        <source>the model predicts up to {peak} between command and position</source>
+        <translation>das Modell sagt bis {peak} zwischen Sollwert und Position voraus</translation>
+    </message>
+    <message>
+        <source>{text!r} is not a bound: enter a number above 0 in {unit} with a decimal point, or leave it empty</source>
+        <translation>{text!r} ist keine Grenze: eine Zahl über 0 in {unit} mit Dezimalkomma eingeben oder leer lassen</translation>
     </message>
 </context>
 </TS>

@@ -11,10 +11,6 @@
 <context>
     <name>view3d</name>
     <message>
-        <source>Qt WebEngine is not installed, which shows the view inside the window. Install it with  pip install &apos;rotemina[view3d]&apos;  or use the browser.</source>
-        <translation>Qt WebEngine, das die Ansicht im Fenster zeigt, ist nicht installiert. Installieren mit  pip install &apos;rotemina[view3d]&apos;  oder den Browser benutzen.</translation>
-    </message>
-    <message>
         <source>Qt WebEngine does not run for the user root. Use the browser.</source>
         <translation>Qt WebEngine läuft nicht für den Benutzer root. Den Browser benutzen.</translation>
     </message>
@@ -39,10 +35,6 @@
         <translation>die Ansicht wird geöffnet</translation>
     </message>
     <message>
-        <source>it is open here</source>
-        <translation>sie ist hier offen</translation>
-    </message>
-    <message>
         <source>Show the view in this panel</source>
         <translation>Ansicht hier im Fenster zeigen</translation>
     </message>
@@ -63,18 +55,6 @@
         <translation>zuerst die Ansicht öffnen</translation>
     </message>
     <message>
-        <source>Which robots are drawn</source>
-        <translation>Welche Roboter gezeichnet werden</translation>
-    </message>
-    <message>
-        <source>Draw thx, thy and zn larger than they are, from mid-range</source>
-        <translation>thx, thy und zn größer zeichnen als sie sind, von der Mitte aus</translation>
-    </message>
-    <message>
-        <source>How much larger nano motion is drawn</source>
-        <translation>Wie vergrößert Nanobewegung gezeichnet wird</translation>
-    </message>
-    <message>
         <source>Show here</source>
         <translation>Hier zeigen</translation>
     </message>
@@ -93,10 +73,6 @@
     <message>
         <source>From below</source>
         <translation>Von unten</translation>
-    </message>
-    <message>
-        <source>As the objective sees it</source>
-        <translation>Wie das Objektiv es sieht</translation>
     </message>
     <message>
         <source>Front</source>
@@ -127,10 +103,6 @@
         <translation>Zelle</translation>
     </message>
     <message>
-        <source>The cell and the tip beside it, 0.3 mm away, true to scale</source>
-        <translation>Die Zelle und die Spitze daneben, 0.3 mm entfernt, maßstäblich</translation>
-    </message>
-    <message>
         <source>Model and real</source>
         <translation>Modell und Maschine</translation>
     </message>
@@ -143,20 +115,8 @@
         <translation>Maschine</translation>
     </message>
     <message>
-        <source>The whole robot in three dimensions, where the model says it is and where the readings say it is. It is drawn by this program alone; nothing leaves this computer.</source>
-        <translation>Der ganze Roboter in drei Dimensionen, nach dem Modell und nach den Messwerten. Nur dieses Programm zeichnet ihn; nichts verlässt diesen Rechner.</translation>
-    </message>
-    <message>
         <source>Starting the 3-D view …</source>
         <translation>3-D-Ansicht wird gestartet …</translation>
-    </message>
-    <message>
-        <source>On this display the view stands in a window of its own.</source>
-        <translation>Auf diesem Bildschirm steht die Ansicht in einem eigenen Fenster.</translation>
-    </message>
-    <message>
-        <source>The view has ended ({why}). The rest of the program goes on; show it again, or use the browser.</source>
-        <translation>Die Ansicht ist beendet ({why}). Der Rest des Programms läuft weiter; erneut zeigen oder den Browser benutzen.</translation>
     </message>
     <message>
         <source>No browser could be opened. The address is on the clipboard: paste it into a browser on this computer.</source>
@@ -183,20 +143,60 @@
         <translation>{ghost}: Position unbekannt, nicht gezeichnet</translation>
     </message>
     <message>
-        <source>old: the last reading came in {age_s:.1f} s ago</source>
-        <translation>veraltet: der letzte Messwert kam vor {age_s:.1f} s</translation>
-    </message>
-    <message>
-        <source>thx, thy, zn drawn {factor:g} × too large from mid-range; the tip is not where it is drawn</source>
-        <translation>thx, thy, zn {factor:g}-fach vergrößert von der Mitte aus; die Spitze ist nicht, wo sie gezeichnet ist</translation>
-    </message>
-    <message>
         <source>The program does not answer: the drawing is out of date.</source>
         <translation>Das Programm antwortet nicht: die Zeichnung ist veraltet.</translation>
     </message>
     <message>
         <source>No news from the program: the drawing is out of date.</source>
         <translation>Keine Nachricht vom Programm: die Zeichnung ist veraltet.</translation>
+    </message>
+    <message>
+        <source>The whole robot in three dimensions, as the model predicts it and as the sensors read it. This program draws it; nothing leaves this computer.</source>
+        <translation>Der ganze Roboter in drei Dimensionen, nach dem Modell und nach den Messwerten. Dieses Programm zeichnet ihn; nichts verlässt diesen Rechner.</translation>
+    </message>
+    <message>
+        <source>On this display the view opens in a window of its own.</source>
+        <translation>Auf diesem Bildschirm öffnet sich die Ansicht in einem eigenen Fenster.</translation>
+    </message>
+    <message>
+        <source>The view has ended ({why}); the rest of the program continues. Show the view again, or use the browser.</source>
+        <translation>Die Ansicht ist beendet ({why}); der Rest des Programms läuft weiter. Erneut zeigen oder den Browser benutzen.</translation>
+    </message>
+    <message>
+        <source>View of the objective</source>
+        <translation>Blick des Objektivs</translation>
+    </message>
+    <message>
+        <source>The cell, with the tip 0.3 mm beside it, to scale</source>
+        <translation>Die Zelle, die Spitze 0,3 mm daneben, maßstäblich</translation>
+    </message>
+    <message>
+        <source>outdated: the last reading is {age_s:.1f} s old</source>
+        <translation>veraltet: der letzte Messwert ist {age_s:.1f} s alt</translation>
+    </message>
+    <message>
+        <source>thx, thy, zn enlarged {factor:g} × about mid-range; the tip is not drawn in its place</source>
+        <translation>thx, thy, zn {factor:g}-fach um die Bereichsmitte vergrößert; die Spitze ist nicht am rechten Ort gezeichnet</translation>
+    </message>
+    <message>
+        <source>it is already open here</source>
+        <translation>sie ist hier schon offen</translation>
+    </message>
+    <message>
+        <source>Robots to draw</source>
+        <translation>Gezeichnete Roboter</translation>
+    </message>
+    <message>
+        <source>Enlarge the motion of thx, thy and zn about mid-range</source>
+        <translation>Die Bewegung von thx, thy und zn um die Bereichsmitte vergrößern</translation>
+    </message>
+    <message>
+        <source>Magnification of nano motion</source>
+        <translation>Vergrößerung der Nanobewegung</translation>
+    </message>
+    <message>
+        <source>Qt WebEngine, which displays the view inside the window, is not installed. Install it with  pip install &apos;rotemina[view3d]&apos;  or use the browser.</source>
+        <translation>Qt WebEngine, das die Ansicht im Fenster zeigt, ist nicht installiert. Installieren mit  pip install &apos;rotemina[view3d]&apos;  oder den Browser benutzen.</translation>
     </message>
 </context>
 </TS>

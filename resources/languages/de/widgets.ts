@@ -12,16 +12,16 @@
         <translation>Ja</translation>
     </message>
     <message>
-        <source>Do what the question asks</source>
-        <translation>Tun, was gefragt ist</translation>
-    </message>
-    <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
     </message>
     <message>
-        <source>Leave it as it is</source>
-        <translation>Alles lassen, wie es ist</translation>
+        <source>Confirm</source>
+        <translation>Bestätigen</translation>
+    </message>
+    <message>
+        <source>Change nothing</source>
+        <translation>Nichts ändern</translation>
     </message>
 </context>
 </TS>

@@ -1,1 +1,1 @@
-"""Hypotheses weighed by what they leave of data that their fits have not seen."""
+"""Comparison of hypotheses by their remainders on data that their fits did not use."""

@@ -32,11 +32,11 @@ _VOUCHES = 1.25  # times what causes leave, beyond which a black box knows too l
 
 @dataclass(frozen=True, slots=True)
 class Closing:
-    """How far a gap closes: mean squares over the floor, on data that no fit saw.
+    """How far a gap closes: mean squares over the floor, on validation data.
 
-    ``raw`` of the gap, ``left`` by the causes, ``black_box`` by a model without any knowledge;
-    ``at_a_tap`` is the greatest share that closes at one tap. What a machine does besides may be
-    many floors of a reference that is finer than its sensor.
+    ``raw`` is the gap, ``left`` the remainder after the causes, and ``black_box`` that of a model
+    without prior knowledge; ``at_a_tap`` is the largest share closed at one tap. Other behaviour of
+    the machine may be many floors of a reference that is finer than its sensor.
     """
 
     raw: float
@@ -79,7 +79,7 @@ def decide(
 
 
 def stands(closes: float, left: float, weight: float) -> bool:
-    """Tell whether one of several causes is there, and no mere part of what nothing explains.
+    """Tell whether one of several causes is present, and not part of an unexplained remainder.
 
     Parameters
     ----------
@@ -94,10 +94,10 @@ def stands(closes: float, left: float, weight: float) -> bool:
 def is_sure(
     evidence: Evidence, ranked: Sequence[Sequence[Rival]], ambiguous: Sequence[Sequence[str]]
 ) -> bool:
-    """Tell whether each cause stands out among its rivals by what it leaves of unseen data.
+    """Tell whether each cause stands out among its rivals by its remainder on unseen data.
 
-    It counts together with the ``ambiguous`` effects that cannot be told from it. How well it does
-    is all that counts, not how simple it is: a poor motion lets many do as well.
+    A cause counts together with the ``ambiguous`` effects that the data cannot distinguish from it.
+    Only performance counts, not simplicity: poor motion lets many effects perform equally well.
     """
     pairs = zip(ranked, ambiguous, strict=True)
     return bool(ranked) and all(_stands_out(evidence, *one) for one in pairs)

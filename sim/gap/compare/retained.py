@@ -1,9 +1,8 @@
-"""What the corrected model holds beside its causes.
+"""Elements that the corrected model keeps in addition to its causes.
 
-Re-tunings of the model's own parameters take part in every fit, and where a formula is not quite
-right they bend to what it leaves; further effects that are not sure enough to be named may do so
-as well. On another motion they are then worse than none: each stays only where unseen data ask for
-it.
+Re-tuned own parameters take part in every fit, and absorb errors of an imperfect formula; so may
+effects that are too uncertain to be named. On another motion they can do harm, so each stays only
+if unseen data require it.
 """
 
 from collections.abc import Iterator
@@ -20,9 +19,9 @@ from rotemina.sim.gap.fit import fit
 
 
 def with_retained(evidence: Evidence, best: Explanation, *fuller: Explanation) -> Explanation:
-    """Return an explanation by the same causes with the likeliest of what it may hold beside them.
+    """Return the explanation with the same causes and the likeliest additional elements.
 
-    ``fuller`` ones have the causes of ``best``, and hold more beside these that is named by none.
+    The ``fuller`` ones have the causes of ``best`` and additional, unnamed elements.
     """
     if not best.causes:
         return best

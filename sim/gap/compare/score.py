@@ -1,7 +1,7 @@
-"""What hypotheses leave of unseen data: held-out power by channel and block, and what it counts.
+"""Remainders of hypotheses on unseen data: held-out power by channel and block.
 
-A channel is one witness: the drive, the true motion, and what the sensor says beyond it. Reading
-and true motion share whatever else the machine does; compared each by itself, that would count
+The channels are the drive, the true motion, and the sensor's deviation from it. Reading and true
+motion share everything else that the machine does; comparing each separately would count that
 twice.
 """
 
@@ -32,7 +32,7 @@ class Power(NamedTuple):
 
 
 def held_out_powers(evidence: Evidence, left: Sequence[FloatArray]) -> list[Power]:
-    """Return the power, channel by channel, of what each hypothesis leaves.
+    """Return the power, channel by channel, of the remainder of each hypothesis.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def effective_rows(run: FloatArray) -> float:
 
 
 def _channels(evidence: Evidence, left: FloatArray) -> dict[Tap, list[FloatArray]]:
-    """Return what is left in each channel, one (n,) for each record that has it."""
+    """Return the remainder in each channel, one (n,) per record that has it."""
     by_record: dict[int, dict[Tap, FloatArray]] = {}
     for part in evidence.parts:
         by_record.setdefault(part.record, {})[part.tap] = left[part.rows]

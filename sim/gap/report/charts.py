@@ -1,4 +1,4 @@
-"""Charts of what a diagnosis says: how the gap shrinks, which candidates were tried."""
+"""Charts of a diagnosis: how the gap shrinks, and the candidates."""
 
 from collections.abc import Sequence
 from itertools import cycle
@@ -27,10 +27,10 @@ _RIVALS = ((Role.CORRECTED, "-"), (Role.REAL, "--"), (Role.THIRD, "-."), (Role.F
 
 
 def waterfall(shrinkage: Shrinkage, unit: str) -> Markup:
-    """Draw the gap as it was, re-tuned and after each effect, beside floor and ceiling."""
+    """Draw the original gap, re-tuned and after each effect, with floor and ceiling."""
     scale = scale_of(unit, shrinkage.raw)
     bars = [
-        (said(marked("gap", "model as it is")), shrinkage.raw),
+        (said(marked("gap", "original model")), shrinkage.raw),
         (said(marked("gap", "re-tuned")), shrinkage.retuned),
     ]
     bars += [(f"+ {short(effect_title(step.effect))}", step.rms) for step in shrinkage.steps]

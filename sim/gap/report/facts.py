@@ -69,7 +69,7 @@ def _rate(record: Record) -> str:
 
 
 def _fingerprint(record: Record) -> str:
-    """Return letters that another record hardly has, whatever either file is called."""
+    """Return a fingerprint of a record that does not depend on its file name."""
     content = sha256(",".join(map(str, record.columns)).encode("utf-8", "replace"))
     content.update(np.ascontiguousarray(record.time_s).tobytes())
     content.update(np.ascontiguousarray(record.values).tobytes())

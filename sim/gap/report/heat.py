@@ -34,9 +34,9 @@ class Heat:
 
 
 def heat(traces: Sequence[Trace]) -> Heat | None:
-    """Return the heat map of the model as it was, for records of one axis at one tap.
+    """Return the heat map of the original model for records of one axis at one tap.
 
-    A record that is sampled unevenly is left out; None where none is left.
+    Unevenly sampled records are left out; return None if none remains.
     """
     even = [trace for trace in traces if is_even(trace.record)]
     if not even:

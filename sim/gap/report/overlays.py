@@ -112,7 +112,7 @@ def frequency_response(traces: Sequence[Trace]) -> Markup:
 
 
 def _answers(trace: Trace) -> list[tuple[FloatArray, tuple[str, Role, float]]]:
-    """Return what was measured and what the models answer, without a correction that is none."""
+    """Return the measurement and the answers of the models, without an empty correction."""
     signals = (trace.real, trace.raw, *((trace.corrected,) if trace.changed else ()))
     return list(zip(signals, _ANSWERS, strict=False))
 
@@ -163,7 +163,7 @@ def _draw_uncertainty(axes: Axes, found: FrequencyResponse, sure: BoolArray) -> 
 
 
 def _torn(frequency_hz: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return a curve (n,) that ends where lines are missing, and begins anew behind them."""
+    """Return a curve (n,) that is interrupted where lines are missing."""
     steps = np.diff(frequency_hz)
     if not len(steps):
         return frequency_hz, values

@@ -1,6 +1,6 @@
-"""Drawings as SVG that stands inside a page and takes the page's colours, light or dark.
+"""Drawings as SVG for a page, in the page's light or dark colours.
 
-A drawing names its colours by role. They are written as stand-ins, which no drawing uses
+A drawing names its colours by role. They are written as placeholders that no drawing uses
 otherwise, and become the page's own (``var(--real)``) in the tags of the SVG, never in its texts.
 """
 
@@ -21,7 +21,7 @@ _MOST_LETTERS = 40  # of a name in a drawing
 
 
 class Role(StrEnum):
-    """What a colour stands for."""
+    """Role of a colour."""
 
     INK = "#00a001"
     QUIET = "#00a002"
@@ -71,9 +71,9 @@ _SIZE = re.compile(r' (?:width|height|version)="[^"]*"')
 
 
 def picture(width: float, height: float, draw: Callable[[Figure], None], about: str) -> Markup:
-    """Return what ``draw`` draws as an ``<svg>`` element; sizes in inches, of 10 pt text.
+    """Return the drawing of ``draw`` as an ``<svg>`` element; sizes in inches, with 10 pt text.
 
-    ``about`` says in words what is to be seen.
+    ``about`` describes the drawing in words.
     """
     file = BytesIO()
     with mpl.rc_context(_STYLE), warnings.catch_warnings():
@@ -105,7 +105,7 @@ def _inlined(svg: str, about: str) -> str:
 
 
 def _plain_tag(tag: str, used: set[str]) -> str:
-    """Return a tag without what a page has no use for, in the page's colours."""
+    """Return a tag in the page's colours, without attributes that the page does not use."""
     tag = _OWN_ID.sub(lambda own: own[0] if own[1] in used else "", tag)
     tag = _SPACES.sub("", tag.replace("xlink:href=", "href="))
     if tag.startswith("<svg"):

@@ -13,5 +13,5 @@ def unit_of(axis: str, tap: Tap, records: Sequence[Record]) -> str:
 
 
 def named_unit(unit: str, source_unit: str) -> str:
-    """Return a parameter's unit with what it leaves open, that of the axis it comes from."""
+    """Return a parameter's unit, completed by the unit of the axis that it originates in."""
     return "" if unit == f"{source_unit}/…" else unit.replace("…", source_unit or "…")

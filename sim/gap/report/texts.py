@@ -1,4 +1,4 @@
-"""The texts of ``page.html``, marked for translation: the page looks each up by itself."""
+"""The texts of ``page.html``, marked for translation; the page looks them up itself."""
 
 from rotemina.sim.messages import marked
 
@@ -33,8 +33,8 @@ TEXTS = (
     marked("gap", "No axis has a gap that exceeds the noise floor beyond doubt."),
     marked("gap", "{axis} at {tap}, by band and regime"),
     marked("gap", "regime"),
-    marked("gap", "share of the path's"),
-    marked("gap", "{share} of the whole path's"),
+    marked("gap", "share of the channel"),
+    marked("gap", "{share} of the channel"),
     marked(
         "gap",
         "Rms of the model's gap within each band, in noise floors. Regimes overlap: forward "

@@ -1,4 +1,4 @@
-"""What was measured beside what the models answer, worked out anew from the effects found."""
+"""Measurements and answers of the models, recomputed from the effects found."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -101,5 +101,5 @@ def traces(diagnosis: Diagnosis, axis: str, records: Sequence[Record]) -> tuple[
 
 
 def _beside(real: FloatArray, answer: FloatArray) -> FloatArray:
-    """Return an answer moved to the mean of what was measured."""
+    """Return an answer shifted to the mean of the measurement."""
     return np.asarray(answer + (real - answer).mean())

@@ -23,7 +23,7 @@ _BUCKETS = (60, 500)  # in which a curve is drawn, at least and at most
 
 @dataclass(frozen=True, slots=True)
 class TapView:
-    """What is drawn of one axis at one tap; ``not_drawn`` says why something is missing."""
+    """Drawings of one axis at one tap; ``not_drawn`` gives the reason for a missing one."""
 
     tap: Tap
     shrinkage: Shrinkage | None
@@ -36,7 +36,7 @@ class TapView:
 
 @dataclass(frozen=True, slots=True)
 class AxisView:
-    """One axis: what is said of it, and its drawings."""
+    """One axis: its result, and its drawings."""
 
     diagnosis: AxisDiagnosis
     ranking: Markup | None
@@ -46,8 +46,8 @@ class AxisView:
 def axis_views(diagnosis: Diagnosis, records: Sequence[Record]) -> list[AxisView]:
     """Return the drawings of every axis.
 
-    Of each axis those taps are shown whose shrinkage is told, and signals at the tap where the
-    gap is largest, in floors.
+    Each axis has its taps with a reported shrinkage, and signals at the tap with the largest gap,
+    in floors.
 
     Raises
     ------

@@ -16,17 +16,15 @@ UNKNOWN_EFFECT = marked("gap", "Unknown effect")
 VERDICTS = {
     Verdict.NONE: marked("gap", "No gap: model and machine differ by no more than noise"),
     Verdict.EXPLAINED: marked("gap", "Explained: the effects below account for the gap"),
-    Verdict.PARTLY: marked("gap", "Explained in part: what causes the rest is not known"),
-    Verdict.UNKNOWN: marked(
-        "gap", "Unknown: there is a gap that no effect of the catalogue explains"
-    ),
-    Verdict.INSUFFICIENT: marked("gap", "The records cannot tell: the excitation is insufficient"),
+    Verdict.PARTLY: marked("gap", "Partly explained: the cause of the rest is unknown"),
+    Verdict.UNKNOWN: marked("gap", "Unknown: no effect of the catalogue explains the gap"),
+    Verdict.INSUFFICIENT: marked("gap", "Undecided: the records lack excitation"),
 }
 AXIS_VERDICTS = {
     **VERDICTS,
     Verdict.NONE: marked("gap", "No gap of its own"),
     Verdict.EXPLAINED: marked("gap", "Explained"),
-    Verdict.PARTLY: marked("gap", "Explained in part"),
+    Verdict.PARTLY: marked("gap", "Partly explained"),
 }
 REGIMES = {
     Regime.REST: marked("gap", "rest"),
@@ -54,7 +52,7 @@ _wording: ContextVar[Wording] = ContextVar("wording", default=_ENGLISH)
 
 @contextmanager
 def worded(wording: Wording) -> Iterator[None]:
-    """Write what is written meanwhile in a wording."""
+    """Use a wording while the context is active."""
     token = _wording.set(wording)
     try:
         yield

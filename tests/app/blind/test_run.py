@@ -241,7 +241,7 @@ def test_the_command_scores_ones_own_cases(tmp_path, monkeypatch, capsys, own, p
     words = ["gap", "blind", "--from", "own", "--labels", "labels.json"]
     words += ["--json", "out.json", "--report", "page.md", "--folder", "run"]
     assert main(words) == 0
-    assert "first cause right" in capsys.readouterr().out
+    assert "first cause correct" in capsys.readouterr().out
     document = json.loads((tmp_path / "out.json").read_text())
     assert document["done"] == document["asked"] == 2
     assert document["figures"]["top_1"]["value"] == 1.0

@@ -77,7 +77,7 @@ def test_a_record_that_tells_nothing_is_refused():
     record = Record.from_signals(
         np.arange(100) * 1e-3, {("q", Tap.CMD): still, ("q", Tap.MEAS): still}, {"q": "m"}
     )
-    with pytest.raises(IdentificationError, match="tells no figure of q"):
+    with pytest.raises(IdentificationError, match="gives no figure of q"):
         card_of(record, "q")
     with pytest.raises(IdentificationError, match=r"no p\.cmd"):
         card_of(record, "p")

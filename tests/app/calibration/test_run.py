@@ -142,7 +142,7 @@ def test_a_lost_connection_gives_a_run_up(bench):
 def test_a_refused_motion_is_no_run(bench):
     bench.session.emergency_stop()
     run = bench.run()
-    with pytest.raises(RefusedError, match="latched"):
+    with pytest.raises(RefusedError, match="is active"):
         run.start()
     assert run.state.phase is Phase.FAILED
     bench.session.release()

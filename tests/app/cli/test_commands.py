@@ -61,7 +61,7 @@ def test_two_runs_are_compared_as_a_run_and_a_model_are(in_tmp, capsys):
     (tap,) = json.loads(Path("out.json").read_text("utf-8"))["taps"]
     assert tap["delay_s"] == pytest.approx(0.02, abs=1e-4)
     assert tap["rms"] == pytest.approx(2e-5 * np.sin(0.02 * np.pi) / 2**0.5, rel=0.01)
-    assert "tip path: not all joints" in capsys.readouterr().out
+    assert "tip path: the joints of a tip were not all measured" in capsys.readouterr().out
     assert main(["compare", "two.csv", "--with", "one.csv", "--fit", "gain"]) == 2
     assert "--fit: it re-fits the model" in capsys.readouterr().err
 
@@ -252,7 +252,7 @@ def test_a_device_is_not_replaced_by_a_file(in_tmp, capsys):
 
 def test_a_dry_run_writes_nothing(in_tmp, tour, capsys):
     assert main(["play", str(tour), "--dry-run"]) == 0
-    assert "in limits" in capsys.readouterr().out
+    assert "within the limits" in capsys.readouterr().out
     assert not list(in_tmp.iterdir())
 
 

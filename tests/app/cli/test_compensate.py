@@ -139,7 +139,7 @@ def test_a_trajectory_is_compensated_and_played(capsys):
     wanted = Record.from_signals(time_s, {("zn", Tap.CMD): path}, {"zn": "m"})
     write_record(wanted, "way.csv")
     assert main(["compensate", "apply", "zn.json", "way.csv", "-o", "sent.csv"]) == 0
-    assert "sent.csv: 300 rows, 0.299 s; zn through" in capsys.readouterr().out
+    assert "sent.csv: 300 rows, 0.299 s\naxis zn: commands of" in capsys.readouterr().out
     sent = read_record("sent.csv")
     assert sent.metadata["compensation zn"].endswith(", zn.json")
     assert np.abs(sent.signal("zn", Tap.CMD) - path).max() > 1e-7

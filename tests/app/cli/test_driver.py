@@ -78,10 +78,10 @@ def test_a_real_device_moves_only_when_that_is_asked_for(plugins, capsys):
     only = ["--only", "making", "--only", "units"]
     assert main(["driver", "check", "real", *only]) == 0
     said = capsys.readouterr().out.splitlines()
-    assert "--move lets axes move" in said[0]
+    assert "--move lets the axes move" in said[0]
     assert said[2].endswith("it moves axes")
     assert main(["driver", "check", "real", "--move", "--only", "making"]) == 0
-    assert "ALL AXES ARE GOING TO MOVE" in capsys.readouterr().out.splitlines()[0]
+    assert "ALL AXES WILL MOVE" in capsys.readouterr().out.splitlines()[0]
 
 
 @pytest.mark.parametrize(

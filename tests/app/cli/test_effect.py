@@ -73,8 +73,8 @@ def test_show_has_equations_sources_and_figures_on_the_axes_of_a_robot(capsys):
     assert "Corsini and Saletti" in text
     assert "traits: locked to time, random, reading only" in text
     lines = [" ".join(line.split()) for line in text.splitlines()]
-    assert "x, y, z 7.024e-08 m/√s (0 to 3.512e-05)" in lines
-    assert "zn 2.443e-08 m/√s (0 to 1.222e-05)" in lines
+    assert "x, y, z 70.24 nm/√s (0 m/√s to 35.12 µm/√s)" in lines
+    assert "zn 24.43 nm/√s (0 m/√s to 12.22 µm/√s)" in lines
     assert any(line.startswith("thx, thy ") and "rad/√s" in line for line in lines)
 
 

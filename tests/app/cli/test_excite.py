@@ -110,7 +110,7 @@ def test_what_was_reduced_is_said(capsys):
         ("chirp --band 5", "--band: '5'; write it as LOW:HIGH"),
         ("chirp --band 5:x", "--band: 'x' is not a number of Hz"),
         ("chirp --spacing odd", "--spacing: 'odd' is none of log, linear"),
-        ("prbs --order 1.5", "--order: '1.5' is no whole number"),
+        ("prbs --order 1.5", "--order: '1.5' is not an integer"),
         ("prbs --order 99", "order = 99: must lie between 3 and 20"),
         ("sweeps --axes x --speeds 1mm", "is in m, not in m/s"),
         ("staircase --hold 1e12", "rows"),

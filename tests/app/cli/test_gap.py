@@ -70,13 +70,13 @@ def test_diagnose_reads_all_records_and_prints_a_summary(asked, capsys):
     assert [record.axes for record in call.records] == [("thx",), ("thx", "zn", "y")]
     said = capsys.readouterr().out
     for words in (
-        "RoTeMiNa: there is a gap that no known effect explains",
-        "  thx: explained\n    What is left depends on time.",
+        "RoTeMiNa: no known effect explains the gap",
+        "  thx: explained\n    The rest depends on time.",
         "  thx.ref: 63.5 % (61 % … 65.7 %) of it; rms 1.418 µrad, noise floor 0.1 µrad;",
-        "; most between 0.5 and 4 Hz; largest in: reversal",
+        "; mostly between 0.5 and 4 Hz; largest in: reversal",
         "  thx: hysteresis (actuator), probability 0.91; closes 98 % (97 % … 99 %);",
         "rms 32 µrad without it, 0.76 µrad with it",
-        "    cannot be told from: creep",
+        "    not distinguishable from: creep",
         "    width = 120 µrad (110 µrad … 130 µrad), at its high bound",
         "    shape = 4",
         "  y: an unknown effect, probability 0.90; rms 80 nm\n",
@@ -104,10 +104,10 @@ def test_cautions_are_told_once_for_all_axes_and_files_are_named(asked, capsys):
     )
     assert main(["gap", "diagnose", "a.csv", "b.csv"]) == 0
     assert capsys.readouterr().err.splitlines()[:2] == [
-        "rotemina: a.csv: Rows are missing at 1 places of a record; the commands are taken as held "
-        "there.",
+        "rotemina: a.csv: Rows are missing at 1 places of a record; the commands are assumed "
+        "constant there.",
         "rotemina: x, zn: No independent reference (ref) was recorded: effects of the sensor "
-        "cannot be told from those of the axis.",
+        "cannot be distinguished from those of the axis.",
     ]
 
 

@@ -335,7 +335,7 @@ def test_an_effect_without_a_part_is_said_and_not_claimed(capsys, tmp_path):
         text + '[[axis.y.effect]]\nid = "backlash"\n[[axis.zn.effect]]\nid = "delay"\n', "utf-8"
     )
     assert main(["simulate", "c.csv", "--robot", "worn.toml", "-o", "r.csv"]) == 0
-    assert "effect backlash on y has no part" in capsys.readouterr().err
+    assert "effect backlash on axis y does not act" in capsys.readouterr().err
     metadata = read_record("r.csv").metadata
     assert [text for key, text in metadata.items() if key.startswith("simulated effect")] == [
         metadata["simulated effect 1"]

@@ -139,7 +139,7 @@ def test_targets_are_visited_in_their_order(bench, clicks):
         sequence.mark(np.array(place))
     for place in places:
         target = sequence.next()
-        with pytest.raises(MicroscopeError, match="on its way"):
+        with pytest.raises(MicroscopeError, match="moving to a target"):
             sequence.next()
         for _ in range(200):
             bench.step()

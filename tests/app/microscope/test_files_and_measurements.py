@@ -51,7 +51,7 @@ def test_a_singular_matrix_is_refused(still):
 def test_the_file_of_another_camera_is_refused(still, tmp_path):
     known = still.known()
     file_of(tmp_path, "a_b", "20x").write_text(FORMAT.text(known), encoding="utf-8")
-    with pytest.raises(MicroscopeError, match="calibrate anew"):
+    with pytest.raises(MicroscopeError, match="calibrate again"):
         load(tmp_path, "a_b", "20x")
 
 

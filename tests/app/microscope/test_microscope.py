@@ -185,7 +185,7 @@ def test_stop_ends_a_calibration_where_it_is(work):
     work.step(2)
     status = work.microscope.status
     assert status.activity is Activity.NONE
-    assert status.stopped == "it was stopped"
+    assert status.stopped == "stopped"
     assert still(work)
 
 
@@ -221,7 +221,7 @@ def test_targets_are_visited_one_after_the_other(work):
     work.microscope.remove_target(2)
     for away in (40.0, 80.0):
         work.microscope.visit_next()
-        with pytest.raises(MicroscopeError, match="on its way"):
+        with pytest.raises(MicroscopeError, match="moving to a target"):
             work.microscope.clear_targets()
         status = work.until(lambda status: status.activity is Activity.NONE)
         assert work.true_pixel() == pytest.approx(here + away * aside, abs=0.5)

@@ -19,7 +19,7 @@ TRIES = 4
 STARVED = (
     "a set-point came too late",
     "the host was silent",
-    "has said nothing for",
+    "has not answered for",
     "samples are missing",
 )
 

@@ -155,7 +155,7 @@ def test_speeds_do_not_go_beyond_and_the_play_counts_as_not_taken_up(machine):
 
 def test_what_is_no_approach_is_refused_with_the_bound(machine):
     session = machine.session
-    with pytest.raises(OutOfLimitsError, match="zn is no stepper axis"):
+    with pytest.raises(OutOfLimitsError, match="zn is not a stepper axis"):
         session.backlash.use("zn", RISING)
     for width in (0.0, 1e-3, float("nan")):
         with pytest.raises(OutOfLimitsError, match="above 0 and at most 550 µm"):

@@ -67,7 +67,7 @@ def test_a_wrong_reading_of_z_opens_nothing(misread, z):
         stepped.session.go_to({"z": 0.005})
     with pytest.raises(OutOfLimitsError):
         stepped.session.go_to({"z": 0.005}, confirmed=True)
-    with pytest.raises(OutOfLimitsError, match="brings it no nearer"):
+    with pytest.raises(OutOfLimitsError, match="does not bring it nearer"):
         stepped.session.jog("x", 1e-3, confirmed=True)
     for request in (
         lambda: stepped.session.jog("z", 1e-3),
@@ -75,7 +75,7 @@ def test_a_wrong_reading_of_z_opens_nothing(misread, z):
         lambda: stepped.session.set_voltage("zn", 60.0),
         lambda: stepped.session.go_safely({"z": 0.05}),
     ):
-        with pytest.raises(OutOfLimitsError, match="only moves back in"):
+        with pytest.raises(OutOfLimitsError, match="may only move back inside"):
             request()
     stepped.step(times=10)
     assert stepped.session.snapshot().command["z"] == before

@@ -147,7 +147,7 @@ def test_what_the_inverse_asks_for_is_held_against_the_limits(machine):
     machine.session.inverses.apply(NamedInverse(steep, ROBOT.name, "steep"))
     machine.step(0.05, 2)
     machine.seen.clear()
-    with pytest.raises(InputError, match="all the machine can be told"):
+    with pytest.raises(InputError, match="the limits of the machine"):
         machine.session.play(trajectory(PATH + 12e-6))
     machine.session.play(trajectory(PATH - 5e-6))
 
@@ -156,8 +156,8 @@ def test_what_the_inverse_asks_for_is_held_against_the_limits(machine):
     ("inverse", "message"),
     [
         (replace(NAMED, robot="another"), "trained for robot 'another', not for 'RoTeMiNa'"),
-        (replace(NAMED, model=replace(MODEL, axis="x")), "axis x is no piezo in open loop"),
-        (replace(NAMED, model=replace(MODEL, axis="q")), "axis q is no piezo in open loop"),
+        (replace(NAMED, model=replace(MODEL, axis="x")), "axis x.* is not a piezo in open loop"),
+        (replace(NAMED, model=replace(MODEL, axis="q")), "axis q.* is not a piezo in open loop"),
     ],
 )
 def test_a_foreign_inverse_is_refused(machine, inverse, message):
@@ -218,6 +218,6 @@ def test_while_a_stop_is_latched_none_is_put_on_or_taken_off(machine):
         lambda: machine.session.inverses.apply(NAMED),
         lambda: machine.session.inverses.remove("zn"),
     ):
-        with pytest.raises(RefusedError, match="latched"):
+        with pytest.raises(RefusedError, match="release it first"):
             request()
     assert set(machine.session.inverses.applied) == {"zn"}

@@ -185,7 +185,7 @@ def test_a_machine_that_moved_while_a_path_was_checked_does_not_play_it(stepped,
         stepped.step(0.02, 5)
 
     monkeypatch.setattr(session.bounds._guard, "play", meanwhile)
-    with pytest.raises(RefusedError, match="have changed; play once more"):
+    with pytest.raises(RefusedError, match="have changed; play again"):
         session.play(PATH)
     assert stands(stepped)
 
@@ -215,7 +215,7 @@ def test_faults_are_not_cleared_nor_anything_switched_on_while_a_stop_is_latched
         lambda: session.service.set_effects([]),
         lambda: session.bounds.teach_floor(),
     ):
-        with pytest.raises(InputError, match="latched"):
+        with pytest.raises(InputError, match="release it first"):
             request()
     session.tool.switch(False)
     stepped.step()

@@ -193,7 +193,7 @@ def test_while_latched_it_is_refused_and_nothing_moves(stepped, name):
     stepped.until_idle()
     stepped.session.emergency_stop("the operator")
     stepped.step(0.02, 3)
-    with pytest.raises(InputError, match="latched; release it first"):
+    with pytest.raises(InputError, match="active; release it first"):
         REFUSED[name](stepped.session)
     assert stands(stepped)
 
@@ -210,7 +210,7 @@ def test_while_latched_it_is_not_refused_and_moves_and_switches_on_nothing(stepp
     assert stands(stepped)
     assert session.tool.on is False
     assert session.snapshot().latched
-    with pytest.raises(InputError, match="latched"):
+    with pytest.raises(InputError, match="release it first"):
         session.go_to({"x": 0.03})
 
 
@@ -218,7 +218,7 @@ def test_a_fault_is_not_cleared_while_latched(stepped):
     stepped.driver._fault = "something broke"
     stepped.step(0.02, 3)
     stepped.session.emergency_stop()
-    with pytest.raises(RefusedError, match="latched"):
+    with pytest.raises(RefusedError, match="release it first"):
         stepped.session.service.clear_fault()
     stepped.step(0.02, 3)
     assert stepped.session.snapshot().activity is DeviceState.FAULT
@@ -238,7 +238,7 @@ def test_while_latched_one_can_let_go_of_the_device_and_connect_again(stepped):
     stepped.step(0.02, 3)
     assert session.snapshot().connection is Connection.CONNECTED
     assert session.snapshot().latched
-    with pytest.raises(InputError, match="latched"):
+    with pytest.raises(InputError, match="release it first"):
         session.go_to({"x": 0.03})
 
 
@@ -248,7 +248,9 @@ def test_while_latched_the_operation_refuses_it(stepped, tmp_path, name):
     stepped.session.emergency_stop()
     stepped.step(0.02, 3)
     given = (PenetrationParameters(),) if name in ("arm_penetration", "prepare_penetration") else ()
-    with pytest.raises(InputError, match="latched" if name != "press_penetration" else "not armed"):
+    with pytest.raises(
+        InputError, match="release it first" if name != "press_penetration" else "not armed"
+    ):
         getattr(operation, name)(*given)
     assert stands(stepped)
     operation.close()

@@ -147,7 +147,7 @@ def test_an_axis_has_one_owner_until_it_rests(free):
     free.session.go_to({"x": 0.03}, owner="joystick")
     free.step()
     assert free.session.snapshot().owners == {"x": "joystick"}
-    with pytest.raises(RefusedError, match="axis x is driven by joystick"):
+    with pytest.raises(RefusedError, match="joystick controls axis x"):
         free.session.jog("x", 1e-3)
     free.session.jog("y", 1e-3)
     free.session.reservations.take_over(["x"], "operator")
@@ -162,7 +162,7 @@ def test_an_emergency_stop_stays_until_it_is_released(free):
     free.step(0.2)
     free.session.emergency_stop()
     state = free.until_idle()
-    assert "stop and lock is latched" in state.locked
+    assert "stop and lock is active" in state.locked
     for request in (
         lambda: free.session.jog("x", 1e-3),
         lambda: free.session.move_velocity({"x": 1e-3}),
@@ -236,7 +236,7 @@ def test_undo_goes_back_by_a_safe_way(free):
     across = (x < there["x"] - 1e-4) & (x > begin["x"] + 1e-4)
     back = across & (np.arange(len(x)) > len(x) // 2)
     assert z[back].min() >= max(begin["z"], there["z"]) + 0.9e-3
-    with pytest.raises(RefusedError, match="no move to undo"):
+    with pytest.raises(RefusedError, match="no previous position"):
         free.session.undo()
 
 
@@ -253,7 +253,7 @@ def test_whether_there_is_a_move_to_take_back_is_known_and_ends_with_the_device(
     free.session.use(Simulator(free.driver.robot, clock=free.clock))
     free.step(times=3)
     assert not free.session.undoable
-    with pytest.raises(RefusedError, match="no move to undo"):
+    with pytest.raises(RefusedError, match="no previous position"):
         free.session.undo()
 
 

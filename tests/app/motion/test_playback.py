@@ -184,9 +184,9 @@ def test_an_emergency_stop_in_a_pause_lets_nothing_go_on_until_released(stepped,
     playback.pause()
     stepped.until_idle()
     stepped.session.emergency_stop()
-    with pytest.raises(RefusedError, match="latched"):
+    with pytest.raises(RefusedError, match="release it first"):
         playback.resume()
-    with pytest.raises(RefusedError, match="latched"):
+    with pytest.raises(RefusedError, match="release it first"):
         playback.step()
     stepped.session.release()
     playback.resume()

@@ -205,7 +205,7 @@ def test_the_tool_goes_off_at_a_stop_and_cannot_be_switched_on_while_motion_is_l
     session.emergency_stop()
     assert session.tool.on is False
     stepped.step()
-    with pytest.raises(RefusedError, match="latched"):
+    with pytest.raises(RefusedError, match="release it first"):
         session.tool.switch(True)
     session.tool.switch(False)
 

@@ -88,7 +88,7 @@ def test_it_is_never_wider_and_holds_where_the_axis_stands(machine):
         ((40e-6, 30e-6), "its low end must be lower"),
         ((30e-6, 30e-6), "its low end must be lower"),
         ((float("nan"), 30e-6), "not a finite number"),
-        ((40e-6, 50e-6), "stands at 32.5 µm, outside of 40 µm to 50 µm; move it there first"),
+        ((40e-6, 50e-6), "is at 32.5 µm, outside 40 µm to 50 µm; move it inside first"),
     ):
         with pytest.raises(OutOfLimitsError, match=why):
             session.ranges.narrow("zn", *ends)
@@ -117,7 +117,7 @@ def test_a_range_that_narrows_while_a_path_is_checked_refuses_the_path(machine, 
         session.ranges.narrow("zn", 30e-6, 40e-6)
 
     monkeypatch.setattr(moves, "check_rows", check_rows)
-    with pytest.raises(RefusedError, match="have changed; play once more"):
+    with pytest.raises(RefusedError, match="have changed; play again"):
         session.play(path(45e-6))
     settle(machine)
     assert session.snapshot().command["zn"] == pytest.approx(32.5e-6)

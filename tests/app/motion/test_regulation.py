@@ -113,7 +113,7 @@ def test_it_is_put_on_moves_and_is_taken_off(machine):
     session.loops.remove("zn")
     machine.step(0.05, 2)
     assert session.loops.applied == {}
-    with pytest.raises(RefusedError, match="axis zn is under no loop"):
+    with pytest.raises(RefusedError, match="axis zn has no loop"):
         session.loops.remove("zn")
     assert not [event for event in machine.events if isinstance(event, CommandRefused)]
 
@@ -167,7 +167,7 @@ def test_what_does_not_fit_is_refused_before_anything_moves():
         regulation_of(ROBOT, tuning(delay=2), "a.toml")
     with pytest.raises(FeedbackError, match="tuned for robot 'RoTeMiNa', not for"):
         regulation_of(load_robot("picma"), tuning(), "a.toml")
-    with pytest.raises(FeedbackError, match="axis x is no piezo"):
+    with pytest.raises(FeedbackError, match=r"axis x of robot .* is not a piezo"):
         regulation_of(ROBOT, tuning(axis="x"), "a.toml")
     slow = NamedRegulation(Regulation(ROBOT, "zn", Gains(integral=5.0), 1500.0), "slow")
     with pytest.raises(InputError, match="must be a whole multiple"):
@@ -180,7 +180,7 @@ def test_while_a_stop_is_latched_none_is_closed_or_opened(machine):
     machine.step(0.05, 2)
     session.emergency_stop()
     for request in (lambda: session.loops.apply(LOOP), lambda: session.loops.remove("zn")):
-        with pytest.raises(RefusedError, match="latched"):
+        with pytest.raises(RefusedError, match="release it first"):
             request()
     machine.step(0.05, 2)
     assert set(session.loops.applied) == {"zn"}

@@ -36,10 +36,10 @@ def test_what_was_kept_is_read_by_the_next_start(tmp_path, positions):
 @pytest.mark.parametrize(
     ("name", "place", "wrong"),
     [
-        ("", MIDDLE, "is no name"),
-        (" a", MIDDLE, "is no name"),
-        ("a\nb", MIDDLE, "is no name"),
-        ("a" * 41, MIDDLE, "is no name"),
+        ("", MIDDLE, "is not a valid name"),
+        (" a", MIDDLE, "is not a valid name"),
+        ("a\nb", MIDDLE, "is not a valid name"),
+        ("a" * 41, MIDDLE, "is not a valid name"),
         ("a", {"x": 0.0}, "axis thx is missing"),
         ("a", {**MIDDLE, "w": 0.0}, "no axis 'w'"),
         ("a", {**MIDDLE, "x": 0.06}, "x.*55"),

@@ -128,7 +128,7 @@ def test_layouts_of_the_users_own_are_kept_within_bounds(settings):
     assert KeptLayouts(settings).state("b & c") == QByteArray(b"\x00state")
     kept.forget("A")
     assert kept.names() == ("b & c",)
-    assert kept.objection("") == "write a name"
+    assert kept.objection("") == "enter a name"
     assert "of the program" in kept.objection("operate")
     assert "41" in kept.objection(41 * "x")
     for number in range(MOST_KEPT - 1):

@@ -113,7 +113,7 @@ def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
     window.toggle_palette()
     assert palette.field.text() == ""
     qtbot.keyClicks(palette.field, "back latest move")
-    assert palette.reason.text() == "Not now: there is no move to undo."
+    assert palette.reason.text() == "Not now: there is no previous position."
     palette.field.setText("qqqqq")
     assert palette.list.count() == 0
     assert "No command" in palette.reason.text()
@@ -183,7 +183,7 @@ def keys_are_those_of_the_actions_and_no_two_are_alike(window):
     assert len(found) == len(set(found))
     assert (
         "Shift+Esc",
-        "Stop and lock: nothing moves until it is released; a stop by software",
+        "Stop and lock: nothing moves until release; a software stop",
     ) in rows
     given = {command.shortcut for command in window.commands() if command.shortcut}
     assert given <= set(found)

@@ -199,9 +199,9 @@ def test_a_boards_fault_is_german_with_all_that_stands_in_it(application):
 
 def test_words_in_the_fields_of_a_message_are_translated_and_other_texts_stay(application):
     language.use(application, "de")
-    latched = message("engine", "{stop} is latched; release it first")
+    latched = message("engine", "{stop} is active; release it first")
     stop = message("engine", "stop and lock")
-    assert spoken(latched.fill(stop=stop)) == "Halt und sperren ist eingerastet; erst freigeben"
+    assert spoken(latched.fill(stop=stop)) == "Halt und sperren ist aktiv; erst freigeben"
     cannot = message("engine", "{name}: cannot {action} while closed; open it first")
     assert spoken(cannot.fill(name="stage", action="play")) == (
         "stage: geschlossen, kann nicht abspielen; erst öffnen"

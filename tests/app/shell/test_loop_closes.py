@@ -186,8 +186,8 @@ def test_what_was_learned_beside_a_fault_or_a_contact_is_confirmed_by_name(
     qtbot.waitUntil(panel.use.isEnabled, timeout=LONG_MS)
     panel.use.click()
     told = question(window).informativeText()
-    assert "While day one was played: the tip was in contact." in told
-    assert "It has learned contact" in told
+    assert "During day one: the tip was in contact." in told
+    assert "The model includes contact" in told
     with qtbot.waitSignal(bench.model_changed, timeout=LONG_MS):
         question(window).button(QMessageBox.StandardButton.Yes).click()
     model = bench.session.model
@@ -206,7 +206,7 @@ def test_what_remains_beyond_the_model_in_use_is_a_choice_of_its_own(qtbot, benc
     play()
     robots = panel.robots
     names = [robots.itemText(n) for n in range(robots.count())]
-    assert names[:2] == ["RoTeMiNa, nominal", "What remains beyond the model in use"]
+    assert names[:2] == ["RoTeMiNa, nominal", "Remainder of the model in use"]
     use(qtbot, bench, panel, answer_of(bench.run, LOOP))
     assert robots.robot == bench.robot  # a diagnosis compares with the nominal model
     robots.activated.emit(1)

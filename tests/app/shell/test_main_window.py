@@ -259,14 +259,14 @@ def test_a_playback_that_could_not_be_kept_is_not_lost_without_asking(
 ):
     window.workbench.played_folder.write_text("no folder", "utf-8")
     played(qtbot, window, tmp_path / "move.csv")
-    qtbot.waitUntil(lambda: any("cannot be made" in n for n in notices(window)), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: any("cannot be created" in n for n in notices(window)), timeout=LONG_MS)
     assert not window.close()
     assert window.isVisible()
     window.close()
     qtbot.waitUntil(window.isHidden, timeout=LONG_MS)
     assert len(question) == 2
     assert question[0].defaultButton().text() == "Stay"  # what Enter chooses
-    assert "in no file yet" in question[0].text()
+    assert "is not saved" in question[0].text()
 
 
 def test_quitting_during_a_playback_asks_first_and_keeps_what_was_played(

@@ -72,7 +72,7 @@ def test_escape_with_shift_latches_and_without_does_not(qtbot, window):
     assert session.snapshot().latched == "stop and lock"
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     window.workbench.jog("x", 1e-3)
-    assert "latched" in window.notices.notices()[0].text
+    assert "release it first" in window.notices.notices()[0].text
     qtbot.waitUntil(window.emergency_button.isChecked, timeout=LONG_MS)
     dialog.close()
 

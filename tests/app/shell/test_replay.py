@@ -49,7 +49,7 @@ def test_panels_show_the_replay_and_the_tool_bar_the_machine(qtbot, window, reco
     assert bar.phase.text() == "moving"
     assert bar.time.text() == "0:00.2 / 0:01.2"
     assert window._bar.phase.text() == "Locked"  # the machine's own
-    assert window._bar.doing.text().startswith("A replay of run.arrows is shown")
+    assert window._bar.doing.text().startswith("A replay of run.arrows is displayed")
     seek(qtbot, window, 1.1)
     row = window.panels["control"].rows["x"]
     assert row._readout.text().startswith("28.000")
@@ -61,7 +61,7 @@ def test_panels_show_the_replay_and_the_tool_bar_the_machine(qtbot, window, reco
     before = bench.session.stop_asked_s
     bench.jog("y", 1e-3)
     bench.home()
-    assert all("a replay of run.arrows is shown" in text for text in notices(window)[:2])
+    assert all("a replay of run.arrows is displayed" in text for text in notices(window)[:2])
     with pytest.raises(RefusedError, match="go back to live"):
         bench.session.move_velocity({"y": 1e-3}, owner="joystick")
     qtbot.mouseClick(window.stop_button, Qt.MouseButton.LeftButton)
@@ -86,7 +86,7 @@ def test_panels_show_the_replay_and_the_tool_bar_the_machine(qtbot, window, reco
     bench.go_to({"x": 0.05})
     qtbot.waitUntil(lambda: bench.session.snapshot().activity is DeviceState.MOVING)
     bench.open_replay(recording)
-    qtbot.waitUntil(lambda: "the machine moves" in notices(window)[0], timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "the machine is moving" in notices(window)[0], timeout=LONG_MS)
     assert bench.source is bench.session
     assert bench.session.snapshot().locked is None
     bench.stop()

@@ -251,7 +251,7 @@ def test_the_loop_closes_on_a_machine_that_moved_before(on_the_simulator, tmp_pa
     hand.wait("bool(window.docks['effects'].raise_() or True)")  # beside other tabs
     machine = "panels['effects'].machine"
     hand.click(f"place({machine})")
-    hand.click(f"item({machine}.menu(), 'Worn, to demonstrate with')")
+    hand.click(f"item({machine}.menu(), 'Worn, for demonstration')")
     hand.wait("len(bench.session.service.effects) > 5")
     before = hand.see("bench.session.snapshot().command['zn']")
     hand.click("place(panels['control'].rows['zn'].plus)")

@@ -56,8 +56,8 @@ def test_a_slow_reader_misses_nothing_of_a_film(source, write_film, tmp_path, cl
     ("name", "content", "reason"),
     [
         ("notes.txt", b"no film\n" * 300, "no video but a text"),
-        ("broken.avi", b"RIFF garbage" * 100, "it is no video"),
-        ("empty.mp4", b"", "it is no video"),
+        ("broken.avi", b"RIFF garbage" * 100, "not a video"),
+        ("empty.mp4", b"", "not a video"),
     ],
 )
 def test_a_file_that_is_no_video_is_refused(source, tmp_path, capfd, name, content, reason):

@@ -111,7 +111,7 @@ def test_it_remembers_how_it_shook(source, clock):
         ("time_s,x\n0,1\n", "line 1: unknown column 'x'"),
         ("time_s,axis x,axis x\n", "line 1: column 'axis x' is there twice"),
         ("time_s,axis x\n0,1\n1\n", "line 3: 1 values: must be 2"),
-        ("time_s,axis x\n0,1\n1,far\n", "line 3, column 'axis x': 'far' is no number"),
+        ("time_s,axis x\n0,1\n1,far\n", "line 3, column 'axis x': 'far' is not a number"),
         ("time_s,button a\n0,0.5\n", "line 2, column 'button a': 0.5: must be 0 or 1"),
         ("time_s,plugged\n0,2\n", "line 2, column 'plugged': 2: must be 0 or 1"),
         ("time_s,axis x\n0,1\n0,1\n", "moment 2: time 0 s: must be later .* \\(0 s\\)"),

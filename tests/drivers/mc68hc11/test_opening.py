@@ -59,8 +59,8 @@ def identity(version=2, axes=3):
     ("answer", "error", "match"),
     [
         (lambda _: b"", DriverTimeoutError, "nobody answers at 125000 baud.*9600"),
-        (lambda _: b"\xf3\x81\x00\x9c\x1e\x00", ProtocolError, "no frame of a board.*baud"),
-        (lambda _: b"ok\r\n\x00ok\r\n\x00", ProtocolError, "no MC68HC11 board"),
+        (lambda _: b"\xf3\x81\x00\x9c\x1e\x00", ProtocolError, "no valid frame of a board.*baud"),
+        (lambda _: b"ok\r\n\x00ok\r\n\x00", ProtocolError, "whether an MC68HC11 board"),
         (identity(version=3), ProtocolError, "version 3 .* this program 2; update the program"),
         (identity(version=1), ProtocolError, "update the board's program"),
         (identity(axes=2), DriverError, "has 2 axes.*wants 3.*robot file"),

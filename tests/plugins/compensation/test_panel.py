@@ -87,7 +87,7 @@ def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
     controls, session = panel.controls, panel.workbench.session
     assert [controls.axis.itemData(k) for k in range(3)] == ["thx", "thy", "zn"]
     controls.axis.setCurrentIndex(2)
-    qtbot.waitUntil(lambda: "There is no inverse yet" in controls.switch.toolTip(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "There is no inverse" in controls.switch.toolTip(), timeout=LONG_MS)
     assert not controls.record.isEnabled()
 
     panel.workbench.record = _record(swing=0.01)  # holds no loop: nothing is replaced
@@ -114,7 +114,7 @@ def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
     controls.switch.click()
     qtbot.waitUntil(lambda: "zn" in session.inverses.applied, timeout=LONG_MS)
     assert session.inverses.applied["zn"].name == "Prandtl–Ishlinskii, zn.json"
-    qtbot.waitUntil(lambda: controls.switch.text() == "Take off", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: controls.switch.text() == "Remove", timeout=LONG_MS)
     qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
 
     # What a play of the trial motion left is shown beside the other state's.
@@ -144,7 +144,7 @@ def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_tak
 ):
     controls, session, search = panel.controls, panel.workbench.session, panel.search
     controls.axis.setCurrentIndex(2)
-    qtbot.waitUntil(lambda: "there is no front yet" in controls.keep.toolTip(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "there is no front" in controls.keep.toolTip(), timeout=LONG_MS)
     controls.generations.setValue(60)
     panel.tune()
     qtbot.waitUntil(lambda: "generations" in controls.doing.text(), timeout=LONG_MS)
@@ -170,7 +170,7 @@ def test_a_search_is_stopped_and_a_point_of_its_front_tried_kept_applied_and_tak
     controls.apply.click()
     qtbot.waitUntil(lambda: "zn" in session.loops.applied, timeout=LONG_MS)
     assert session.loops.applied["zn"].name == "zn.toml, point 0"
-    qtbot.waitUntil(lambda: controls.apply.text() == "Take loop off", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: controls.apply.text() == "Open loop", timeout=LONG_MS)
     qtbot.waitUntil(controls.apply.isEnabled, timeout=LONG_MS)
     controls.apply.click()
     qtbot.waitUntil(lambda: session.loops.applied == {}, timeout=LONG_MS)
@@ -222,13 +222,13 @@ def test_a_trial_waits_until_nobody_drives_the_axis(qtbot, panel):
     controls.axis.setCurrentIndex(2)
     qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
     session.reservations.reserve("somebody")
-    said = "is still driven by somebody; wait, or stop it"
+    said = "somebody still controls axis"
     for button in (controls.trial, controls.sweep, controls.apply):
         qtbot.waitUntil(lambda button=button: said in button.toolTip(), timeout=LONG_MS)
         assert not button.isEnabled()
     session.reservations.set_free("somebody")
     qtbot.waitUntil(controls.trial.isEnabled, timeout=LONG_MS)
-    assert "no inverse is on" in controls.sweep.toolTip()
+    assert "no inverse is active" in controls.sweep.toolTip()
 
 
 @pytest.mark.slow
@@ -316,5 +316,5 @@ def test_words():
     assert residual_text(None, "m") == "–"
     assert exceedance_text(Exceedance(0)) == ""
     assert exceedance_text(Exceedance.FAST | Exceedance.COMMAND) == (
-        "It has been faster than it was trained, at an end of the machine's range (clamped)."
+        "The axis has been faster than in training, at an end of the machine's range (clamped)."
     )

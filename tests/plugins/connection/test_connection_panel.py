@@ -52,21 +52,19 @@ def test_a_homed_simulator_is_ready(qtbot, window, panel):
     assert panel.state.reason.text() == "Motion is possible."
     assert not panel.state.release.isEnabled()
     assert "nothing is locked" in panel.state.release.toolTip()
-    assert "no line" in panel.line.text.text()
+    assert "no open line" in panel.line.text.text()
 
 
 def test_an_unhomed_machine_is_homed_from_here(qtbot, make_robot_window, press):
     window = make_robot_window(driver=unhomed)
     panel = window.panels["connection"]
     phase_is(qtbot, panel, "position unknown")
-    assert panel.position.text.text() == "Unknown, to be homed: X, Y, Z"
+    assert panel.position.text.text() == "Not homed: X, Y, Z"
     assert "home first" in panel.state.reason.text()
     assert panel.tip.figures.values["Tip height"].text() == "unknown"
     assert not panel.tip.teach.isEnabled()
     press(panel.position.home["y"])
-    qtbot.waitUntil(
-        lambda: panel.position.text.text() == "Unknown, to be homed: X, Z", timeout=LONG_MS
-    )
+    qtbot.waitUntil(lambda: panel.position.text.text() == "Not homed: X, Z", timeout=LONG_MS)
     press(panel.position.home_all)
     phase_is(qtbot, panel, "ready")
     assert panel.position.text.text() == "All positions are known."
@@ -86,11 +84,11 @@ def test_the_owner_is_shown_while_homing(qtbot, make_robot_window, press):
 def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
     phase_is(qtbot, panel, "ready")
     press(panel.state.emergency)
-    qtbot.waitUntil(lambda: "latched" in panel.state.reason.text(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "release it first" in panel.state.reason.text(), timeout=LONG_MS)
     assert panel.state.phase.property("tone") == "danger"
     assert not panel.state.emergency.isEnabled()
     assert not panel.position.home_all.isEnabled()
-    assert "latched" in panel.position.home_all.toolTip()
+    assert "release it first" in panel.position.home_all.toolTip()
     press(panel.state.release)
     qtbot.waitUntil(panel.state.emergency.isEnabled, timeout=LONG_MS)
 
@@ -98,7 +96,7 @@ def test_the_latch_locks_until_it_is_released_here(qtbot, window, panel, press):
 def test_a_move_is_taken_back(qtbot, window, panel, press):
     session = window.workbench.session
     phase_is(qtbot, panel, "ready")
-    assert "no move to undo" in panel.position.back.toolTip()
+    assert "no previous position" in panel.position.back.toolTip()
     start = session.snapshot().command["zn"]
     window.workbench.jog("zn", 1e-6)
     press(panel.position.back)
@@ -114,7 +112,7 @@ def test_a_floor_is_taught_after_a_question_that_names_both_heights(qtbot, windo
     press(tip.teach)
     assert tip.question.isVisibleTo(panel)
     assert shown in tip.question.text.text()
-    assert "none yet" in tip.question.text.text()
+    assert "there is none" in tip.question.text.text()
     qtbot.mouseClick(tip.question.no, Qt.MouseButton.LeftButton)
     assert tip.question.isHidden()
     assert not session.bounds.keep_out.bounded
@@ -126,7 +124,7 @@ def test_a_floor_is_taught_after_a_question_that_names_both_heights(qtbot, windo
     assert "floor" in notices(window)
     press(tip.remove)
     assert shown in tip.question.text.text()
-    assert "none" in tip.question.text.text()
+    assert "Without a floor" in tip.question.text.text()
     qtbot.mouseClick(tip.question.yes, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: tip.figures.values["Floor"].text() == "none", timeout=LONG_MS)
 
@@ -136,7 +134,7 @@ def test_a_question_is_withdrawn_when_the_tip_moves(qtbot, window, panel, press)
     press(panel.tip.teach)
     window.workbench.jog("z", 1e-4)
     qtbot.waitUntil(panel.tip.question.isHidden, timeout=LONG_MS)
-    assert "no floor was taught" in notices(window)
+    assert "no floor was set" in notices(window)
 
 
 def test_a_voltage_is_put_out_after_a_question_that_says_where_it_leads(
@@ -263,8 +261,8 @@ def test_another_device_leads_back_to_no_place_of_the_first(qtbot, window, panel
     ("name", "text", "told"),
     [
         ("settle_s", "0,5", "decimal point"),
-        ("settle_s", "1_0", "no number"),
-        ("seed", "1.5", "no whole number"),
+        ("settle_s", "1_0", "not a number"),
+        ("seed", "1.5", "not an integer"),
     ],
 )
 def test_a_setting_of_another_type_is_marked_and_not_used(qtbot, window, panel, name, text, told):
@@ -310,7 +308,7 @@ def test_broken_drivers_are_listed_with_the_reason(make_robot_window, monkeypatc
     assert device.broken.textFormat() is Qt.TextFormat.PlainText
     device.choice.setCurrentIndex(1)
     device._connect()
-    assert "cannot be made: TypeError: made for <another> age" in notices(window)
+    assert "cannot be created: TypeError: made for <another> age" in notices(window)
     assert window.workbench.session.driver.name == "simulator"
 
 
@@ -346,7 +344,7 @@ def test_a_robot_without_tip_and_switches_says_so(qtbot, make_robot_window):
     window = make_robot_window("picma")
     panel = window.panels["connection"]
     qtbot.waitSignal(window.workbench.refreshed).wait()
-    assert "no switches" in panel.position.home_all.toolTip()
+    assert "no limit switches" in panel.position.home_all.toolTip()
     assert "no tip" in panel.tip.teach.toolTip()
     assert not panel.position.home
 

@@ -35,7 +35,7 @@ DISTRUSTED = state(locked="the connection was lost: home, or confirm")
         (state(), True, "connected with these settings"),
         (GONE, True, None),
         (FAILED, True, None),
-        (CONNECTING, False, "still connecting"),
+        (CONNECTING, False, "is being opened"),
         (MOVING, False, "still moving"),
     ],
 )
@@ -49,7 +49,7 @@ def test_disconnecting_and_reconnecting_exclude_each_other():
         told = (reasons.against_disconnecting(given), reasons.against_reconnecting(given))
         assert told.count(None) == 1
     assert reasons.against_disconnecting(CONNECTING) is None
-    assert "connecting" in reasons.against_reconnecting(CONNECTING)
+    assert "being opened" in reasons.against_reconnecting(CONNECTING)
 
 
 @pytest.mark.parametrize(
@@ -68,19 +68,21 @@ def test_disconnecting_and_reconnecting_exclude_each_other():
 def test_homing(given, why):
     told = reasons.against_homing(given, SIMULATOR)
     assert told is None if why is None else why in told
-    assert "no switches" in reasons.against_homing(given, PIEZO_ONLY)
+    assert "no limit switches" in reasons.against_homing(given, PIEZO_ONLY)
 
 
 def test_only_a_doubtful_position_is_confirmed():
     assert reasons.against_confirming(DISTRUSTED) is None
-    assert "doubtful" in reasons.against_confirming(state())
-    assert "doubtful" in reasons.against_confirming(state(locked="differ", differences=("a",)))
+    assert "position is certain" in reasons.against_confirming(state())
+    assert "position is certain" in reasons.against_confirming(
+        state(locked="differ", differences=("a",))
+    )
     assert "home first" in reasons.against_confirming(state(position_known=False, locked="home"))
 
 
 def test_going_back():
     assert reasons.against_going_back(state(), undoable=True) is None
-    assert "no move" in reasons.against_going_back(state(), undoable=False)
+    assert "no previous position" in reasons.against_going_back(state(), undoable=False)
     assert "still moving" in reasons.against_going_back(MOVING, undoable=True)
     assert reasons.against_going_back(DISTRUSTED, undoable=True) == DISTRUSTED.locked
 
@@ -89,7 +91,7 @@ def test_clearing_and_writing():
     assert reasons.against_clearing(state(fault="hot")) is None
     assert "no fault" in reasons.against_clearing(state())
     assert "connect" in reasons.against_clearing(FAILED)
-    assert "keeps no parameters" in reasons.against_writing(state(), SIMULATOR)
+    assert "stores no parameters" in reasons.against_writing(state(), SIMULATOR)
 
 
 def test_floor():

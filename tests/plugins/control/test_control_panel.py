@@ -248,7 +248,7 @@ def test_a_stop_withdraws_that_a_position_is_deleted(qtbot, panel, window):
     page.name.setText("bench")
     page._keep()
     page._delete()
-    assert page.delete.text() == "Delete it?"
+    assert page.delete.text() == "Delete?"
     bench.stop()
     page._delete()
     assert "bench" in page.positions.kept

@@ -51,7 +51,7 @@ def test_a_typed_number_is_read_back_with_its_unit_and_its_way():
     assert echo("1e1", UM) == "to 10.000 µm"
     assert echo("", MM) == ""
     assert "no comma" in echo("2,8", MM)
-    assert echo("two", MM) == "no number"
+    assert echo("two", MM) == "not a number"
 
 
 def test_ages_keep_short():
@@ -107,14 +107,14 @@ def test_the_tip_is_told_over_its_floor():
     session.run_once()
     state = session.snapshot()
     assert tip_short(state, session.bounds.keep_out) == "No floor taught"
-    assert "Only the ranges of the axes bound the tip" in bounds_text(session.bounds.keep_out)
+    assert "Only the axis ranges limit the tip" in bounds_text(session.bounds.keep_out)
     session.bounds.teach_floor(2e-4)
     assert tip_short(state, session.bounds.keep_out) == "Tip over floor 0.2000 mm"
     assert tip_text(state, session.bounds.keep_out).endswith("; slow zone.")
     assert "500 µm/s at most" in bounds_text(session.bounds.keep_out)
     session.close()
     assert tip_text(SessionState(), session.bounds.keep_out) == "Tip: unknown."
-    assert "no chain" in tip_text(state, None)
+    assert "no kinematic chain" in tip_text(state, None)
 
 
 @pytest.fixture

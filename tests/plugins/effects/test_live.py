@@ -113,7 +113,7 @@ def test_what_a_stop_swept_away_is_sent_once_more(qtbot, live, session):
     assert session.asked == [FIRST, FIRST]
     assert (live.apply_state, live.reason) == (
         ApplyState.REFUSED,
-        "the simulator did not take the change",
+        "the simulator did not accept the change",
     )
 
 

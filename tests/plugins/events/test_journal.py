@@ -66,10 +66,10 @@ def test_a_new_connection_begins_anew_and_a_playback_has_its_own_words(journal):
     playing = PlaybackState(PlaybackPhase.PLAYING)
     paused = PlaybackState(PlaybackPhase.PAUSED, row=4)
     for playback, text in (
-        (playing, "Plays tour"),
+        (playing, "Playing tour"),
         (paused, "tour is paused at row 5"),
-        (replace(playing, row=4), "tour goes on at row 5"),
-        (PlaybackState(), "tour has ended"),
+        (replace(playing, row=4), "tour resumed at row 5"),
+        (PlaybackState(), "tour ended"),
     ):
         assert told(journal, played, playback=playback, plan="tour", driver="simulator") == [text]
     assert told(journal, AT_REST, driver="simulator") == []
@@ -90,7 +90,7 @@ def test_stops_and_locks_are_told_with_who_and_why(journal):
     ) == [
         "Stopped by the operator",
         "Stopped and locked by the operator",
-        "The lock is released",
+        "Lock released",
         "Stopped by the program: the disk is full",
     ]
     assert {entry.level for entry in journal.entries} == {Level.WARNING, Level.INFO}
@@ -109,9 +109,9 @@ def test_penetration_and_recording_are_told(journal):
     assert told(journal, AT_REST, penetration=held) == ["Penetration: held: stopped"]
     assert journal.entries[-1].level is Level.WARNING
     assert told(journal, AT_REST, penetration=held, recording="a.arrows") == [
-        "Recording a.arrows begins"
+        "Recording a.arrows started"
     ]
     assert told(journal, AT_REST, penetration=held, model="other") == [
-        "Recording a.arrows ends",
+        "Recording a.arrows ended",
         "Model in use: other",
     ]

@@ -43,7 +43,7 @@ def test_refusals_latches_and_recoveries_are_listed_newest_first(qtbot, window, 
     wait_for(qtbot, panel, "recovered", "connected")
     window.workbench.go_to({"x": 1.0})
     window.workbench.emergency_stop()
-    wait_for(qtbot, panel, "stop and lock", "stop and lock latched")
+    wait_for(qtbot, panel, "stop and lock", "stop and lock locked")
     window.workbench.release()
     wait_for(qtbot, panel, "stop and lock", "released")
     kinds = [kind for kind, _ in rows(panel)]

@@ -63,10 +63,10 @@ def test_figures_stand_beside_their_levels(result):
     assert reached == {
         "… where the gap is ≥ 5 floors": True,
         "mean size of the set": False,
-        "healthy machines accused": True,
-        "seconds a case, greatest": False,
-        "first cause right, one effect": None,
-        "two effects exactly": None,
+        "healthy machines blamed": True,
+        "seconds per case, maximum": False,
+        "first cause correct, one effect": None,
+        "exactly two effects": None,
     }
     assert result.rows[0].cells[1:] == ("≥ 95 %", "96.0 % (90.0–99.0)", "50")
     assert result.rows[-1].cells[2] == "–"
@@ -81,7 +81,7 @@ def test_shares_of_the_matrix_are_of_what_is_there(result):
 
 
 def test_a_result_that_cannot_be_read_is_told(tmp_path):
-    with pytest.raises(InputError, match="run it once more"):
+    with pytest.raises(InputError, match="run it again"):
         BlindResult.read(tmp_path / "missing.json")
     (tmp_path / "half.json").write_text("{")
     with pytest.raises(InputError, match=r"half\.json"):
@@ -119,7 +119,7 @@ def test_a_test_can_be_stopped_and_ends_with_the_window(qtbot, window, page):
         page.begin(score=False)
     with qtbot.waitSignal(page.run.stopped, timeout=LONG_MS):
         qtbot.mouseClick(page.stop, Qt.MouseButton.LeftButton)
-    assert page.doing.text() == "stopped; what is done stays"
+    assert page.doing.text() == "stopped; finished cases are kept"
     assert page.start.isEnabled()
     with qtbot.waitSignal(page.run.progressed, timeout=LONG_MS):
         page.begin(score=False)

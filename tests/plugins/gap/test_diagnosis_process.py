@@ -104,7 +104,7 @@ def test_a_process_that_dies_is_told_and_another_takes_its_place(process, starte
         if progress.stage == "fitting":
             started[-1].kill()
 
-    with pytest.raises(InputError, match=r"has ended \(status -9\).*Diagnose again"):
+    with pytest.raises(InputError, match=r"ended \(status -9\).*diagnose again"):
         process.answer(ROBOT, ["one"], [record], kill)
     assert process.answer(ROBOT, ["one"], [healthy], lambda _: None).diagnosis.causes == ()
 

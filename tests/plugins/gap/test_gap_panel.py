@@ -160,7 +160,7 @@ def test_a_file_that_cannot_be_read_or_needs_names_becomes_a_notice(
     (tmp_path / "bare.csv").write_text("0,1\n1,2\n2,3\n")
     write_record(record, tmp_path / "good.csv")
     panel.records.add_files([tmp_path / "bare.csv", tmp_path / "good.csv"])
-    qtbot.waitUntil(lambda: "it has no header" in newest(window), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "no header" in newest(window), timeout=LONG_MS)
     qtbot.waitUntil(lambda: len(panel.records.chosen) == 1, timeout=LONG_MS)
     panel.records.add_files([tmp_path / "missing.csv"])
     qtbot.waitUntil(lambda: "missing.csv" in newest(window), timeout=LONG_MS)
@@ -237,7 +237,7 @@ def test_stop_works_at_once_and_what_comes_late_is_dropped(qtbot, chosen, stepwi
     assert not chosen.stop.isEnabled()
     assert chosen.doing.text() == "The diagnosis was stopped."
     click(qtbot, chosen.start)
-    assert chosen.doing.text() == "waiting for the end of what was stopped"
+    assert chosen.doing.text() == "waiting for the stopped work to end"
     stepwise.steps.release()
     qtbot.waitUntil(lambda: stepwise.ends == ["stopped"], timeout=LONG_MS)
     stepwise.steps.release(2)
@@ -331,9 +331,12 @@ def test_which_ranks_candidates_and_says_what_cannot_be_told_apart(answered):
         "1.1 … 1.3",
     ]
     text = answered.causes.text.toPlainText()
-    assert "These records cannot tell it from creep." in text
+    assert "These records cannot distinguish it from creep." in text
     assert "width: 120 µrad (110 µrad … 130 µrad), at its high bound" in text
-    assert answered.verdict.text() == "θx: hysteresis or creep (these records cannot tell which)."
+    assert (
+        answered.verdict.text()
+        == "θx: hysteresis or creep (these records cannot distinguish them)."
+    )
 
 
 def test_how_far_shows_bars_and_the_gap_before_and_after(qtbot, answered):
@@ -354,7 +357,7 @@ def test_how_far_shows_bars_and_the_gap_before_and_after(qtbot, answered):
     assert np.std(before) > 10 * np.std(after) > 0.0
     click(qtbot, answered.cells.cells[1])
     assert answered.shrinkage.bars.bars == ()
-    assert answered.shrinkage.title.text() == "No gap to close was found on this axis."
+    assert answered.shrinkage.title.text() == "This axis has no gap to close."
 
 
 def test_another_theme_recolours_everything(window, answered):
@@ -406,7 +409,7 @@ def test_a_suggested_experiment_is_played_after_a_question_and_diagnosed_with_th
     command = experimental(answered, diagnosis, record)
     text = answered.causes.text.toPlainText()
     assert "Next experiment: A long hold parts them." in text
-    assert "Press “Play next experiment …” to tell them apart." in text
+    assert "Press “Play next experiment …” to distinguish them." in text
     click(qtbot, answered.plan)
     click(qtbot, question(window).button(QMessageBox.StandardButton.No))
     assert window.workbench.plan is None  # nothing is taken in hand unasked

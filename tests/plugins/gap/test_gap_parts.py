@@ -94,7 +94,7 @@ def test_every_verdict_says_what_it_means_and_what_to_do(diagnosis, verdict):
 
 def test_what_is_not_settled_is_said_with_the_experiment_that_would_settle_it(diagnosis):
     lines = list(advice(diagnosis.axes["thx"], has_experiment=True))
-    assert lines[1].startswith("Not settled: creep would do as well")
+    assert lines[1].startswith("Undecided: creep would explain")
     assert "Play next experiment" in lines[2]
 
 

@@ -63,7 +63,7 @@ def test_it_is_driven_like_any_other_and_revealed_beside_the_answer(
 def test_what_is_not_named_counts_against_it(window, hiding, diagnosis):
     hiding.reveal(None)
     (box,) = boxes(window)
-    assert box.text() == "Not right."
+    assert box.text() == "Not correct."
     assert "The diagnosis names: nothing" in box.informativeText()
     assert "Score: 0 of 1" in box.informativeText()
     assert replace(diagnosis).causes  # untouched

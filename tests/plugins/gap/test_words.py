@@ -66,7 +66,7 @@ def test_the_window_says_the_answer_as_the_report_does_with_its_own_names(diagno
 def test_summary_and_report_are_german_where_german_is_chosen(diagnosis, record):
     german = wording_in("de")
     english, shown = (summary(diagnosis, [record], one).splitlines() for one in (None, german))
-    own = ("width =", "What is left depends on time.")  # of this answer alone: no text of ours
+    own = ("width =", "The rest depends on time.")  # of this answer alone: no text of ours
     same = [one for one in english if one in shown and not one.lstrip().startswith(own)]
     assert same == []
     assert any("Hysterese" in line and "0,91" in line for line in shown)

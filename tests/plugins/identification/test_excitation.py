@@ -39,7 +39,7 @@ def test_every_motion_suits_the_axis_where_nothing_is_typed(robot, wave):
     assert motion.objection == ""
     assert motion.name == f"{wave} of Z nano"
     assert "of 5 mm/s" in motion.words
-    assert "inside all limits" in motion.words
+    assert "within all limits" in motion.words
 
 
 def test_what_is_typed_is_what_moves(robot):
@@ -56,7 +56,7 @@ def test_what_is_typed_is_what_moves(robot):
 
 def test_what_exceeds_a_limit_is_reduced_and_said(robot):
     words = prepared(robot, ExcitationRequest("zn", Wave.SINE, "1mm", "1"), PERIOD_S).words
-    assert "Changed: axis zn: amplitude 1 mm" in words
+    assert "Reduced to the limits: axis zn: amplitude 1 mm" in words
 
 
 @pytest.mark.parametrize(
@@ -64,7 +64,7 @@ def test_what_exceeds_a_limit_is_reduced_and_said(robot):
     [
         (ExcitationRequest("zn", Wave.SINE, "5"), "has no unit"),
         (ExcitationRequest("zn", Wave.SINE, "5urad"), "not in m"),
-        (ExcitationRequest("zn", Wave.SINE, "", "fast"), "frequency: 'fast' is no number of Hz"),
+        (ExcitationRequest("zn", Wave.SINE, "", "fast"), "frequency: 'fast' is not a number in Hz"),
         (ExcitationRequest("zn", Wave.SINE, "", "", "1e999"), "must be a finite number"),
         (ExcitationRequest("zn", Wave.SINE, "", "", "-1"), "must be a finite number above 0"),
         (ExcitationRequest("zn", Wave.SINE, "", "900 Hz", about=0.0), "zn"),

@@ -28,7 +28,7 @@ def test_the_first_card_has_no_last_time(question):
     found = health_findings(question)
     assert found.rows[0][0] == "gain"
     assert {row[3] for row in found.rows} == {"–"}
-    assert found.notices[0].startswith("No card of this axis is kept yet")
+    assert found.notices[0].startswith("There is no card of this axis yet")
 
 
 def test_a_kept_card_is_the_last_one(question, tmp_path):

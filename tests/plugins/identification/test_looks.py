@@ -80,13 +80,13 @@ def test_a_periodic_record_is_averaged_over_its_periods(ask, record_of):
 def test_a_slow_input_says_that_nothing_is_known_above_it(ask, record_of):
     time_s = np.arange(12_800) / 12_800
     findings = frequency_findings(ask(record_of(1e-6 * np.sin(2 * np.pi * 5 * time_s))))
-    assert any("lines alone" in text for text in findings.notices)
+    assert any("excites only" in text for text in findings.notices)
 
 
 def test_noise_that_hides_the_answer_is_told_by_coherence(ask, record_of):
     command = 1e-9 * np.random.default_rng(3).uniform(-1.0, 1.0, 8192)
     findings = frequency_findings(ask(record_of(command, noise_m=1e-7)))
-    assert any("Coherence is below 0.8" in text for text in findings.notices)
+    assert any("coherence is below 0.8" in text for text in findings.notices)
 
 
 def test_a_record_that_the_model_cannot_follow_is_still_measured(ask, noise_record):
@@ -94,7 +94,7 @@ def test_a_record_that_the_model_cannot_follow_is_still_measured(ask, noise_reco
     record = Record.from_signals(noise_record.time_s, kept, {"m1": "m"})
     findings = frequency_findings(ask(record, drive=Tap.U))
     assert figure(findings, "resonance") == pytest.approx(FREQUENCY_HZ, rel=2e-3)
-    assert any(text.startswith("No nominal model beside it: ") for text in findings.notices)
+    assert any(text.startswith("The nominal model is not shown: ") for text in findings.notices)
     assert not any(c.heading.startswith("model") for c in findings.columns)
 
 
@@ -110,7 +110,7 @@ def test_a_backlash_shows_its_play_and_area(ask):
         at = min(max(at, value - play / 2), value + play / 2)
     findings = loop_findings(ask(plain(command, meas)))
     assert figure(findings, "largest width") == pytest.approx(1.0, rel=0.02)
-    assert figure(findings, "play across") == pytest.approx(1.0, rel=0.02)
+    assert figure(findings, "backlash width") == pytest.approx(1.0, rel=0.02)
     # A band of 1 µm between two sides that move by 20 − 1 µm.
     assert figure(findings, "area") == pytest.approx(19.0, rel=0.02)
     assert findings.columns[2].heading == "largest width [µm]"
@@ -118,14 +118,14 @@ def test_a_backlash_shows_its_play_and_area(ask):
 
 
 def test_fast_cycles_are_no_hysteresis(ask, noise_record):
-    assert any("drive slower" in text for text in loop_findings(ask(noise_record)).notices)
+    assert any("Drive slower" in text for text in loop_findings(ask(noise_record)).notices)
 
 
 def test_only_as_many_cycles_are_measured_as_take_a_second(ask):
     command = np.random.default_rng(0).standard_normal(60_000)
     findings = loop_findings(ask(plain(command, command)))
     assert 100 < figure(findings, "cycles") <= 1000  # lopsided ones are left out
-    assert any("of 60000 rows, which turn 1000 times" in text for text in findings.notices)
+    assert any("of 60000 rows, with 1000 reversals" in text for text in findings.notices)
 
 
 def test_without_a_whole_cycle_the_curve_is_drawn_and_the_reason_given(ask):
@@ -143,8 +143,8 @@ def test_the_models_loop_stands_beside_the_machines(ask, record_of):
     findings = loop_findings(ask(Record.from_signals(found.time_s, signals, {"m1": "m"})))
     rows = {row[0]: row for row in findings.rows}
     assert findings.head[1:3] == ("median", "model")
-    assert figure(findings, "width at the middle") == pytest.approx(200.0, rel=0.02)
-    assert abs(float(rows["width at the middle"][2].split()[0])) < 2.0
+    assert figure(findings, "width at mid-range") == pytest.approx(200.0, rel=0.02)
+    assert abs(float(rows["width at mid-range"][2].split()[0])) < 2.0
     assert [curve.name for curve in findings.pictures[0].curves] == ["model", "measured"]
 
 
@@ -253,7 +253,7 @@ def test_arx_under_sensor_noise_is_doubted_and_output_error_is_right(ask, record
 def test_a_bad_fit_is_said_in_words(ask):
     rng = np.random.default_rng(2)
     findings = model_findings(ask(plain(rng.standard_normal(2000), rng.standard_normal(2000))))
-    assert any(text.startswith("Fit ") and "below 80 %" in text for text in findings.notices)
+    assert any(text.startswith("The fit ") and "below 80 %" in text for text in findings.notices)
 
 
 def test_a_lag_is_called_a_lag(ask):
@@ -284,13 +284,13 @@ def test_a_record_that_is_too_short_is_refused_in_words(ask, look, rows):
     values = np.random.default_rng(0).standard_normal(rows)
     findings = answered(look, ask(plain(values, values)))
     assert findings.notices
-    assert not any("fault of the program" in text for text in findings.notices)
+    assert not any("program error" in text for text in findings.notices)
 
 
 @EVERY_PAIR_LOOK
 def test_the_same_tap_twice_is_refused(ask, noise_record, look):
     findings = answered(look, ask(noise_record, drive=Tap.REF, answer=Tap.REF))
-    assert findings.notices == ("m1: input and output are both ref; choose two taps",)
+    assert findings.notices == ("m1: input and output are both ref; choose two different signals",)
 
 
 @EVERY_PAIR_LOOK
@@ -315,5 +315,5 @@ def test_a_fault_of_the_program_becomes_a_notice(ask, noise_record, caplog):
         raise ZeroDivisionError("nobody thought of it")
 
     (notice,) = answered(fails, ask(noise_record)).notices
-    assert notice == "a fault of the program: ZeroDivisionError: nobody thought of it"
+    assert notice == "program error: ZeroDivisionError: nobody thought of it"
     assert caplog.records[0].exc_info

@@ -80,10 +80,10 @@ def shown_live(hand, stick):
     stick.deflect("X", 0.5)
     stick.hold("2")
     hand.until(lambda: panel.live.rows["X"].numbers.text() == "+0.50   +46 %")
-    assert "Down: 2" in panel.live.lamps.accessibleDescription()
+    assert "Pressed: 2" in panel.live.lamps.accessibleDescription()
     stick.release_all()
     hand.until(lambda: panel.live.rows["X"].about.text() == "→ Stick X")
-    assert "stick may drive" in panel.headline.text()
+    assert "stick may control" in panel.headline.text()
 
 
 def set_up(hand, stick):
@@ -124,9 +124,9 @@ def mapped(hand):
     hand.type(clutch.at, "70")
     hand.until(lambda: clutch.control.text() == "Y > 70 %")
     hand.type(clutch.at, "5")
-    assert "cannot be a threshold" in mapping.message.text()
+    assert "of the deflection must be" in mapping.message.text()
     hand.press(rows["y"].control)
-    hand.until(lambda: rows["y"].control.text() == "move it now …")
+    hand.until(lambda: rows["y"].control.text() == "move it …")
     hand.press(rows["y"].control)
     hand.until(lambda: rows["y"].control.text() == "–")
 
@@ -134,7 +134,7 @@ def mapped(hand):
 def saved(hand):
     """What was changed is kept under a name."""
     profile = hand.panel.profile
-    hand.until(lambda: "not kept" in profile.state.text())
+    hand.until(lambda: "not saved" in profile.state.text())
     profile.name.setText("Mine")
     hand.press(profile.save)
     assert hand.window.workbench.settings.get(SETTING, "") == "Mine"
@@ -162,7 +162,7 @@ def measured(hand, stick):
     assert panel.calibration.expo.property("bad")
     hand.type(panel.calibration.expo, "0.4")
     hand.press(panel.calibration.keep)
-    assert "The calibration of stick is kept" in hand.notices()
+    assert "The calibration of stick is stored" in hand.notices()
 
 
 def test_a_stick_is_seen_and_mapped_by_moving_it(make_hand, stick):
@@ -172,7 +172,7 @@ def test_a_stick_is_seen_and_mapped_by_moving_it(make_hand, stick):
     found(hand)
     hand.press(hand.panel.set_up)
     hand.until(lambda: hand.operation.intent.deflections == {"x": 0.0, "y": 0.0, "zn": 0.0})
-    hand.until(lambda: "not kept: set up, and save it" in hand.panel.profile.state.text())
+    hand.until(lambda: "not saved: set up, and save it" in hand.panel.profile.state.text())
 
 
 @pytest.mark.slow
@@ -209,7 +209,7 @@ def test_a_missing_profile_is_told_and_a_hidden_panel_is_set_up_no_more(make_han
     hand.window.docks["inputs"].hide()
     assert not panel.set_up.isChecked()
     hand.until(lambda: not devices.view.setting_up)
-    assert "The changed calibration of stick was not kept" in hand.notices()
+    assert "The changed calibration of stick was not stored" in hand.notices()
     hand.window.docks["inputs"].show()
     assert not panel.banner.isVisible()
     hand.press(panel.set_up)

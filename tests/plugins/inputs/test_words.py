@@ -40,19 +40,19 @@ def test_a_device_waits_and_then_drives(make_bench, make_stick):
     stick = make_stick()
     stick.deflect("Y", 0.5)
     bench = make_bench(stick)
-    assert standings(bench) == {"stick": "trainer, waits for Y"}
+    assert standings(bench) == {"stick": "trainer, waiting for Y"}
     stick.deflect("Y", 0.0)
     bench.run()
-    assert standings(bench) == {"stick": "trainer, drives"}
-    assert headline(bench.devices.view, 0) == "stick may drive."
+    assert standings(bench) == {"stick": "trainer, in control"}
+    assert headline(bench.devices.view, 0) == "stick may control the robot."
     bench.devices.open_mapping()
     assert standings(bench) == {"stick": "trainer, being set up"}
-    assert headline(bench.devices.view, 0) == "Being set up: nothing drives."
+    assert headline(bench.devices.view, 0) == "Set-up: no device controls the robot."
 
 
 def test_one_that_the_profile_lacks_does_nothing(make_bench, make_stick):
     bench = make_bench(make_stick("a"), make_stick("b"))
-    assert standings(bench) == {"a": "trainer, drives", "b": "not in the profile"}
+    assert standings(bench) == {"a": "trainer, in control", "b": "not in the profile"}
 
 
 def test_one_that_cannot_be_opened_is_there_with_what_to_do(make_bench, make_stick):
@@ -72,7 +72,7 @@ def test_one_that_cannot_be_opened_is_there_with_what_to_do(make_bench, make_sti
     told = troubles(view, hub)
     assert told[0].text == permission
     assert 'ATTRS{idVendor}=="046d", ATTRS{idProduct}=="c215"' in told[0].remedy
-    assert headline(view, 1) == "No input device is plugged in. One problem, see below."
+    assert headline(view, 1) == "No input device is connected. One problem, see below."
 
 
 def test_a_source_that_fails_is_named(make_bench, make_stick):
@@ -94,11 +94,11 @@ def test_no_rule_helps_what_is_no_joystick(key):
 
 def test_nothing_is_told_of_nothing():
     view = DevicesView()
-    assert headline(view, 0) == "No input device is plugged in."
-    assert headline(replace(view, setting_up=True), 1) == "Being set up: nothing drives."
+    assert headline(view, 0) == "No input device is connected."
+    assert headline(replace(view, setting_up=True), 1) == "Set-up: no device controls the robot."
 
 
 def test_what_was_plugged_in_comes_before_the_pad(make_bench, make_stick, clock):
     bench = make_bench(Pad("pad", clock=clock), make_stick())
     assert list(standings(bench)) == ["stick", "pad"]
-    assert standings(bench)["pad"] == "trainee, looks on"
+    assert standings(bench)["pad"] == "trainee, watching"

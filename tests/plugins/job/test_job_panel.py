@@ -53,19 +53,19 @@ def test_a_playback_and_a_recording_are_steered_and_told(qtbot, window):
     qtbot.waitUntil(lambda: "paused" in job.playback.doing.text(), timeout=LONG_MS)
     assert job.recording.isVisibleTo(job)
     job.end.click()
-    qtbot.waitUntil(lambda: job.playback.doing.text() == "is loaded", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: job.playback.doing.text() == "loaded", timeout=LONG_MS)
     job.end_recording.click()
     qtbot.waitUntil(lambda: not job.recording.isVisibleTo(job), timeout=LONG_MS)
     bench.run_changed.emit(compared(bench.session.model, "tour", bench.record))
     assert not job.result.isHidden()
     assert job.result.gaps.count() == len(bench.robot.axes)
     said = " | ".join(one.text for one in events.journal.entries)
-    for text in ("Plays tour", "is paused at row", "tour has ended", ".arrows ends"):
+    for text in ("Playing tour", "is paused at row", "tour ended", ".arrows ended"):
         assert text in said
     window.bring_up("events")
 
     def listed():
         return [events.list.item(row).text() for row in range(events.list.count())]
 
-    qtbot.waitUntil(lambda: "✓ Recorded " in " ".join(listed()[:2]), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "✓ Saved the recording " in " ".join(listed()[:2]), timeout=LONG_MS)
     assert len(listed()) == len(events.journal.entries)

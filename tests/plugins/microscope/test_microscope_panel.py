@@ -46,7 +46,7 @@ def test_a_picture_is_shown_kept_and_filmed_and_a_refused_setting_said(qtbot, wi
     panel.settings.apply.click()  # it is below what can be seen without scrolling
     qtbot.waitUntil(lambda: "exposure_s = 99.999" in panel.settings.problem.text(), timeout=LONG_MS)
 
-    panel.bar.tools.setCurrentText("Keep")
+    panel.bar.tools.setCurrentText("Save")
     qtbot.mouseClick(panel.saving.snapshot, LEFT)
     qtbot.waitUntil(lambda: any("Saved" in one for one in notices(window)), timeout=LONG_MS)
     data = window.workbench.operation.data

@@ -57,7 +57,7 @@ def test_a_snapshot_is_what_the_camera_gave_and_what_was_seen(microscope, tmp_pa
     expected = 255 - np.rint(255.0 * frame.pixels / 4095)
     np.testing.assert_array_equal(seen[..., 1], expected)
     (tmp_path / "pictures" / "taken").write_text("")
-    with pytest.raises(MicroscopeError, match="cannot be made"):
+    with pytest.raises(MicroscopeError, match="cannot be created"):
         write_pictures(tmp_path / "pictures" / "taken", frame, contrast, about, "one")
 
 

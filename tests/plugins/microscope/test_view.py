@@ -211,7 +211,7 @@ def test_what_speaks_against_a_move_is_said_and_nothing_is_planned(
     microscope.change(tip=TipSeen(TipState.LOST))
     qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
     assert names(microscope) == []
-    assert "nothing is moved: the tip is not tracked" in tools.said[-1]
+    assert "no move: the tip is not tracked" in tools.said[-1]
     tools.choose(PointerTool.MARK)
     against = tools.against(microscope.status, session.state)
     assert "tip is not tracked" in against[PointerTool.MOVE]

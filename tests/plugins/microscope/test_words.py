@@ -106,7 +106,7 @@ def test_the_bar_has_a_round_length_that_fits(pixel_m, zoom, length, text):
     assert bar.text == text
     assert bar.length == pytest.approx(length / pixel_m * zoom)
     assert 0.3 * 620.0 / 2.5 <= bar.length <= 0.3 * 620.0
-    assert scale_bar(pixel_m, ScaleSource.ROBOT_FILE, zoom, 620.0).remark == "by the robot file"
+    assert scale_bar(pixel_m, ScaleSource.ROBOT_FILE, zoom, 620.0).remark == "from the robot file"
 
 
 def test_without_a_scale_the_bar_counts_pixels():
@@ -177,7 +177,7 @@ def test_words_tell_uncertainties(status):
     assert tip_text(TipSeen(TipState.LOST, reason="covered")) == "lost: covered"
     known = stage_text("micro", status.calibration.micro)
     assert known.startswith("micro: 335.00 × 335.00 ± 0.00 nm/px, turned 0.000")
-    assert "residual 0.07 px, of 2026-03-04 05:06" in known
+    assert "residual 0.07 px, 2026-03-04 05:06" in known
     assert stage_text("nano", None) == "nano: not calibrated"
     assert target_text(2, Target(7.0, 8.0, Visit.FAILED, "no")) == "2   7, 8 px   failed: no"
     line = Measured(np.zeros(2), np.array([3.0, 4.0]), 5.0, None, np.radians(53.0), None)
@@ -197,10 +197,13 @@ def test_what_is_typed_for_a_camera():
 @pytest.mark.parametrize(
     ("typed", "said"),
     [
-        (CameraTexts(exposure="fast"), "exposure: 'fast' is no number; write one, ms"),
-        (CameraTexts(gain="nan"), "gain: 'nan' is no number"),
-        (CameraTexts(rate="1 000"), "rate: '1 000' is no number"),
-        (CameraTexts(region="1 2 3"), "region: '1 2 3': write whole, or four whole numbers"),
+        (CameraTexts(exposure="fast"), "exposure: 'fast' is not a number; enter one in ms"),
+        (CameraTexts(gain="nan"), "gain: 'nan' is not a number"),
+        (CameraTexts(rate="1 000"), "rate: '1 000' is not a number"),
+        (
+            CameraTexts(region="1 2 3"),
+            "region: '1 2 3' is not valid; enter whole, or four integers",
+        ),
         (CameraTexts(region="1 2 3 -4"), "first column, first row, width and height"),
     ],
 )

@@ -74,13 +74,13 @@ def test_parameters_are_typed_kept_and_read_and_nothing_moves(qtbot, window, pan
     assert "62 µm are needed" in panel.bar.arm.toolTip()
     assert panel.bar.prepare.isVisibleTo(panel)
     assert not panel.bar.button.isEnabled()
-    assert panel.readouts.plan.values["Room left"].text() == "32.50 µm"
+    assert panel.readouts.plan.values["Travel available"].text() == "32.50 µm"
 
     edit = type_in(qtbot, panel, "depth", "500")
     assert edit.property("bad")
-    assert "Depth: 500 µm is refused: must be 1 to 100 µm" in panel.message.text()
+    assert "Depth: 500 µm must be 1 to 100 µm" in panel.message.text()
     panel.arm()
-    assert "Depth: 500 µm is refused" in notices(window)[0]
+    assert "Depth: 500 µm must be" in notices(window)[0]
     type_in(qtbot, panel, "depth", "20")
     assert not edit.property("bad")
     assert panel.readouts.plan.values["Average speed"].text() == "222 µm/s"
@@ -147,7 +147,7 @@ def test_armed_aborted_in_hold_and_logged(qtbot, window, panel):
     qtbot.waitUntil(lambda: phase(panel) not in UNDER_WAY, timeout=LONG_MS)
     assert phase(panel) is Phase.ABORTED
     qtbot.waitUntil(lambda: panel.log.table.rowCount() == 1, timeout=LONG_MS)
-    assert "stopped by the button in hold. The tip is back." in panel.message.text()
+    assert "stopped by the button in hold. The tip is retracted." in panel.message.text()
     assert session.snapshot().command["zn"] == 64e-6
     assert "measured" in panel.preview.curves
     panel.tabs.setCurrentIndex(1)
@@ -259,7 +259,7 @@ def test_cells_are_gone_to_one_after_the_other_and_a_run_is_noted_with_the_armed
     qtbot.waitUntil(lambda: session.at_rest and at_the_second(), timeout=LONG_MS)
     press(qtbot, view.penetrate)
     assert phase(panel) is Phase.ARMED
-    qtbot.waitUntil(lambda: "armed or runs" in view.next.toolTip(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "armed or running" in view.next.toolTip(), timeout=LONG_MS)
     status = panel.workbench.operation.penetration.status
     failed = SimpleNamespace(verdict=Verdict.FAILED, thrust=None, started="now", reason="too soft")
     view.refresh(session.snapshot(), replace(status, phase=Phase.FAILED, run=failed), None)

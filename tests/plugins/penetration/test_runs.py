@@ -54,14 +54,14 @@ def test_all_of_a_run_is_told_also_when_it_comes_from_the_file():
         "   2.500 s  done",
         "contact, height of the tip: 40.1234 mm",
         "noise, rms: 12.2 nm",
-        "membrane gave way: no",
+        "membrane ruptured: no",
         "error against the profile: 0.30 µm",
         "thrust, depth: 50 µm",
         "table: [[0.0, 0.0], [0.5, 0.2], [1.0, 1.0]]",
         "shape: table",
     ):
         assert line in text.splitlines()
-    assert "contact told after" not in text  # nobody knows
+    assert "contact detected after" not in text  # nobody knows
 
 
 def test_a_strange_line_of_the_file_is_shown_as_it_is():

@@ -93,20 +93,22 @@ def test_afterwards_the_strip_tells_how_far_it_came():
 def test_what_is_said_of_each_phase():
     held = PenetrationStatus(Phase.HELD, "a stop was asked for", run=RUN)
     assert message(held, None) == (
-        "Held: a stop was asked for. The tip stays where it is; press Retract to bring it back, or "
-        "Free the axes to move it by hand."
+        "Held: a stop was asked for. The tip stays in place; press Retract to return it, or "
+        "Free the axes to move it manually."
     )
     assert headline(PenetrationStatus(Phase.ARMED, armed_left_s=41.6)) == "armed, 42 s"
-    assert "Press Start" in message(PenetrationStatus(Phase.ARMED, armed_left_s=41.6), None)
+    assert "press Start" in message(PenetrationStatus(Phase.ARMED, armed_left_s=41.6), None)
     back = PenetrationStatus(Phase.RETRACT, "overload: too far")
     assert message(back, None).endswith("Why: overload: too far.")
     done = PenetrationStatus(Phase.DONE, run=RUN)
     assert message(done, None) == (
-        "Done: 49.50 µm deep, 810 µm/s at most, 0.30 µm off its profile. Ready to be armed."
+        "Done: depth 49.50 µm, maximum speed 810 µm/s, error 0.30 µm from the "
+        "profile. Ready to arm."
     )
     failed = replace(RUN, verdict=Verdict.FAILED, reason="no contact within 10 µm", thrust=None)
-    assert message(PenetrationStatus(Phase.FAILED, run=failed), "it moves") == (
-        "Failed: no contact within 10 µm. The tip is back. Cannot be armed now: it moves."
+    assert message(PenetrationStatus(Phase.FAILED, run=failed), "the machine is moving") == (
+        "Failed: no contact within 10 µm. The tip is retracted. "
+        "Cannot be armed now: the machine is moving."
     )
     late = PenetrationStatus(Phase.DISARMED, "nobody started it in time", run=RUN)
-    assert message(late, None) == "Disarmed: nobody started it in time. Ready to be armed."
+    assert message(late, None) == "Disarmed: nobody started it in time. Ready to arm."

@@ -91,7 +91,7 @@ def test_panel_solves_shows_and_saves(qtbot, window, tmp_path):
     panel = window.panels["plate"]
     assert panel.canvas.hint == EMPTY
     assert not panel.png.isEnabled()
-    assert "no solved plate" in panel.png.toolTip()
+    assert "no plate is solved" in panel.png.toolTip()
     panel.mesh.setCurrentIndex(0)
     qtbot.mouseClick(panel.start, Qt.MouseButton.LeftButton)
     assert panel.stop.isEnabled()

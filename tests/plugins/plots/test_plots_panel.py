@@ -55,7 +55,7 @@ def test_every_view_is_drawn_with_cursors_and_another_run_beside(qtbot, window, 
     assert model is None or len(model) == 0
     panel.beside.setCurrentIndex(2)
     panel.beside.activated.emit(2)
-    assert "no run in hand" in window.notices.notices()[0].text
+    assert "no latest run" in window.notices.notices()[0].text
     assert panel.beside.currentIndex() == 0
     panel.pause.setChecked(True)  # so that nothing is drawn between what is asked and read
     panel.beside.setCurrentIndex(1)

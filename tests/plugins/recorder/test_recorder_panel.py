@@ -122,10 +122,10 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
     # What a crash left is named, apart from what others record; its own is neither.
     qtbot.waitUntil(panel.unfinished.isVisible, timeout=LONG_MS)
     assert "crashed.arrows.part" in panel.unfinished.text.text()
-    assert "busy.arrows.part is being recorded by another program" in panel.unfinished.text.text()
+    assert "Another program is recording busy.arrows.part" in panel.unfinished.text.text()
     assert writer.path.name not in panel.unfinished.text.text()
     assert notices(window) == [
-        "Recordings that were cut off: crashed.arrows.part. Recover them in the panel Recorder."
+        "Interrupted recordings: crashed.arrows.part. Recover them in the panel Recorder."
     ]
     click(qtbot, panel.unfinished.recover)
     qtbot.waitUntil(lambda: len(panel.recordings.table.entries_model.entries) == 1, timeout=LONG_MS)
@@ -134,7 +134,7 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
     panel.recordings.table.selectRow(0)
     panel.recordings.begin.setText("1,5")
     click(qtbot, panel.recordings.to_trajectory)
-    assert "'1,5' is no begin" in notices(window)[0]
+    assert "start: '1,5' is not valid" in notices(window)[0]
 
     # A full disk is told, and seen, until there is room.
     def full(*_):
@@ -144,10 +144,10 @@ def test_a_start_after_a_crash_and_a_recording_that_ends_with_the_window(
         patched.setattr(writer._file, "append", full)
         complaint = panel.recording.complaint
         qtbot.waitUntil(complaint.isVisible, timeout=LONG_MS)
-        assert "Nothing is recorded now: No space left" in complaint.text()
+        assert "The recording has failed: No space left" in complaint.text()
         sign = window._bar.recording
         qtbot.waitUntil(lambda: sign.property("tone") == "danger", timeout=LONG_MS)
-        qtbot.waitUntil(lambda: "motion goes on" in notices(window)[0], timeout=LONG_MS)
+        qtbot.waitUntil(lambda: "the motion continues" in notices(window)[0], timeout=LONG_MS)
     qtbot.waitUntil(complaint.isHidden, timeout=LONG_MS)
 
     window.workbench.close()

@@ -105,7 +105,7 @@ def test_what_is_gone_is_found_or_deleted_and_labels_are_kept(
     shown = view.table.entries_model
     qtbot.waitUntil(lambda: shown.entries[1].missing, timeout=LONG_MS)
     view.table.selectRow(1)
-    assert "The file is not there" in view.open.toolTip()
+    assert "The file is missing" in view.open.toolTip()
     assert view.find.isEnabled()
     bench.library.found_at(view.chosen, tmp_path / "moved.csv.gz")
     qtbot.waitUntil(lambda: shown.entries[1].usable, timeout=LONG_MS)
@@ -136,6 +136,6 @@ def test_too_much_room_is_told_once_and_nothing_is_deleted(settings, tmp_path):
     for _ in range(2):
         library._done()
     assert told == [
-        "Playbacks take 2 GB, more than 1 GB (preference records.bound_gb). None is deleted by "
-        "itself: delete those that you do not need in the panel Recorder."
+        "Playbacks occupy 2 GB, more than 1 GB (preference records.bound_gb). The program deletes "
+        "none of them: delete unneeded ones in the panel Recorder."
     ]

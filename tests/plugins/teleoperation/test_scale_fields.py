@@ -49,9 +49,9 @@ def test_a_typed_number_has_the_unit_beside_it(name, text, value):
 @pytest.mark.parametrize(
     ("name", "text", "told"),
     [
-        ("way", "0", "Way at full stick of x: 0 mm: must be above 0 mm"),
-        ("way", "60", "60 mm: must be at most 55 mm, its range"),
-        ("speed", "11", "11 mm/s: must be at most 10 mm/s, its greatest speed"),
+        ("way", "0", "Distance at full stick of x: 0 mm: must be above 0 mm"),
+        ("way", "60", "60 mm: must be at most the range of 55 mm"),
+        ("speed", "11", "11 mm/s: must be at most the maximum speed of 10 mm/s"),
         ("speed", "-1", "must be above 0 mm/s"),
         ("time_constant_s", "0.01", "0.01 s: must be at least 0.02 s"),
         ("time_constant_s", "6", "must be at most 5 s"),
@@ -59,9 +59,9 @@ def test_a_typed_number_has_the_unit_beside_it(name, text, value):
         ("spring_hz", "5.1", "must be at most 5 Hz"),
         ("damping_ratio", "0.05", "0.05: must be at least 0.1"),
         ("contact_gain", "101", "101 %: must be at most 100 %"),
-        ("way", "0,5", "'0,5' is no number; type one in mm with a decimal point"),
-        ("damping_ratio", "", "'' is no number; type one with a decimal point"),
-        ("way", "nan", "'nan' is no number"),
+        ("way", "0,5", "'0,5' is not a number; enter one in mm with a decimal point"),
+        ("damping_ratio", "", "'' is not a number; enter one with a decimal point"),
+        ("way", "nan", "'nan' is not a number"),
     ],
 )
 def test_what_is_refused_names_its_bound(name, text, told):

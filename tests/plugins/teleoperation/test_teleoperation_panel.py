@@ -134,7 +134,7 @@ def test_a_key_moves_its_axis_until_it_is_let_go_of(qtbot, bench, panel, notices
     qtbot.waitUntil(lambda: panel.head.trust.text() == "Active", timeout=LONG_MS)
     QTest.keyPress(panel.pad.area, RIGHT)
     driving(qtbot, panel)
-    qtbot.waitUntil(lambda: panel.head.word.text() == "driving", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: panel.head.word.text() == "in control", timeout=LONG_MS)
     qtbot.waitUntil(lambda: panel.coordinates.rows["x"].bar.value == 1.0, timeout=LONG_MS)
     assert bench.session.snapshot().owners == {"x": "joystick"}
     for kind in (QEvent.Type.KeyRelease, QEvent.Type.KeyPress):  # what the keyboard repeats
@@ -208,7 +208,7 @@ def test_typing_moves_nothing_and_what_is_refused_is_put_back(qtbot, bench, pane
     qtbot.waitUntil(lambda: steering.scales.modes != {}, timeout=LONG_MS)
     qtbot.waitUntil(lambda: steered(panel).coordinates != (), timeout=LONG_MS)
     law = panel.coordinates.rows["x"].law
-    qtbot.waitUntil(lambda: law.text() == "full stick = 250 µm/s", timeout=LONG_MS)
+    qtbot.waitUntil(lambda: law.text() == "full deflection = 250 µm/s", timeout=LONG_MS)
     kept = Scales.load(bench.settings.folder / "scales.toml")
     assert kept.modes["micro"]["x"].speed == pytest.approx(2.5e-4)
     write(editor.fields["damping_ratio"], "0.05")

@@ -30,7 +30,7 @@ def device(source="hid", seat=OperatorRole.TRAINER, drives=True, problem=None, *
     name = {"hid": "Thrust <3>", "keys": "pad"}[source]
     identity = InputIdentity(f"{source}:1", name, source)
     axes = tuple(AxisView(a.upper(), 0.0, 0.0, a, reasons.get(a)) for a in "xyz")
-    axes += (AxisView("slider", 0.0, 0.0, None, "not yet seen at rest"),)
+    axes += (AxisView("slider", 0.0, 0.0, None, "not at rest yet"),)
     plugged = PluggedDevice(identity, ("X", "Y", "Z", "slider"), ())
     return DeviceView(
         plugged, seat, drives, problem, axes, frozenset(), None, Calibration(device=identity.key)
@@ -50,7 +50,7 @@ def view(kind, *, factor=1.0, waiting=False, **scale):
 def test_the_device_that_drives_is_named():
     assert wording.driver_text(STICK) == "Thrust <3>"
     assert wording.driver_text(PAD) == "On-screen pad"
-    assert wording.driver_text(DevicesView()) == "No device drives"
+    assert wording.driver_text(DevicesView()) == "No device in control"
 
 
 def test_trust_has_its_reasons_each_once_and_only_of_what_moves():
@@ -66,9 +66,9 @@ def test_trust_has_its_reasons_each_once_and_only_of_what_moves():
     ("state", "stale", "word", "tone"),
     [
         (STATE, False, "ready", Tone.GOOD),
-        (replace(STATE, driving=True, reason="x"), False, "driving", Tone.BUSY),
+        (replace(STATE, driving=True, reason="x"), False, "in control", Tone.BUSY),
         (replace(STATE, driving=True), True, "no answer", Tone.DANGER),
-        (replace(STATE, reason="a fault"), False, "held", Tone.WARNING),
+        (replace(STATE, reason="a fault"), False, "blocked", Tone.WARNING),
         (
             replace(STATE, coordinates=(view(LawKind.RATE, waiting=True),)),
             False,
@@ -82,19 +82,19 @@ def test_how_it_stands_is_one_word(state, stale, word, tone):
 
 
 def test_a_loop_that_does_not_answer_is_told_before_all_else():
-    assert "does not answer" in wording.reason_text(replace(STATE, driving=True), stale=True)
+    assert "do not respond" in wording.reason_text(replace(STATE, driving=True), stale=True)
     held = replace(STATE, reason="the machine is playing")
-    assert wording.reason_text(held, stale=False) == "Nothing moves: the machine is playing."
+    assert wording.reason_text(held, stale=False) == "No motion: the machine is playing."
 
 
 @pytest.mark.parametrize(
     ("found", "why"),
     [
-        (DevicesView(), "just being opened"),
+        (DevicesView(), "being opened"),
         (PAD, None),
         (replace(PAD, setting_up=True), "being set up"),
-        (STICK, "Thrust <3> drives; take over"),
-        (DevicesView(1.0, (device("keys", None, drives=False),)), "nothing for the pad"),
+        (STICK, "Thrust <3> is in control; take over"),
+        (DevicesView(1.0, (device("keys", None, drives=False),)), "does not map the pad"),
     ],
 )
 def test_the_pad_says_why_it_moves_nothing(found, why):
@@ -112,23 +112,27 @@ def test_only_beside_another_device_the_pad_may_take_over():
     ("shown", "travel_m", "text"),
     [
         (view(LawKind.POSITION, way=2e-4), 0.02, "1 mm of stick = 10 µm of tip"),
-        (view(LawKind.POSITION, way=2e-4, factor=0.1), None, "full stick = 20 µm"),
-        (view(LawKind.RATE, speed=1.23456e-3), 0.02, "full stick = 1.23 mm/s"),
-        (view(LawKind.RATE, speed=5e-3, factor=10.0), None, "full stick = 8 mm/s"),  # the bound
+        (view(LawKind.POSITION, way=2e-4, factor=0.1), None, "full deflection = 20 µm"),
+        (view(LawKind.RATE, speed=1.23456e-3), 0.02, "full deflection = 1.23 mm/s"),
+        (
+            view(LawKind.RATE, speed=5e-3, factor=10.0),
+            None,
+            "full deflection = 8 mm/s",
+        ),  # the bound
         (
             view(LawKind.IMPEDANCE, speed=1e-3, factor=0.5),
             None,
-            "full stick ends at 500 µm/s, time constant 0.2 s",
+            "full deflection: 500 µm/s, time constant 0.2 s",
         ),
         (
             view(LawKind.IMPEDANCE, speed=4e-3, factor=10.0),
             None,
-            "full stick ends at 16 mm/s, time constant 0.2 s",  # cut by the acceleration
+            "full deflection: 16 mm/s, time constant 0.2 s",  # cut by the acceleration
         ),
         (
             view(LawKind.IMPEDANCE, way=4e-4, spring_hz=0.5),
             None,
-            "full stick ends 400 µm away: 0.5 Hz, damping ratio 1, time constant 0.318 s",
+            "full deflection: 400 µm, 0.5 Hz, damping ratio 1, time constant 0.318 s",
         ),
     ],
 )
@@ -152,8 +156,8 @@ def test_the_factor_says_what_makes_it():
 
 def test_the_clutch_is_told_where_it_counts():
     assert "space" in wording.clutch_text(LawKind.POSITION, frozenset())
-    assert "rest" in wording.clutch_text(LawKind.RATE, frozenset())
-    assert "robot does not" in wording.clutch_text(LawKind.RATE, {Action.CLUTCH})
+    assert "stop the robot" in wording.clutch_text(LawKind.RATE, frozenset())
+    assert "without the robot" in wording.clutch_text(LawKind.RATE, {Action.CLUTCH})
 
 
 @pytest.mark.parametrize(

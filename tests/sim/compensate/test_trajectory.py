@@ -94,5 +94,5 @@ def test_what_cannot_be_compensated_is_refused(record, message):
 
 def test_a_command_beyond_the_machine_is_refused():
     steep = replace(MODEL, consequents=np.array([[0.0, 1.5, 0.1]]))
-    with pytest.raises(CompensationError, match="all the machine can be told"):
+    with pytest.raises(CompensationError, match="the limits of the machine"):
         sent(trajectory(), steep)

@@ -20,7 +20,7 @@ def test_single_missing_rows_and_scattered_times_are_told():
     assert str(caution.text).startswith("Rows are missing at 3 places of a record")
     scatter = 3e-4 * np.random.default_rng(0).uniform(-1.0, 1.0, 4000)
     [caution] = check(ROBOT, [timed(record, record.time_s + scatter)])
-    assert "their scatter passes for noise of the sensors" in str(caution.text)
+    assert "their scatter appears as sensor noise" in str(caution.text)
 
 
 def test_a_periodic_record_repeats_its_commands():

@@ -147,7 +147,7 @@ def test_a_rival_that_no_test_tells_is_left_out_and_said():
     rivals = on_zn("delay", "gain_error", "static_nonlinearity")
     (found,) = experiments(ROBOT, examined(record, rivals))
     assert found.splits == ("delay", "gain_error")
-    assert "no test here tells static nonlinearity from one of them" in str(found.why)
+    assert "no test here distinguishes static nonlinearity from one of them" in str(found.why)
 
 
 def test_for_a_coupling_one_of_the_two_axes_moves_while_the_other_is_held():

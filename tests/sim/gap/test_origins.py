@@ -47,7 +47,7 @@ def test_one_record_with_another_origin_leaves_no_gap_and_no_alias():
     assert own[0] == own[2] == 0.0
     turns = (own[1] - origin) / PERIOD_M
     assert turns - np.rint(turns) == pytest.approx(0.0, abs=1e-3)
-    assert str(origin_remarks(seen)[0]).startswith("1 of 3 records count their place from another")
+    assert str(origin_remarks(seen)[0]).startswith("1 of 3 records use another origin of position")
     told = found(seen)
     assert told.effects[0].parameters["period"] == pytest.approx(PERIOD_M, rel=1e-4)
     assert told.cost < 1.5

@@ -74,7 +74,7 @@ def test_odd_gains_and_signs_are_told():
         odd = changed(record, {("zn", Tap.MEAS): factor * record.signal("zn", Tap.MEAS)})
         [caution] = check(ROBOT, [odd])
         assert (caution.axis, caution.record) == ("zn", 0)
-        assert f"{factor:.3g} × what is commanded" in str(caution.text)
+        assert f"{factor:.3g} × the command" in str(caution.text)
 
 
 def test_a_factor_on_axes_that_move_together_may_be_a_coupling():
@@ -90,7 +90,7 @@ def test_a_factor_on_axes_that_move_together_may_be_a_coupling():
     )
     cautions = check(ROBOT, [simulate(ROBOT, [coupled], together, np.random.default_rng(0))])
     assert [str(one.text).split(",")[0] for one in cautions] == [
-        f"The {tap} channel is 0.21 × what is commanded" for tap in ("ref", "meas")
+        f"The {tap} channel is 0.21 × the command" for tap in ("ref", "meas")
     ]
 
 

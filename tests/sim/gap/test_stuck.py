@@ -31,8 +31,8 @@ def test_a_saturated_sensor_is_refused_where_it_is_sure_and_else_told():
         assert f"{axis}.meas stands at exactly " in refusal(bad)
         assert "the sensor is saturated; repair it, stay within what it can read" in refusal(bad)
     alone = changed(bad, {("x", Tap.REF): None})
-    assert [str(one.text)[:30] for one in check(ROBOT, [alone]) if one.record == 0] == [
-        "The reading stands at exactly "
+    assert [str(one.text)[:29] for one in check(ROBOT, [alone]) if one.record == 0] == [
+        "The reading stays at exactly "
     ]
 
 

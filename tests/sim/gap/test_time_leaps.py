@@ -25,8 +25,8 @@ def test_a_record_is_split_where_time_leaps():
     [caution] = check(ROBOT, [record])
     assert (caution.axis, caution.record) == (None, 0)
     assert str(caution.text) == (
-        "Time leaps 3 ×, by up to 1.5 s: the record is split there, and what came before a "
-        "piece is unknown; 100 rows in pieces shorter than 100 are left out."
+        "Time leaps 3 ×, by up to 1.5 s: the record is split there, and the history of "
+        "each piece is unknown; 100 rows in pieces shorter than 100 are omitted."
     )
     first, second = pieces([record], ["a.csv"])
     assert (first.name, first.number) == ("a.csv, rows 1 to 1000", 0)

@@ -61,7 +61,7 @@ def test_a_probability_is_told_in_words(probability, called):
 def test_of_several_each_has_its_likelihood_and_a_set_says_that_it_is_one():
     causes = (cause("creep", 0.8), cause("backlash", 0.99, ("lost_steps",)))
     assert said(axis(Verdict.EXPLAINED, *causes)) == [
-        "zn: creep (likely) and backlash or lost steps (these records cannot tell which).",
+        "zn: creep (likely) and backlash or lost steps (these records cannot distinguish them).",
         f"Adding them {CLOSED}",
     ]
 
@@ -75,10 +75,10 @@ def test_what_is_left_is_told_beside_what_is_sure():
     depending = Remainder(5e-7, 0.1, (("speed", 0.5), ("axis thx", 0.2), ("time", 0.1)))
     partly = axis(Verdict.PARTLY, cause(), remainder=depending)
     assert said(partly)[2:] == [
-        "What is left depends on speed and axis thx; no known effect explains it."
+        "The rest depends on speed and axis thx; no known effect explains it."
     ]
     assert said(replace(partly, remainder=replace(depending, depends_on=())))[2:] == [
-        "No known effect explains what is left."
+        "No known effect explains the rest."
     ]
 
 
@@ -94,7 +94,7 @@ def test_axes_without_a_gap_come_last_and_poor_records_say_so():
     poor = axis(Verdict.INSUFFICIENT, shrinkage=())
     quiet = {name: AxisDiagnosis(name, Verdict.NONE, ()) for name in ("x", "y")}
     assert said(poor, **quiet) == [
-        "zn: the records do not move it enough to tell what it lacks.",
+        "zn: the records do not move the axis enough for a diagnosis.",
         "No gap of its own on x and y.",
     ]
     assert details(Diagnosis(ROBOT, quiet), []) == summary(Diagnosis(ROBOT, quiet), [])

@@ -113,7 +113,7 @@ def test_a_device_without_profiles_is_refused(bench, monkeypatch):
     monkeypatch.setattr(
         bench.session._link, "driver", type("Plain", (Driver,), {"name": "plain", **hooks})(ROBOT)
     )
-    with pytest.raises(RefusedError, match="'plain' cannot run profiles"):
+    with pytest.raises(RefusedError, match="'plain' cannot execute profiles"):
         bench.arm()
 
 

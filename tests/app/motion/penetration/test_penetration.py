@@ -178,11 +178,11 @@ def test_a_held_tip_goes_back_by_the_button_when_that_is_safe(bench):
     bench.until(Phase.HOLD)
     bench.session.emergency_stop()
     bench.step(0.02, 5)
-    with pytest.raises(RefusedError, match="latched"):
+    with pytest.raises(RefusedError, match="release it first"):
         bench.press()
     with pytest.raises(RefusedError, match="held"):
         bench.arm()
-    with pytest.raises(RefusedError, match="latched"):
+    with pytest.raises(RefusedError, match="release it first"):
         bench.session.go_to({"x": 0.03})
     bench.session.release()
     with pytest.raises(RefusedError, match="driven by penetration"):

@@ -160,7 +160,7 @@ def test_a_gap_in_mid_move_is_refused(stepped, record):
     recorded.session.tap(recorded.recorder._on_samples)
     recorded.step(0.02, 40)
     recording = Recording.open(recorded.recorder.close())
-    with pytest.raises(RecordingError, match="ms of samples are missing in mid-move"):
+    with pytest.raises(RecordingError, match="ms of samples are missing during a move"):
         trajectory(recording, recording.began_s, recording.ended_s, 1e-3)
 
 
@@ -177,7 +177,7 @@ def test_two_connections_make_no_record(stepped, record, tmp_path):
         lambda: record_of(recording),
         lambda: trajectory(recording, recording.began_s, recording.ended_s, 1e-3),
     ):
-        with pytest.raises(RecordingError, match=r"connected anew 0\.2"):
+        with pytest.raises(RecordingError, match=r"reconnected 0\.2"):
             made()
     assert not (tmp_path / "out.csv").exists()
     assert len(record_of(recording, end_s=recording.began_s + 0.1).time_s) == 100

@@ -68,7 +68,7 @@ def test_a_snapshot_in_mid_move(session):
     replay.advance(0.25)
     state = replay.snapshot()
     assert state.phase is Phase.MOVING
-    assert state.locked == "this is a replay; nothing moves"
+    assert state.locked == "this is a replay; the machine does not move"
     assert 0.0275 < state.command["x"] < 0.028
     assert 0.0 <= state.age_s < 0.002
     row = int(np.flatnonzero(window.device_time_s == state.device_time_s)[0])

@@ -98,12 +98,12 @@ def test_a_full_disk_is_told_once_and_costs_nothing(make_writer, feed, check, di
     (told,) = notices
     assert told.problem
     assert "No space left" in told.message
-    assert "motion goes on" in told.message
+    assert "the motion continues" in told.message
     assert writer.failure is not None
     disk.room = None
     writer.run_once()
     assert notices[1:] == [notices[1]]
-    assert "recording goes on; nothing is missing" in notices[1].message
+    assert "the recording continues; nothing is missing" in notices[1].message
     assert not notices[1].problem
     feed(writer, 1200, 200)
     recording = Recording.open(writer.close())

@@ -74,8 +74,8 @@ def test_a_trigger_is_one_sided(rest, end):
         ([0.9], [-1.0, 1.0], {}, "rests at an end: rest 0.90"),
         ([0.0, 0.5], [-1.0, 1.0], {}, "jitters at rest, or was moved: 0.00 to 0.50"),
         ([0.0], [-1.0, 1.0], {"one_sided": ["X"]}, "does not rest at an end"),
-        ([], [-1.0, 1.0], {}, "has said nothing at rest"),
-        ([float("nan")], [-1.0, 1.0], {}, "has said nothing at rest"),
+        ([], [-1.0, 1.0], {}, "reported nothing at rest"),
+        ([float("nan")], [-1.0, 1.0], {}, "reported nothing at rest"),
     ],
 )
 def test_what_is_no_stick_is_refused(rest, sweep, options, said):

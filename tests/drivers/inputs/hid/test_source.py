@@ -193,7 +193,7 @@ def test_the_installed_library_can_do_what_is_asked_of_it():
     handle = library.device()
     for name in ("open_path", "set_nonblocking", "get_report_descriptor", "read", "close"):
         assert callable(getattr(handle, name))
-    with pytest.raises(InputLostError, match="there no more"):
+    with pytest.raises(InputLostError, match="no longer connected"):
         border.open_handle(library, b"/dev/none-of-this-name", "stick")
 
 

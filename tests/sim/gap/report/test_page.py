@@ -173,9 +173,9 @@ def test_the_page_holds_the_facts_of_the_document(diagnosis, page):
 
 def test_the_summary_says_in_words_what_was_found(page):
     assert (
-        "thx: hysteresis or creep (these records cannot tell which). Adding it to the model takes "
-        "the gap from 33 µrad to 0.77 µrad rms on unseen data (noise floor 0.4 µrad). No gap "
-        "of its own on y."
+        "thx: hysteresis or creep (these records cannot distinguish them). Adding it to the "
+        "model takes the gap from 33 µrad to 0.77 µrad rms on unseen data (noise floor 0.4 µrad). "
+        "No gap of its own on y."
     ) in page.text
 
 
