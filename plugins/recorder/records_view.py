@@ -25,6 +25,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.record_table import RecordTable
 from rotemina.app.shell.record_words import NAME, NOTE, state_text
+from rotemina.app.shell.reports import RUN_REPORT, RUN_REPORT_TIP, ask_run_report
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.question import Question
@@ -130,6 +131,10 @@ class RecordsView(QWidget):
         self.to_trajectory = button(
             translate("recorder", "To trajectory"), lambda: self._with_chosen(self.take_in_hand)
         )
+        self.report = button(
+            translate("shell", RUN_REPORT),
+            lambda: self._with_chosen(lambda one: ask_run_report(self, self._workbench, one)),
+        )
         self.begin, self.end = _field(BEGIN), _field(END)
         self.begin_here = button(translate("recorder", "▏Here"), lambda: self._here(self.begin))
         self.end_here = button(translate("recorder", "Here▕"), lambda: self._here(self.end))
@@ -176,7 +181,7 @@ class RecordsView(QWidget):
         below = QHBoxLayout()
         below.addWidget(self.stretch)
         below.addStretch(1)
-        for widget in (self.open, self.to_record, self.to_trajectory, self.more):
+        for widget in (self.open, self.to_record, self.to_trajectory, self.report, self.more):
             below.addWidget(widget)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -213,6 +218,7 @@ class RecordsView(QWidget):
             "must stand at both ends",
         )
         allow(self.to_trajectory, why_not, tip)
+        allow(self.report, why_not, translate("shell", RUN_REPORT_TIP))
         here = (
             None
             if self._shown_s() is not None
