@@ -16,10 +16,6 @@
         <translation>Bericht</translation>
     </message>
     <message>
-        <source>Pages (*.html)</source>
-        <translation>Seiten (*.html)</translation>
-    </message>
-    <message>
         <source>Save the diagnosis</source>
         <translation>Die Diagnose speichern</translation>
     </message>
@@ -34,10 +30,6 @@
     <message>
         <source>Writing {name} …</source>
         <translation>{name} wird geschrieben …</translation>
-    </message>
-    <message>
-        <source>{path}: nothing here opens it; open it in a browser</source>
-        <translation>{path}: nichts hier öffnet es; in einem Browser öffnen</translation>
     </message>
     <message>
         <source>1  Choose records of the real machine: files, or play a trajectory, whose record is taken.
