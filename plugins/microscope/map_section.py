@@ -71,8 +71,8 @@ class MapSection(Section):
             self.said.setText(spoken(str(error)))
             return
         self._reach = Workspace.of(self._map.chain).hull
-        self.column.insertWidget(1, self.view)
-        self.column.addWidget(self.go)
+        self.column.insertWidget(1, self.go)  # in sight however low the window is
+        self.column.insertWidget(2, self.view)
         self.add_row(self.near, self.whole, self.clear)
         self.view.chosen.connect(self.choose)
         workbench.refreshed.connect(self._note)

@@ -210,7 +210,10 @@ class MapView(QWidget):
             sign = _SIGNS.get(Outcome(one.outcome), "") if one.outcome else ""
             if len(self._places) <= _LABELS or one == self._goal or sign:
                 named = one.name if len(self._places) <= _LABELS or one == self._goal else ""
-                painter.drawText(at + QPointF(8.0, 4.0), f"{named}{sign}")
+                text = f"{named}{sign}"
+                wide = painter.fontMetrics().horizontalAdvance(text)
+                left = at.x() + 8.0 + wide > self.width()
+                painter.drawText(at + QPointF(-8.0 - wide if left else 8.0, 4.0), text)
 
     def _draw_way(self, painter: QPainter, frame: TipFrame, tip: FloatArray) -> None:
         """Draw the tip, and the way to what is chosen."""

@@ -287,6 +287,10 @@
         <translation>Mehr</translation>
     </message>
     <message>
+        <source>Run report, change name or note, find or open a file, delete</source>
+        <translation>Laufbericht, Name oder Notiz ändern, Datei suchen oder öffnen, löschen</translation>
+    </message>
+    <message>
         <source>Change name</source>
         <translation>Name ändern</translation>
     </message>
@@ -373,10 +377,6 @@
     <message>
         <source>it is a record already; only a recording is exported</source>
         <translation>es ist schon eine Aufzeichnung; nur eine Aufnahme wird exportiert</translation>
-    </message>
-    <message>
-        <source>Change name or note, find or open a file, delete</source>
-        <translation>Name oder Notiz ändern, eine Datei suchen oder öffnen, löschen</translation>
     </message>
     <message>
         <source>Delete</source>

@@ -13,7 +13,6 @@ from rotemina.app.records.entry import Entry, Kind
 from rotemina.app.shell.record_chooser import RecordChooser
 from rotemina.app.shell.record_library import BOUND_GB, RecordLibrary
 from rotemina.app.shell.record_words import NAME, NOTE
-from rotemina.app.shell.reports import save_run_report
 from rotemina.sim.comparison.gap import gap_text
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
@@ -103,7 +102,8 @@ def test_playbacks_are_searched_annotated_compared_reported_and_played_again(
     of_kind(window, QFileDialog).close()
     view.table.selectRow(1)
     other = tmp_path / "other.html"
-    save_run_report(view, bench, other, view.chosen)
+    view.report.trigger()
+    of_kind(window, QFileDialog).fileSelected.emit(str(other))
     qtbot.waitUntil(lambda: opened == [report, other], timeout=LONG_MS)
     assert "Run report: first try" in other.read_text("utf-8")
     assert "the dish was dry" in other.read_text("utf-8")
