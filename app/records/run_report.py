@@ -80,7 +80,7 @@ TEXTS = (
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class AxisTraces:
     """One axis that moved.
 
     Attributes
@@ -123,7 +123,7 @@ class RunReport:
         Id of the model that the figures are from; "" for the robot file's.
     metadata : mapping
         Of the record.
-    courses : tuple of Course
+    courses : tuple of AxisTraces
     events : tuple of TimelineEvent or None
         None where the record keeps none.
     penetrations : tuple of PenetrationRun
@@ -137,7 +137,7 @@ class RunReport:
     completed: bool
     model: str
     metadata: Mapping[str, str]
-    courses: tuple[Course, ...]
+    courses: tuple[AxisTraces, ...]
     events: tuple[TimelineEvent, ...] | None = None
     penetrations: tuple[PenetrationRun, ...] = ()
 
@@ -152,7 +152,7 @@ class RunReport:
             command = record.signal(axis, Tap.CMD)
             if np.ptp(command) > 0.0:
                 courses.append(
-                    Course(
+                    AxisTraces(
                         axis,
                         record.units[axis],
                         _floor(robot, axis),
@@ -210,7 +210,7 @@ class RunReport:
                 figure = gap_figure(counted, measured, model)
                 unit, floor = recording.units[axis], _floor(robot, axis)
                 signals = (time_s, command, model, measured)
-                courses.append(Course(axis, unit, floor, *signals, figure, nominal_known=False))
+                courses.append(AxisTraces(axis, unit, floor, *signals, figure, nominal_known=False))
         report = cls(
             name=path.stem if entry is None else entry.name,
             note="" if entry is None else entry.note,
@@ -234,7 +234,7 @@ class RunReport:
         )
 
     @property
-    def worst(self) -> Course | None:
+    def worst(self) -> AxisTraces | None:
         """The axis whose gap is largest, in noise floors of its sensor."""
         known = [one for one in self.courses if one.figure is not None]
         return max(known, key=_in_floors, default=None)
@@ -318,7 +318,7 @@ def _summary(report: RunReport) -> list[tuple[str, str]]:
     ]
 
 
-def _drawing(one: Course) -> Markup:
+def _drawing(one: AxisTraces) -> Markup:
     """Draw what was commanded, answered and measured, and the gap below."""
     scale = scale_of(one.unit, float(np.nanmax(np.abs(one.command), initial=0.0)))
     gap = one.measured - one.model
@@ -366,7 +366,7 @@ def _floor(robot: Robot, axis: str) -> float | None:
     return described.sensor.noise_floor if described and described.sensor else None
 
 
-def _in_floors(one: Course) -> float:
+def _in_floors(one: AxisTraces) -> float:
     return 0.0 if one.figure is None else one.figure.rms / (one.floor or 1.0)
 
 

@@ -18,7 +18,7 @@ from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.microscope.map_view import MapView
-from rotemina.plugins.microscope.tip_map import Place, PlaceKind, TipMap, Trail
+from rotemina.plugins.microscope.tip_map import MapPlace, PlaceKind, TipMap, Trail
 from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.workspace import Workspace
 from rotemina.sim.quantities import amount, fixed
@@ -40,13 +40,13 @@ class MapSection(Section):
         super().__init__(translate("microscope", "Map of the tip"))
         self._bench, self._clock = workbench, clock
         self.trail = Trail()
-        self.goal: Place | None = None
+        self.goal: MapPlace | None = None
         self._noted_s = self._read_s = float("-inf")
         self._file: object = None  # how the file of positions was when it was read
-        self._known: list[Place] = []
+        self._known: list[MapPlace] = []
         self._known_for: object = None  # the file and the cells that these places are of
         self._positions = SavedPositions(workbench.settings.folder, workbench.robot)
-        self._asked: Pending[Place] = Pending(workbench.session)
+        self._asked: Pending[MapPlace] = Pending(workbench.session)
         self._asked_s = 0.0
         self._fitted = False
         self.view = MapView(workbench.theme)
@@ -112,14 +112,14 @@ class MapSection(Section):
         tip_text = translate("microscope", "Lift the tip above both places, go across, come down")
         allow(self.go, none or locked or unknown or moves, tip_text)
 
-    def choose(self, place: Place | None, x: float, y: float) -> None:
+    def choose(self, place: MapPlace | None, x: float, y: float) -> None:
         """Choose a place, or the free one at x and y, m, where none was hit; nothing moves."""
         if place is None and self._map is not None:
             command = self._bench.session.snapshot().command
             place = self._map.free(x, y, command)
         self._take(place)
 
-    def _take(self, place: Place | None) -> None:
+    def _take(self, place: MapPlace | None) -> None:
         self.goal = place
         self._asked.withdraw()
         self.go.setText(translate("microscope", "Go there"))
@@ -166,7 +166,7 @@ class MapSection(Section):
 
     # --- places -----------------------------------------------------------------------------------
 
-    def _places(self, tip_map: TipMap) -> list[Place]:
+    def _places(self, tip_map: TipMap) -> list[MapPlace]:
         self._read_positions()
         cells = self._bench.operation.cells.cells
         if self._known_for == (self._file, cells):

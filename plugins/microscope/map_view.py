@@ -12,7 +12,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.tip_frame import TipFrame, draw_scale, forbidden
-from rotemina.plugins.microscope.tip_map import Place, PlaceKind
+from rotemina.plugins.microscope.tip_map import MapPlace, PlaceKind
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.keep_out import KeepOutZone
 from rotemina.sim.kinematics.workspace import Box
@@ -40,9 +40,9 @@ class MapView(QWidget):
         self._reach: Box | None = None
         self._zone: KeepOutZone | None = None
         self._trail: FloatArray = np.empty((0, 3))
-        self._places: Sequence[Place] = ()
+        self._places: Sequence[MapPlace] = ()
         self._tip: FloatArray | None = None
-        self._goal: Place | None = None
+        self._goal: MapPlace | None = None
         self._middle, self._span_m = np.zeros(3), 1e-3
         self._pressed: QPointF | None = None  # where the left button went down
         self._dragged = False
@@ -76,7 +76,7 @@ class MapView(QWidget):
 
     # --- what is shown ----------------------------------------------------------------------------
 
-    def show_places(self, places: Sequence[Place], goal: Place | None) -> None:
+    def show_places(self, places: Sequence[MapPlace], goal: MapPlace | None) -> None:
         """Show places, and the one that is chosen."""
         if (places, goal) != (self._places, self._goal):
             self._places, self._goal = places, goal
@@ -158,7 +158,7 @@ class MapView(QWidget):
         reach = self._reach
         return 1.0 if reach is None else float((reach.high - reach.low)[:2].max())
 
-    def _place_at(self, point: QPointF) -> Place | None:
+    def _place_at(self, point: QPointF) -> MapPlace | None:
         """Return the nearest place that is hit."""
         frame = self._frame()
         near = [

@@ -26,7 +26,7 @@ class PlaceKind(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class MapPlace:
     """One place: where the tip is there (3,), m, and where axes are, m or rad.
 
     Of a free place those are the two that lead there; the others stay.
@@ -92,12 +92,12 @@ class TipMap:
 
     def place(
         self, kind: PlaceKind, name: str, targets: Mapping[str, float], outcome: str = ""
-    ) -> Place | None:
+    ) -> MapPlace | None:
         """Return a place of all axes."""
         tip = self.tip(targets)
-        return None if tip is None else Place(kind, name, _vector(tip), targets, outcome)
+        return None if tip is None else MapPlace(kind, name, _vector(tip), targets, outcome)
 
-    def free(self, x: float, y: float, command: Mapping[str, float]) -> Place | None:
+    def free(self, x: float, y: float, command: Mapping[str, float]) -> MapPlace | None:
         """Return the place above x and y, m, to which the tables lead; the tip keeps its height."""
         tip = self.tip(command)
         if tip is None:
@@ -105,9 +105,9 @@ class TipMap:
         ways = zip(self._across, (x, y), tip[:2], strict=True)
         targets = {axis: command[axis] + float(to - now) for axis, to, now in ways}
         at = (x, y, float(tip[2]))
-        return Place(PlaceKind.FREE, "", at, MappingProxyType(targets))
+        return MapPlace(PlaceKind.FREE, "", at, MappingProxyType(targets))
 
-    def large(self, place: Place, command: Mapping[str, float]) -> bool:
+    def large(self, place: MapPlace, command: Mapping[str, float]) -> bool:
         """Whether an axis goes farther than a move that nobody is asked about."""
         axes = self._robot.axes
         return any(
