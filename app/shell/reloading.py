@@ -3,6 +3,7 @@
 import importlib
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from importlib.metadata import EntryPoint, entry_points
 from types import ModuleType
 
@@ -71,7 +72,7 @@ class Reloading(QObject):
                 words,
                 "",
                 self._why_not(),
-                lambda name=name: self.reload(name),
+                partial(self.reload, name),
             )
 
     def reload(self, name: str) -> None:

@@ -1,6 +1,7 @@
 """The map of the tip beside the picture: choose a place by a click, go there by a button."""
 
 import time
+from functools import partial
 
 import numpy as np
 
@@ -129,9 +130,7 @@ class MapSection(Section):
         if goal is None or self._map is None:
             return
         for axis, at in goal.targets.items():
-            if not self._bench.ask(
-                lambda axis=axis, at=at: check_target(self._bench.robot, axis, at)
-            ):
+            if not self._bench.ask(partial(check_target, self._bench.robot, axis, at)):
                 return  # nobody is asked about a move that cannot be made
         permit = session.permit()
         if self._map.large(goal, session.snapshot().command):
