@@ -63,6 +63,7 @@ class Panel(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self.workbench = workbench
+        self._looks: list[Callable[[SessionState], object]] = []
         self._followed_s = float("-inf")
 
     def follow(self, look: Callable[[SessionState], object]) -> None:
@@ -70,15 +71,17 @@ class Panel(QWidget):
 
         Actions of menus that depend on it stay right that way.
         """
+        if not self._looks:
+            self.workbench.refreshed.connect(self._hear)  # forgotten with the panel
+        self._looks.append(look)
 
-        def heard(state: SessionState) -> None:
-            now_s = monotonic()
-            hidden = not self.isVisible() and self.window().isVisible()
-            if not hidden or now_s - self._followed_s >= HIDDEN_S:
-                self._followed_s = now_s
+    def _hear(self, state: SessionState) -> None:
+        now_s = monotonic()
+        hidden = not self.isVisible() and self.window().isVisible()
+        if not hidden or now_s - self._followed_s >= HIDDEN_S:
+            self._followed_s = now_s
+            for look in self._looks:
                 look(state)
-
-        self.workbench.refreshed.connect(heard)
 
     @property
     def main_window(self) -> QWidget:

@@ -33,7 +33,7 @@ def discover(group: str, base: type) -> Discovery:
         if point.name in found:
             broken[f"{point.name} ({point.value})"] = "another plugin already has this name"
             continue
-        loaded = _load(point, base)
+        loaded = load_class(point, base)
         if isinstance(loaded, str):
             broken[point.name] = loaded
         else:
@@ -70,7 +70,7 @@ def driver_named(name: str) -> type[Driver]:
     return discovery.found[name]
 
 
-def _load(point: EntryPoint, base: type) -> type[Any] | str:
+def load_class(point: EntryPoint, base: type) -> type[Any] | str:
     """Return the class, or what is wrong with the entry point."""
     try:
         loaded = load(point)

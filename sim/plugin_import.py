@@ -52,7 +52,8 @@ def import_fault(
 ) -> str | None:
     """Return why the module of an entry point must not be imported; None if it may be.
 
-    Our own modules, those imported already and those that belong to no package are not tried.
+    Our own modules and those that belong to no package are not tried; those that are imported
+    already only ``anew``.
 
     Parameters
     ----------
@@ -64,7 +65,7 @@ def import_fault(
     anew : bool
         Try again, whatever came of it before.
     """
-    if point.value.startswith("rotemina.") or point.module in sys.modules:
+    if point.value.startswith("rotemina.") or (not anew and point.module in sys.modules):
         return None
     if point.dist is None or not sys.executable:
         return None

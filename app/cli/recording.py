@@ -1,9 +1,11 @@
 """``rotemina recording``: look at recordings of sessions, recover and export them."""
 
 import argparse
+import webbrowser
 from pathlib import Path
 
-from rotemina.app.cli.options import tell
+from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
+from rotemina.app.files import write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import scale_in
@@ -61,6 +63,14 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 "microscope's picture is the reference, for 'rotemina gap diagnose'",
     )  # fmt: skip
     one.set_defaults(run=export)
+
+    one = does.add_parser("report", help="write the run report of a recording or a playback")
+    one.add_argument("record", type=Path, metavar="FILE", help="*.arrows, or a text record")
+    one.add_argument("-o", "--output", type=Path, required=True, metavar="OUT.html")
+    add_robot(one)
+    add_columns(one)
+    one.add_argument("--open", action="store_true", help="open it in the browser")
+    one.set_defaults(run=report)
 
 
 def info(options: argparse.Namespace) -> int:
@@ -131,12 +141,7 @@ def export(options: argparse.Namespace) -> int:
         raise InputError(
             message("cli", "--period {period}: must be more than 0 s").fill(period=options.period)
         )
-    if options.output.exists() and options.output.samefile(options.recording):
-        raise InputError(
-            message("cli", "{output}: it is the file that is read; name another by -o").fill(
-                output=options.output
-            )
-        )
+    _require_other(options.output, options.recording)
     recording = Recording.open(options.recording)
     begin_s, end_s = (recording.began_s + each for each in (options.begin, options.end))
     if options.trajectory:
@@ -154,3 +159,42 @@ def export(options: argparse.Namespace) -> int:
     said = message("cli", "{output}: {rows} rows")
     tell(options, said.fill(output=options.output, rows=rows))
     return 0
+
+
+def report(options: argparse.Namespace) -> int:
+    """Write the run report of a recording, or of another record beside the nominal model."""
+    from platformdirs import user_data_path
+
+    from rotemina.app.motion.penetration.run_log import RunLog
+    from rotemina.app.motion.recording.merging import SUFFIX
+    from rotemina.app.motion.run import Run
+    from rotemina.app.records.run_report import RunReport, report_text
+    from rotemina.app.records.store import RecordStore
+    from rotemina.sim.comparison.comparison import compare
+    from rotemina.sim.records.reading import read_record
+
+    path, own = options.record.absolute(), user_data_path("rotemina", appauthor=False)
+    _require_other(options.output, path)
+    entry = next((one for one in RecordStore(own).all() if one.path == path), None)
+    if path.suffix == SUFFIX:
+        log = RunLog(own / "penetrations.jsonl")
+        penetrations = log.read()[0] if Path(log.path).exists() else ()
+        told = RunReport.of_recording(path, entry, penetrations)
+    else:
+        robot = robot_of(options)
+        record = read_record(path, columns=options.columns, robot=robot)
+        told = RunReport.of_run(Run(path.name, compare(robot, record)), robot, entry)
+    write_text(options.output, report_text(told, options.wording))
+    print(options.output)
+    if options.open:
+        webbrowser.open(options.output.absolute().as_uri())
+    return 0
+
+
+def _require_other(output: Path, read: Path) -> None:
+    if output.exists() and output.samefile(read):
+        raise InputError(
+            message("cli", "{output}: it is the file that is read; name another by -o").fill(
+                output=output
+            )
+        )

@@ -5,19 +5,29 @@ first goes beyond its target by ``width``. That way passes every check, as any m
 for single targets that begin at rest; at a speed, or in a trajectory, it would be a leap.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.device_link import DeviceLink
 from rotemina.app.motion.narrowed_ranges import NarrowedRanges
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.backlash import BACKLASH
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact
-from rotemina.sim.robot.model import StepperAxis
+from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
 from rotemina.sim.trajectory.limits import RANGE_SLACK, OutOfLimitsError, resolution_of
 
 MOST_SHARE = 0.01  # of an axis' range, that a width may be
+OVER_PLAY = 1.5  # of a play that was measured: the width that surely takes it up
+
+
+def play_of(robot: Robot, effects: Iterable[AxisEffect], axis: str) -> float | None:
+    """Return the play of an axis by effects that a diagnosis found, m; None where none tells it."""
+    own = (one for one in effects if one.enabled and one.axis == axis and one.id == BACKLASH.id)
+    plays = [Attached.of(robot, one).values.get("width", 0.0) for one in own]
+    return sum(plays) if plays else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from rotemina.app.calibration.store import CalibrationStore
 from rotemina.app.motion.front_display import FrontDisplay
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.arming import prepared
+from rotemina.app.motion.penetration.cell_list import CellList
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.penetration import Penetration
@@ -107,6 +108,8 @@ class Operation:
         self.penetration_log = RunLog(data / "penetrations.jsonl")
         self.penetration = Penetration(session, self.penetration_log)
         self.penetration_parameters = self._kept_parameters()
+        #: To be penetrated one after the other; for the thread of whoever shows them.
+        self.cells = CellList()
         self.intent = Intent(0.0)
         self._recorder: SessionRecorder | None = None
         self._recorder_lock = threading.Lock()

@@ -5,22 +5,31 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import monotonic
 
-from PySide6.QtCore import QCoreApplication, QEvent
+from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop
 from PySide6.QtWidgets import QApplication
 from shiboken6 import isValid
 
 from rotemina.app.display import axis_scale
+from rotemina.app.motion.playback import PlaybackPhase
+from rotemina.app.motion.run import Run, compared
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.panel import Panel
 from rotemina.app.settings import Settings
 from rotemina.app.shell import theme as themes
+from rotemina.app.shell.plan import Plan
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.records.record import Record
 from rotemina.sim.robot.file import load_robot
 
 _READ_S = 0.02
+_FRAME_S = 0.04
+_WAY_S = 60.0  # of the machine's time, for the way to the first row
+_COMPARED_S = 10.0
+_ALL_EVENTS = QEventLoop.ProcessEventsFlag.AllEvents
 
 
 class PanelBench:
@@ -49,6 +58,57 @@ class PanelBench:
         if not read:
             self._clock.advance(seconds)
         self.refresh()
+
+    def hand_record(self, record: Record, name: str = "record") -> Run:
+        """Hand the panel a record, compared with the model in use; return the run.
+
+        Raises
+        ------
+        InputError
+            If it does not fit the robot, or nothing was measured.
+        """
+        run = compared(self._session.model, name, record)
+        self.workbench.take_run(run)
+        QCoreApplication.processEvents()
+        return run
+
+    def play(self, trajectory: Record, name: str = "trajectory") -> Run:
+        """Plan a trajectory and play it to its end, as an operator does; return the run.
+
+        The panel hears of the plan, follows the machine at 25 Hz, and is handed the run.
+
+        Parameters
+        ----------
+        trajectory : Record
+            With ``cmd`` of each axis that moves, m or rad, from rest to rest.
+
+        Raises
+        ------
+        InputError
+            If it exceeds a limit, or the machine does not take it now.
+        TimeoutError
+            If it does not end, or is not compared within 10 s.
+        """
+        plan = Plan.tried(self._session, name, trajectory)
+        checked, before = plan.dry_run.require(), self.workbench.run
+        self.workbench.take_plan(plan)
+        self.workbench.playback.play(checked)
+        most_s = plan.dry_run.duration_s + _WAY_S
+        while self.workbench.playback.state.phase is PlaybackPhase.PLAYING:
+            self.advance(_FRAME_S)
+            most_s -= _FRAME_S
+            if most_s < 0.0:
+                raise TimeoutError(f"{name}: it does not end")
+        ends_s = monotonic() + _COMPARED_S
+        while self.workbench.busy or self.workbench.untold:
+            if monotonic() > ends_s:
+                raise TimeoutError(f"{name}: it is not compared")
+            QCoreApplication.processEvents(_ALL_EVENTS, 10)
+        self.refresh()
+        run = self.workbench.run
+        if run is None or run is before:
+            raise TimeoutError(f"{name}: it was stopped before its first row")
+        return run
 
     def refresh(self) -> None:
         """Tell the panel how the machine stands, as the window does once a frame."""

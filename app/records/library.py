@@ -277,16 +277,26 @@ def read(entry: Entry, robot: Robot) -> Record:
     """
     if entry.path.suffix == SUFFIX:
         recording = Recording.open(entry.path)
-        if recording.count > MOST_ROWS:
-            raise LibraryError(
-                message(
-                    "engine",
-                    "{path}: {rows} samples are too many to be taken as one record (at most "
-                    "{most}); export a stretch of it in the panel Recorder",
-                ).fill(path=entry.path, rows=recording.count, most=MOST_ROWS)
-            )
+        require_length(recording)
         return record_of(recording)
     return read_record(entry.path, robot=robot)
+
+
+def require_length(recording: Recording) -> None:
+    """Refuse a recording that is too long to be held in memory.
+
+    Raises
+    ------
+    LibraryError
+    """
+    if recording.count > MOST_ROWS:
+        raise LibraryError(
+            message(
+                "engine",
+                "{path}: {rows} samples are too many to be taken as one record (at most "
+                "{most}); export a stretch of it in the panel Recorder",
+            ).fill(path=recording.path, rows=recording.count, most=MOST_ROWS)
+        )
 
 
 def commands(entry: Entry, robot: Robot, period_s: float) -> Record:

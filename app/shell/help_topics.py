@@ -1,5 +1,8 @@
 """Which page explains a message: a table by where its error, event or log record comes from."""
 
+from collections.abc import Callable
+from typing import NamedTuple
+
 from PySide6.QtCore import QObject
 
 from rotemina.app.shell.engine_words import error_text
@@ -78,16 +81,24 @@ PAGES = {
 }
 
 
+class Remedy(NamedTuple):
+    """What mends a message's cause: the words of a button, and what it does."""
+
+    words: str
+    do: Callable[[], object]
+
+
 class Explained(str):
-    """A message that knows the page which explains it; "" where none does."""
+    """A message that knows the page which explains it, "" where none does, and a remedy if any."""
 
-    __slots__ = ("page",)
+    __slots__ = ("page", "remedy")
     page: str
+    remedy: Remedy | None
 
-    def __new__(cls, text: str, page: str) -> "Explained":
-        """Return the text with its page."""
+    def __new__(cls, text: str, page: str, remedy: Remedy | None = None) -> "Explained":
+        """Return the text with its page and its remedy."""
         made = super().__new__(cls, text)
-        made.page = page
+        made.page, made.remedy = page, remedy
         return made
 
 
@@ -99,6 +110,11 @@ def explained(error: BaseException) -> Explained:
 def page_of(text: str) -> str:
     """Return the page that a message knows."""
     return text.page if isinstance(text, Explained) else ""
+
+
+def remedy_of(text: str) -> Remedy | None:
+    """Return the remedy that a message knows."""
+    return text.remedy if isinstance(text, Explained) else None
 
 
 def page_for(about: object) -> str:

@@ -28,7 +28,7 @@ from rotemina.app.shell.first_steps import FirstSteps
 from rotemina.app.shell.folded_panels import FoldedPanels
 from rotemina.app.shell.help_button import DockHelp, TabHelp
 from rotemina.app.shell.help_page import HelpPage
-from rotemina.app.shell.help_topics import page_at
+from rotemina.app.shell.help_topics import Explained, page_at
 from rotemina.app.shell.host import find_panels
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.language_menu import LanguageMenu, language_entries
@@ -44,6 +44,7 @@ from rotemina.app.shell.palette import Palette
 from rotemina.app.shell.progress import ProgressLine
 from rotemina.app.shell.recent_files import RecentFiles
 from rotemina.app.shell.record_chooser import ask_records
+from rotemina.app.shell.reloading import Reloading, ReloadMenu
 from rotemina.app.shell.replay_bar import ReplayBar
 from rotemina.app.shell.status import StatusText
 from rotemina.app.shell.stops import StopWatch
@@ -84,6 +85,7 @@ class MainWindow(ArrangedWindow):
         self._make_header()
         self._make_docks()
         self.panels.placed = self._place
+        self.reloading = Reloading(workbench, self.panels, self.docks, self._add_dock)
         self.late_panels = LatePanels(self.panels, self.docks, workbench)
         self.folded = FoldedPanels(self.docks)
         self.arrangement = Arrangement(self)
@@ -176,6 +178,18 @@ class MainWindow(ArrangedWindow):
             DockHelp(dock, lambda: self.help_page.open_page(kind.help_page))
         return dock
 
+    def _add_dock(self, name: str, kind: type[Panel]) -> None:
+        """Make a dock for a panel that was left out, beside those of its area."""
+        dock = self._dock(name, kind)
+        area = layouts.DOCK_AREAS[kind.area]
+        others = (one for one in self.docks.values() if self.dockWidgetArea(one) == area)
+        beside = next((one for one in others if not one.isFloating()), None)
+        if kind.area in TABBED and beside is not None:
+            self.tabifyDockWidget(beside, dock)
+        self.docks[name] = dock
+        self._menu(translate("shell", "&View")).addAction(dock.toggleViewAction())
+        dock.raise_()
+
     def _place(self, name: str, panel: Panel) -> None:
         """Put a panel that has just been made into its dock."""
         panel.setObjectName("panel")
@@ -191,7 +205,8 @@ class MainWindow(ArrangedWindow):
         text = translate("shell", "Panel {name!r} is left out: {reason}").format(
             name=name, reason=reason
         )
-        self.workbench.notify(Level.ERROR, text, about="plugins.md#what-a-bad-plugin-can-do")
+        page = "plugins.md#what-a-bad-plugin-can-do"
+        self.workbench.notify(Level.ERROR, Explained(text, page, self.reloading.remedy(name)))
 
     def _make_menus(self) -> None:
         for command in self.commands():
@@ -217,6 +232,9 @@ class MainWindow(ArrangedWindow):
         view.addMenu(self.layout_menu)
         self.language_menu = LanguageMenu(self.workbench, view)
         view.addMenu(self.language_menu)
+        self.reload_menu = ReloadMenu(self.reloading, view)
+        view.addMenu(self.reload_menu)
+        view.aboutToShow.connect(self.reload_menu.look)
         view.addSeparator()
         for dock in self.docks.values():
             view.addAction(dock.toggleViewAction())
@@ -356,6 +374,7 @@ class MainWindow(ArrangedWindow):
         for name in self.arrangement.kept.names():
             yield Entry(translate("shell", "Layout"), name, "", None, lambda name=name: use(name))
         yield from language_entries(self.workbench)
+        yield from self.reloading.entries()
         self.panels.make_all()
         yield from panel_entries(self.panels.made, self.docks, self.bring_up)
 

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell.help_topics import page_of
+from rotemina.app.shell.help_topics import page_of, remedy_of
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.clock import Clock
@@ -31,7 +31,7 @@ _LOOK_MS = 250
 
 
 class Notice(QFrame):
-    """One message with a button that closes it, and one that opens the page on it.
+    """One message with buttons: for its remedy, for the page on it, and to close it.
 
     Signals
     -------
@@ -63,7 +63,12 @@ class Notice(QFrame):
         row = QHBoxLayout(self)
         row.setContentsMargins(10, 4, 6, 4)
         row.addWidget(message, 1)
-        page = page_of(text)
+        page, remedy = page_of(text), remedy_of(text)
+        if remedy is not None:
+            self.remedy = QToolButton()
+            self.remedy.setText(remedy.words)
+            self.remedy.clicked.connect(lambda _=False: (self.closed.emit(), remedy.do()))
+            row.addWidget(self.remedy, 0, Qt.AlignmentFlag.AlignTop)
         if page:
             self.help = QToolButton()
             self.help.setText("?")

@@ -22,6 +22,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QWidget
 
 from rotemina.app.panel import Panel
+from rotemina.app.shell.help_topics import Explained, Remedy
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level
 
@@ -30,6 +31,7 @@ logger = logging.getLogger(__name__)
 #: What a panel may raise in slots and timers before it is left out.
 MOST_FAULTS = 3
 _OWN = "rotemina."
+_PAGE = "plugins.md#what-a-bad-plugin-can-do"
 
 
 class PanelWatch(QObject):
@@ -46,6 +48,8 @@ class PanelWatch(QObject):
         Tells the operator something: a level and a text.
     kinds : mapping of str to type, optional
         The panels' classes, where some panels are not made yet.
+    remedy : callable
+        Returns what mends a panel of a name.
     """
 
     _raised = Signal(object)
@@ -57,24 +61,31 @@ class PanelWatch(QObject):
         docks: dict[str, QDockWidget],
         tell: Callable[[Level, str], object],
         kinds: Mapping[str, type[Panel]] | None = None,
+        remedy: Callable[[str], Remedy | None] = lambda _: None,
     ) -> None:
         super().__init__()
         self._window = window
         self._panels = panels
         self._docks = docks
         self._tell = tell
+        self._remedy = remedy
         # By module and the packages above it: whose code it is, also after a panel has gone.
         self._modules: dict[str, str] = {}
         if kinds is None:
             kinds = {name: type(panel) for name, panel in panels.items()}
-        for name, kind in kinds.items():
-            if not kind.__module__.startswith(_OWN):
-                for module in _upwards(kind.__module__):
-                    self._modules.setdefault(module, name)
         self._faults: Counter[str] = Counter()
+        for name, kind in kinds.items():
+            self.begin_with(name, kind)
         self._places: Counter[tuple[type[BaseException], str, int]] = Counter()
         self._before = sys.excepthook, threading.excepthook, sys.unraisablehook
         self._raised.connect(self._judge)
+
+    def begin_with(self, name: str, kind: type[Panel]) -> None:
+        """Watch a panel of this class from now on, whatever one of its name did before."""
+        self._faults.pop(name, None)
+        if not kind.__module__.startswith(_OWN):
+            for module in _upwards(kind.__module__):
+                self._modules.setdefault(module, name)
 
     def install(self) -> None:
         """Begin to watch."""
@@ -155,12 +166,13 @@ class PanelWatch(QObject):
                 else translate("shell", "Panel {name!r} is left out after {n} faults: {error}")
             )
             told = text.format(name=name, n=self._faults[name], error=_said(error))
-            self._tell(Level.ERROR, told)
+            self._tell(Level.ERROR, Explained(told, _PAGE, self._remedy(name)))
             # Not now: this may be in the middle of the panel's own event.
             QTimer.singleShot(0, self._window, lambda: self._take_out(panel, dock))
         elif self._faults[name] == 1:
             text = translate("shell", "Panel {name!r} has failed: {error}")
-            self._tell(Level.WARNING, text.format(name=name, error=_said(error)))
+            told = text.format(name=name, error=_said(error))
+            self._tell(Level.WARNING, Explained(told, _PAGE, self._remedy(name)))
         return True
 
     def _owner(self, frame: FrameType) -> str | None:

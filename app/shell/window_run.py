@@ -131,7 +131,15 @@ def _run(session: MotionSession, settings: Settings, speaks: str | None) -> int:
         signal.signal(signal.Signals[name], lambda *_: QTimer.singleShot(0, leave))
     window = make_window(session, settings, speaks=speaks)
     panels = window.panels
-    watch = PanelWatch(window, panels, window.docks, window.workbench.notify, panels.kinds)
+    watch = PanelWatch(
+        window,
+        panels,
+        window.docks,
+        window.workbench.notify,
+        panels.kinds,
+        window.reloading.remedy,
+    )
+    window.reloading.renewed.connect(watch.begin_with)
     watch.install()
     # Python's collector runs on whatever thread happens to allocate, and what it frees on the
     # session's thread may belong to Qt, which allows that on this one alone.

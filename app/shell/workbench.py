@@ -33,7 +33,7 @@ from rotemina.app.settings import Settings
 from rotemina.app.shell.at_rest import AtRest
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.help_topics import Explained, page_for, page_of
+from rotemina.app.shell.help_topics import Explained, page_for, page_of, remedy_of
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.plan import Plan
 from rotemina.app.shell.progress import Progress
@@ -68,12 +68,13 @@ class Workbench(Requests):
     What moves or connects the machine is among :class:`~rotemina.app.shell.requests.Requests`: a
     refusal becomes a notice.
 
-    ``plan`` is the trajectory in hand, ``run`` the last comparison, ``record`` what would be
-    saved, and ``unsaved`` a played record that no file holds yet: each is written into
-    ``played_folder`` by itself as soon as it ends. ``pace`` (times as fast as the trajectory says)
-    and ``bounds`` (of the deviation of readings from the model, m or rad by axis) are what the next
-    playback is begun with. ``operation`` is what an operator's hand does with the machine: input
-    devices, teleoperation, penetration, recorder. Its data go beside ``played_folder``.
+    ``plan`` is the trajectory in hand, ``run`` the last comparison, ``run_path`` the file of its
+    record, ``record`` what would be saved, and ``unsaved`` a played record that no file holds yet:
+    each is written into ``played_folder`` by itself as soon as it ends. ``pace`` (times as fast as
+    the trajectory says) and ``bounds`` (of the deviation of readings from the model, m or rad by
+    axis) are what the next playback is begun with. ``operation`` is what an operator's hand does
+    with the machine: input devices, teleoperation, penetration, recorder. Its data go beside
+    ``played_folder``.
     ``library`` has every record that was played, recorded or opened. ``microscope`` is camera,
     calibration, clicks and vision. ``progress`` is long work that is under way, see
     :meth:`long_work`. ``source`` is what is shown: the machine, or a replay of ``replaying``;
@@ -119,12 +120,16 @@ class Workbench(Requests):
         self.theme = theme
         self.plan: Plan | None = None
         self.run: Run | None = None
+        self.run_path: Path | None = None
         self.record: Record | None = None
         self.unsaved: Record | None = None
         self.pace = 1.0
         self.bounds: dict[str, float] = {}
         self.progress: Progress | None = None
         self._checked_for: tuple[object, ...] = ()  # plan and standing of the latest check
+        self._paused_run: tuple[Run, Path] | None = (
+            None  # shown when the playback ends from its pause
+        )
         self._background = Background(self)
         self._exceeded.connect(self._tell_excess)
         self._told.connect(lambda text: self.notify(Level.WARNING, text, about="motion.md"))
@@ -202,7 +207,7 @@ class Workbench(Requests):
         of a page: the notice has a "?" that opens the page on it. A text that knows its page, as
         those of failures in the background do, needs none.
         """
-        text = Explained(spoken(text), page_of(text) or page_for(about))
+        text = Explained(spoken(text), page_of(text) or page_for(about), remedy_of(text))
         logger.log(logging.WARNING if level in (Level.WARNING, Level.ERROR) else logging.INFO, text)
         self.noticed.emit(level, text)
 
@@ -284,7 +289,7 @@ class Workbench(Requests):
             "plan",
             translate("shell", "Reading {name} …").format(name=path.name),
             work,
-            self._set_plan,
+            self.take_plan,
         )
 
     def plan_trajectory(self, name: str, trajectory: Record) -> None:
@@ -293,7 +298,7 @@ class Workbench(Requests):
             "plan",
             translate("shell", "Dry run …"),
             lambda: Plan.tried(self.session, name, trajectory),
-            self._set_plan,
+            self.take_plan,
         )
 
     def plan_again(self, plan: Plan) -> None:
@@ -343,7 +348,7 @@ class Workbench(Requests):
             "plan",
             translate("shell", "Reading {name} …").format(name=entry.name),
             work,
-            self._set_plan,
+            self.take_plan,
         )
 
     def save_record(self, path: Path) -> None:
@@ -453,6 +458,7 @@ class Workbench(Requests):
     def _refresh(self) -> None:
         state = self.session.snapshot()
         self._check_plan(state)
+        self._show_paused_run()
         self.refreshed.emit(state)
         self._at_rest.look(state)
         self.replaying.step()
@@ -478,7 +484,8 @@ class Workbench(Requests):
             "plan from here", lambda: plan.from_here(session), done, self.refused.emit
         )
 
-    def _set_plan(self, plan: Plan) -> None:
+    def take_plan(self, plan: Plan) -> None:
+        """Take a trajectory in hand that was tried on the model."""
         if self.playback.state.phase is PlaybackPhase.PAUSED:
             self.playback.end()  # what was paused is not what is in hand
         self.plan = plan
@@ -500,17 +507,18 @@ class Workbench(Requests):
     def _renew_run(self, run: Run) -> None:
         """Take the same record in hand beside another model."""
         if self.run is not None and self.run.record is run.record:
-            self._set_run(run)
+            self.take_run(run, self.run_path)
 
-    def _set_run(self, run: Run) -> None:
-        self.run = run
+    def take_run(self, run: Run, path: Path | None = None) -> None:
+        """Take a comparison in hand; ``path`` is the file of its record, where there is one."""
+        self.run, self.run_path = run, path
         self.record = run.record
         self.run_changed.emit(run)
 
     def _take_run(self, run: Run, path: Path) -> None:
         """Take a record in hand that is in a file of the library."""
         self.library.set_gap(path, run)
-        self._set_run(run)
+        self.take_run(run, path.absolute())
 
     def _on_event(self, event: Event) -> None:
         if isinstance(event, Faulted | CommandRefused):
@@ -578,18 +586,17 @@ class Workbench(Requests):
         self._compared += 1
         record, completed = event.record, event.completed
         name = self.plan.name if self.plan else "playback"
+        paused = self.playback.state.phase is PlaybackPhase.PAUSED
         if record is None:
-            text = translate("shell", "{name}: stopped before its first row was played.").format(
-                name=name
-            )
-            self.notify(Level.WARNING, text, about="trajectory.md")
+            if not paused:
+                text = translate("shell", "{name}: stopped before its first row was played.")
+                self.notify(Level.WARNING, text.format(name=name), about="trajectory.md")
             return
         # Kept before anything else: no comparison that fails, nor the next run, may lose it.
         self.record = self.unsaved = record
+        self._paused_run = None
         path = self._keep(record, name)
-        if self.playback.state.phase is PlaybackPhase.PAUSED:
-            return  # compared when it has ended
-        if not completed:
+        if not (completed or paused):
             text = translate("shell", "{name}: stopped after {duration_s:.2f} s.").format(
                 name=name, duration_s=record.duration_s
             )
@@ -599,5 +606,22 @@ class Workbench(Requests):
             model = event.model or self.session.model
             return compared(model, name, record, completed=completed, answers=event.answers)
 
+        def done(run: Run) -> None:
+            self.library.set_gap(path, run)
+            if paused and self.playback.state.phase is not PlaybackPhase.IDLE:
+                self._paused_run = run, path
+            else:
+                self.take_run(run, path)
+
+        # A kind of its own: each stretch has its gap in the library, however soon the next ends.
         comparing = translate("shell", "Comparing model and real …")
-        self.work("played run", comparing, compare, lambda run: self._take_run(run, path))
+        self.work(f"played {path.name}", comparing, compare, done)
+
+    def _show_paused_run(self) -> None:
+        """Take the run of the latest pause in hand once the playback has ended from there."""
+        held = self._paused_run
+        # In this order: what has ended is counted before the playback says that it has.
+        idle = held is not None and self.playback.state.phase is PlaybackPhase.IDLE
+        if held is not None and idle and not self.untold:
+            self._paused_run = None
+            self.take_run(*held)

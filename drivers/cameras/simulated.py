@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
@@ -23,16 +24,19 @@ from rotemina.drivers.cameras.settings import (
 from rotemina.drivers.cameras.source import CameraSource
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
+from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.drivers.simulator.true_positions import TruePositions
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.contact import CONTACT
 from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position, tool_axis
 from rotemina.sim.messages import marked, message
-from rotemina.sim.microscope.cell import UNTOUCHED, met
+from rotemina.sim.microscope.cell import UNTOUCHED, Cell, met
 from rotemina.sim.microscope.renderer import EXPOSURE_S, Renderer
 from rotemina.sim.microscope.scene import Scene
-from rotemina.sim.robot.model import Robot
+from rotemina.sim.robot.model import AxisEffect, Robot
 
 RATE_HZ = 30.0
 _FOCUS_RANGE_M = (-500e-6, 500e-6)
@@ -127,6 +131,7 @@ class SimulatedCamera(FocusDrive):
         self._chain: Chain | None = None
         self._renderer: Renderer | None = None
         self._state = UNTOUCHED
+        self._contact: AxisEffect | None = None  # what the cell is felt by
         self._joints = np.zeros(6)
 
     @property
@@ -186,7 +191,7 @@ class SimulatedCamera(FocusDrive):
         self._robot, self._chain = driver.robot, chain
         self._renderer = Renderer(scene)
         self._rng = np.random.default_rng([self._seed, 1])
-        self._state = UNTOUCHED
+        self._state, self._contact = UNTOUCHED, None
         self._lost = 0
         self._pace = Pace(RATE_HZ, clock=self.clock, wait=self.wait)
         return CameraDescription(
@@ -214,6 +219,7 @@ class SimulatedCamera(FocusDrive):
             self._lost += beats - 1
         joints = self._latest_joints()
         assert self._chain is not None
+        self._look_for_contact(self._chain)
         scene, tip_m = self._drawing.scene, tip_position(self._chain, joints)
         if scene.cell is not None:
             self._state = met(scene.cell, self._state, tip_m)
@@ -236,6 +242,28 @@ class SimulatedCamera(FocusDrive):
             metadata={"focus_m": focus_m, "pierced": self._state.pierced},
         )
 
+    def _look_for_contact(self, chain: Chain) -> None:
+        """Draw the cell where the tip feels one: where an effect ``contact`` was just put.
+
+        One that is taken away while the tip is inside has given way, and stays.
+        """
+        driver = self._driver()
+        if not (isinstance(driver, TruePositions) and isinstance(driver, EffectCarrier)):
+            return
+        felt = (one for one in driver.effects if one.enabled and one.id == CONTACT.id)
+        contact = next(felt, None)
+        if contact == self._contact:
+            return
+        self._contact = contact
+        if contact is not None:
+            self._drawing.use_cell(_cell_of(contact, driver, chain))
+            self._state = UNTOUCHED
+        elif self._state.entry_m is not None:
+            self._state = replace(self._state, hole_m=self._state.entry_m)
+        else:
+            self._drawing.use_cell(Cell.beside(self._drawing.scene.optics.centre_m))
+            self._state = UNTOUCHED
+
     def _latest_joints(self) -> FloatArray:
         """Return where the joints (6,) truly are, or were last."""
         driver, chain = self._driver(), self._chain
@@ -251,3 +279,15 @@ class SimulatedCamera(FocusDrive):
                 )
             self._joints = chain.joints_of(np.array(driver.true_positions))
         return self._joints
+
+
+def _cell_of(contact: AxisEffect, driver: TruePositions, chain: Chain) -> Cell | None:
+    """Return the cell that its axis meets, the others as they truly are; None: the tip stays."""
+    values = Attached.of(driver.robot, contact).values
+    column, axis = driver.axes.index(contact.axis), driver.robot.axes[contact.axis]
+    before, there = (np.array(driver.true_positions) for _ in range(2))
+    there[column] = axis.range[0] + values["place"]
+    strength = values.get("stiffness", values.get("blocked", 0.0))
+    before[column] = there[column] - np.copysign(1e-3 * axis.span, strength)
+    begin, end = (tip_position(chain, chain.joints_of(one)) for one in (before, there))
+    return Cell.met_at(end, end - begin) if (end != begin).any() else None

@@ -18,6 +18,7 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.gap_words import RUN, size
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import LINES, SignalPlot
+from rotemina.app.shell.reports import RUN_REPORT, RUN_REPORT_TIP, ask_run_report
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.app.widgets.labels import legend
@@ -61,7 +62,11 @@ class ComparisonPanel(Panel):
         self.save = QPushButton(translate("comparison", "Save record …"))
         self.save.setToolTip(translate("comparison", "Save the current record to a file (Ctrl+S)"))
         self.save.clicked.connect(lambda: self.main_window.ask_save())
-        self.save.setEnabled(False)
+        self.report = QPushButton(translate("shell", RUN_REPORT))
+        self.report.setToolTip(translate("shell", RUN_REPORT_TIP))
+        self.report.clicked.connect(lambda: ask_run_report(self, workbench))
+        for one in (self.save, self.report):
+            one.setEnabled(False)
         self.summary = QLabel(translate("comparison", EMPTY))
         self.summary.setWordWrap(True)
         self.summary.setTextFormat(Qt.TextFormat.PlainText)
@@ -87,6 +92,7 @@ class ComparisonPanel(Panel):
         buttons = QHBoxLayout()
         buttons.addWidget(self.open)
         buttons.addWidget(self.save)
+        buttons.addWidget(self.report)
         buttons.addWidget(self.summary, 1)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
@@ -108,6 +114,7 @@ class ComparisonPanel(Panel):
             + (f"  ·  {run.model_id}" if run.model_id else "")
         )
         self.save.setEnabled(True)
+        self.report.setEnabled(True)
         self.table.show_rows(
             [_row(tap, run.gaps[tap.axis, Tap(tap.tap)]) for tap in run.comparison.taps]
         )

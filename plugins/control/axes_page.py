@@ -3,15 +3,16 @@
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 
 from rotemina.app.display import axis_scale, label
-from rotemina.app.motion.backlash import Approach
+from rotemina.app.motion.backlash import OVER_PLAY, Approach, play_of
 from rotemina.app.motion.state import SessionState
 from rotemina.app.range_settings import keep_ranges
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import plain_text, show_text
 from rotemina.app.widgets.steady import SteadyChoice
 from rotemina.plugins.control.wording import no_position, typed
-from rotemina.sim.quantities import Scale
+from rotemina.sim.quantities import Scale, rounded
 from rotemina.sim.robot.model import StepperAxis
 
 _USUAL_WIDTH = 20e-6  # m: beyond the play of most screws
@@ -51,6 +52,8 @@ class AxesPage(QWidget):
         self.low.returnPressed.connect(self._narrow)
         self.high.returnPressed.connect(self._narrow)
         self.width_field.returnPressed.connect(self._approach)
+        self.play = plain_text()
+        self.use_play = button(translate("control", "Use"), self._use_play)
         self._lay_out()
         self._show()
 
@@ -75,6 +78,42 @@ class AxesPage(QWidget):
             why,
             translate("control", "Distance beyond the target, more than the backlash"),
         )
+        self._show_play(why)
+
+    def _show_play(self, why: str | None) -> None:
+        """Say what play a diagnosis found, and offer it as the width."""
+        play, scale = self._play, self._scale
+        stepper = isinstance(self._workbench.robot.axes[self._axis], StepperAxis)
+        show_text(
+            self.play,
+            translate("control", "Measured play: {play}").format(play=scale.text(play))
+            if stepper
+            else "",
+        )
+        self.use_play.setVisible(stepper)
+        none = None
+        if play is None:
+            none = translate("control", "the model in use has no backlash of this axis; diagnose")
+        allow(
+            self.use_play,
+            why or none,
+            translate("control", "Make {factor} × the play of the model in use the width").format(
+                factor=rounded(OVER_PLAY)
+            ),
+        )
+
+    @property
+    def _play(self) -> float | None:
+        model = self._session.model
+        return play_of(model.nominal, model.effects, self._axis)
+
+    def _use_play(self) -> None:
+        """Take the play as the width; from which side is as it was, straight at first."""
+        play = self._play
+        if play is not None:
+            self.width_field.setText(self._scale.number(OVER_PLAY * play))
+            if self.side.currentData() is not None:
+                self._approach()
 
     @property
     def _axis(self) -> str:
@@ -95,9 +134,11 @@ class AxesPage(QWidget):
         grid.addWidget(QLabel(translate("control", "Approach")), 2, 0)
         grid.addWidget(self.side, 2, 1, 1, 2)
         grid.addWidget(self.width_field, 2, 3, 1, 2)
+        grid.addWidget(self.play, 3, 0, 1, 4)
+        grid.addWidget(self.use_play, 3, 4)
         grid.setColumnStretch(1, 1)
         grid.setColumnStretch(3, 1)
-        grid.setRowStretch(3, 1)
+        grid.setRowStretch(4, 1)
 
     def _show(self) -> None:
         """Write what is in use into the fields."""

@@ -4,8 +4,7 @@ from collections.abc import Callable, Sequence
 from html import escape
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QUrl, Signal
-from PySide6.QtGui import QDesktopServices
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.files import json_text, write_text
@@ -14,6 +13,7 @@ from rotemina.app.shell.engine_words import TranslatedWording
 from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.gap_words import run_lines
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.reports import PAGES, save_report
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.plugins.gap.answer import Answer
 from rotemina.sim.gap.diagnosis import Diagnosis
@@ -55,7 +55,7 @@ class Actions(QObject):
         self._ask(
             translate("gap", "Report"),
             "gap-report.html",
-            translate("gap", "Pages (*.html)"),
+            translate("shell", PAGES),
             lambda path: self.save_report(answer, path),
         )
 
@@ -90,24 +90,12 @@ class Actions(QObject):
 
     def save_report(self, answer: Answer, path: Path) -> None:
         """Write the report and open it."""
-        run = self._workbench.run
-
-        def done(_: None) -> None:
-            self._workbench.notify(Level.GOOD, translate("gap", "Saved {path}").format(path=path))
-            if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
-                self._workbench.notify(
-                    Level.WARNING,
-                    translate(
-                        "gap", "{path}: no program here opens it; open it in a browser"
-                    ).format(path=path),
-                    about=self,
-                )
-
-        self._workbench.work(
-            "gap report",
-            translate("gap", "Writing {name} …").format(name=path.name),
-            lambda: write_report(answer.diagnosis, answer.records, path, answer.names, run),
-            done,
+        run, diagnosis = self._workbench.run, answer.diagnosis
+        save_report(
+            self._workbench,
+            path,
+            lambda: write_report(diagnosis, answer.records, path, answer.names, run),
+            self._parent,
         )
 
     def save_json(self, answer: Answer, path: Path) -> None:

@@ -26,6 +26,7 @@ from rotemina.app.widgets.scroll import scrolled
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.plugins.microscope.calibration_section import CalibrationSection
 from rotemina.plugins.microscope.camera_section import CameraSection, SettingsSection
+from rotemina.plugins.microscope.map_section import MapSection
 from rotemina.plugins.microscope.move_section import MoveSection, TargetSection
 from rotemina.plugins.microscope.picture_section import LayerSection, PictureSection
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
@@ -43,6 +44,7 @@ TOOLS = (
     marked("microscope", "Move"),
     marked("microscope", "Vision"),
     marked("microscope", "Save"),
+    marked("microscope", "Map"),
     marked("microscope", "– no tools –"),
 )
 _WIDTH = 250  # of the tools, px
@@ -134,6 +136,7 @@ class MicroscopePanel(Panel):
         self.focus = FocusSection(bench, microscope)
         self.stack = StackSection(bench, microscope)
         self.saving = SavingSection(bench, microscope, view)
+        self.map = MapSection(bench)
         self._pages = (
             (self.camera, self.settings),
             (self.picture, self.layers),
@@ -141,6 +144,7 @@ class MicroscopePanel(Panel):
             (self.move, self.targets),
             (self.tip, self.cell, self.focus),
             (self.stack, self.saving),
+            (self.map,),
         )
         self._refreshing: tuple[Callable[[MicroscopeStatus, SessionState], None], ...] = (
             lambda status, _: (self.camera.refresh(status), self.settings.refresh(status)),
@@ -153,6 +157,7 @@ class MicroscopePanel(Panel):
                 self.focus.refresh(status, state),
             ),
             self.stack.refresh,
+            self.map.refresh,
         )
 
     def _lay_out(self) -> None:

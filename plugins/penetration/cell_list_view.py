@@ -11,7 +11,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display import axis_scale, label
 from rotemina.app.files import write_text
-from rotemina.app.motion.penetration.cell_list import CellList, Outcome
+from rotemina.app.motion.penetration.cell_list import Outcome
 from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.motion.penetration.status import PenetrationStatus
 from rotemina.app.motion.state import SessionState
@@ -47,7 +47,7 @@ class CellListView(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._workbench = workbench
-        self.list = CellList()
+        self.list = workbench.operation.cells
         self._armed: int | None = None  # the cell for which a penetration is armed
         self._run: PenetrationRun | None = None  # the latest when it was
         axes = tuple(workbench.robot.axes)

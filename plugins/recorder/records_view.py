@@ -25,6 +25,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.record_table import RecordTable
 from rotemina.app.shell.record_words import NAME, NOTE, state_text
+from rotemina.app.shell.reports import RUN_REPORT, ask_run_report
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.question import Question
@@ -136,10 +137,12 @@ class RecordsView(QWidget):
         self.more = QToolButton()
         self.more.setText(translate("recorder", "More"))
         self.more.setToolTip(
-            translate("recorder", "Change name or note, find or open a file, delete")
+            translate("recorder", "Run report, change name or note, find or open a file, delete")
         )
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QMenu(self)
+        self.report = menu.addAction(translate("shell", RUN_REPORT))
+        menu.addSeparator()
         self.rename = menu.addAction(translate("recorder", "Change name"))
         self.annotate = menu.addAction(translate("recorder", "Change note"))
         self.find = menu.addAction(translate("recorder", "Find file …"))
@@ -148,6 +151,9 @@ class RecordsView(QWidget):
         self.again = menu.addAction(translate("recorder", "Refresh"))
         menu.addSeparator()
         self.delete = menu.addAction(translate("recorder", "Delete …"))
+        self.report.triggered.connect(
+            lambda: self._with_chosen(lambda one: ask_run_report(self, self._workbench, one))
+        )
         self.rename.triggered.connect(lambda: self.table.rename(NAME))
         self.annotate.triggered.connect(lambda: self.table.rename(NOTE))
         self.find.triggered.connect(self._ask_where_it_is)
@@ -174,6 +180,8 @@ class RecordsView(QWidget):
         ):
             stretch.addWidget(widget)
         below = QHBoxLayout()
+        for row in (stretch, below):  # all of them fit beside the control dock, where that is wide
+            row.setSpacing(4)
         below.addWidget(self.stretch)
         below.addStretch(1)
         for widget in (self.open, self.to_record, self.to_trajectory, self.more):
@@ -213,6 +221,7 @@ class RecordsView(QWidget):
             "rest at both ends",
         )
         allow(self.to_trajectory, why_not, tip)
+        self.report.setEnabled(why_not is None)
         here = (
             None
             if self._shown_s() is not None

@@ -1,18 +1,14 @@
 """The path of the tip as a dry run has it: from above and from the side, over what is allowed."""
 
-from math import floor, log10
-
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QEvent, QRectF, QSize, Qt
 from PySide6.QtGui import (
     QColor,
     QMouseEvent,
     QPainter,
-    QPainterPath,
     QPaintEvent,
     QPen,
     QPixmap,
-    QPolygonF,
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -20,15 +16,13 @@ from rotemina.app.motion.guard import TipPath
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.tip_frame import TipFrame, draw_scale, forbidden
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.kinematics.keep_out import KeepOutZone
 from rotemina.sim.kinematics.workspace import Workspace
 
 _MOST_POINTS = 4000  # of a path that are drawn
 _MARGIN, _LEAST = 0.15, 2e-6  # about the path: a share of it, and m
-_GAP, _CAPTION = 8, 16  # px
-_STEPS = (5.0, 2.0, 1.0)
-_UNITS = ((1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
+_GAP, _CAPTION = 8, 16  # px; the scale bar is as high as the caption
 
 
 class PathView(QWidget):
@@ -121,7 +115,7 @@ class PathView(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         for left, up in ((0.0, 1), (width + _GAP, 2)):
             area = QRectF(left, _CAPTION, width, height)
-            self._draw_view(painter, path, _Frame(area, middle, scale, up))
+            self._draw_view(painter, path, TipFrame(area, middle, scale, up))
             painter.setPen(QColor(self._theme.quiet))
             caption = (
                 translate("trajectory", "above: x, y")
@@ -129,7 +123,7 @@ class PathView(QWidget):
                 else translate("trajectory", "side: x, z")
             )
             painter.drawText(QRectF(left, 0, width, _CAPTION), Qt.AlignmentFlag.AlignLeft, caption)
-        self._draw_scale(painter, scale)
+        draw_scale(painter, QRectF(self.rect()), scale, QColor(self._theme.text))
         painter.end()
         return picture
 
@@ -144,14 +138,14 @@ class PathView(QWidget):
         margin = max(_MARGIN * float((high - low).max()), _LEAST)
         return low - margin, high + margin
 
-    def _draw_view(self, painter: QPainter, path: TipPath, frame: "_Frame") -> None:
+    def _draw_view(self, painter: QPainter, path: TipPath, frame: TipFrame) -> None:
         theme = self._theme
         painter.save()
         painter.setClipRect(frame.area)
         painter.fillRect(frame.area, QColor(theme.surface))
-        forbidden = QColor(theme.danger)
-        forbidden.setAlpha(60)
-        painter.fillPath(_forbidden(path.zone, frame), forbidden)
+        red = QColor(theme.danger)
+        red.setAlpha(60)
+        painter.fillPath(forbidden(path.zone, frame), red)
         reach = Workspace.of(path.zone.chain).hull
         painter.setPen(QPen(QColor(theme.line), 1.0))
         painter.drawRect(QRectF(frame.point(reach.low), frame.point(reach.high)).normalized())
@@ -165,62 +159,3 @@ class PathView(QWidget):
         painter.setBrush(QColor(theme.text))
         painter.drawEllipse(frame.point(path.now), 3.0, 3.0)
         painter.restore()
-
-    def _draw_scale(self, painter: QPainter, scale: float) -> None:
-        """Draw a bar of a round length below the views."""
-        length = _round_down(0.3 * self.width() / scale)
-        unit, name = next((one for one in _UNITS if length >= 0.9999 * one[0]), _UNITS[-1])
-        line = self.height() - 0.5 * _CAPTION
-        painter.setPen(QPen(QColor(self._theme.text), 2.0))
-        painter.drawLine(QPointF(1.0, line), QPointF(1.0 + length * scale, line))
-        painter.drawText(
-            QRectF(length * scale + 8.0, self.height() - _CAPTION, 80.0, _CAPTION),
-            Qt.AlignmentFlag.AlignVCenter,
-            f"{length / unit:.4g} {name}",
-        )
-
-
-class _Frame:
-    """Where points (3,), m, are in an area: x to the right, the axis ``up`` upwards."""
-
-    def __init__(self, area: QRectF, middle: FloatArray, scale: float, up: int) -> None:
-        self.area, self.scale, self.up = area, scale, up
-        self._middle = middle
-
-    def point(self, place: FloatArray) -> QPointF:
-        away = self.scale * (place - self._middle)
-        return self.area.center() + QPointF(float(away[0]), -float(away[self.up]))
-
-    def points(self, places: FloatArray) -> QPolygonF:
-        """Return many (n, 3) at once; of those within half a pixel of each other, one."""
-        away = self.scale * (places[:, [0, self.up]] - self._middle[[0, self.up]])
-        pixel = np.rint(2.0 * away)
-        kept = np.ones(len(away), dtype=bool)
-        kept[1:] = (pixel[1:] != pixel[:-1]).any(axis=1)
-        middle = self.area.center()
-        return QPolygonF([QPointF(middle.x() + x, middle.y() - y) for x, y in away[kept].tolist()])
-
-
-def _forbidden(zone: KeepOutZone, frame: _Frame) -> QPainterPath:
-    """Return what of a view the tip must not be in."""
-    allowed, area = QPainterPath(), frame.area
-    middle = frame.point(zone.middle)
-    far = area.width() + area.height() + abs(middle.x()) + abs(middle.y())
-    reach = min(zone.radius * frame.scale, far)
-    if frame.up == 1:
-        allowed.addEllipse(middle, reach, reach)
-    else:
-        top, bottom = (
-            frame.point(np.array([*zone.middle[:2], height])).y() if np.isfinite(height) else edge
-            for height, edge in ((zone.high, area.top() - far), (zone.low, area.bottom() + far))
-        )
-        allowed.addRect(QRectF(middle.x() - reach, top, 2.0 * reach, bottom - top))
-    everything = QPainterPath()
-    everything.addRect(area)
-    return everything.subtracted(allowed)
-
-
-def _round_down(value: float) -> float:
-    """Return the greatest 1, 2 or 5 times a power of ten that is not more."""
-    power = 10.0 ** floor(log10(value))
-    return next(step * power for step in _STEPS if step * power <= value * (1 + 1e-12))

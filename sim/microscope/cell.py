@@ -71,6 +71,16 @@ class Cell:
         x, y, z = point_m
         return cls((x - 45e-6, y + 10e-6, z - 6e-6))
 
+    @classmethod
+    def met_at(cls, point_m: FloatArray, way: FloatArray) -> Self:
+        """Return a cell that a tip meets at a point (3,), m, as it comes along ``way`` (3,).
+
+        The middle is straight ahead of the point, so that the membrane is first met there.
+        """
+        ahead = way / np.linalg.norm(way)
+        to_middle = 1.0 / np.linalg.norm(ahead / np.array(cls(_vector(point_m)).radii_m))
+        return cls(_vector(point_m + to_middle * ahead))
+
     def level(self, point_m: FloatArray) -> FloatArray:
         """Return how far points (..., 3) are out, (...): 0 in the middle, 1 on the membrane."""
         scaled = (np.asarray(point_m) - np.array(self.centre_m)) / np.array(self.radii_m)

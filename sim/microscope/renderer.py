@@ -1,11 +1,13 @@
 """A scene made into pictures: what stays is prepared once, and only what moves is drawn anew."""
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.ndimage import gaussian_filter, zoom
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.microscope import kernels
-from rotemina.sim.microscope.cell import UNTOUCHED, CellState
+from rotemina.sim.microscope.cell import UNTOUCHED, Cell, CellState
 from rotemina.sim.microscope.cell_image import CellImage, draw_cell
 from rotemina.sim.microscope.kernels import Image, Numbers
 from rotemina.sim.microscope.pin_image import draw_pin
@@ -34,6 +36,12 @@ class Renderer:
         self._still = self._field.copy()  # with the cell, without the pin
         self._drawn: CellImage | None = None
         self._known: tuple[CellState, float] | None = None
+
+    def use_cell(self, cell: Cell | None) -> None:
+        """Draw another cell, or none, from now on."""
+        self._still[:] = self._field
+        self.scene = replace(self.scene, cell=cell)
+        self._drawn = self._known = None
 
     def light(
         self, tip_m: FloatArray, tool_axis: FloatArray, focus_m: float, state: CellState = UNTOUCHED

@@ -71,6 +71,27 @@ def test_played_paused_stepped_and_gone_on_with(qtbot, window, panel):
     assert len(list(bench.played_folder.glob("*_swing.csv.gz"))) == 2
     assert "Model and real apart: Z nano" in panel.gaps.text()
     assert notices(window) == []
+    # Each stretch has its gap in the library.
+    qtbot.waitUntil(
+        lambda: [one.gap is None for one in bench.library.entries] == [False] * 2, timeout=LONG_MS
+    )
+
+
+def test_a_playback_that_ends_from_a_pause_is_compared_and_has_its_gap(qtbot, window, panel):
+    bench, transport = window.workbench, panel.transport
+    click(qtbot, transport.play)
+    qtbot.waitUntil(lambda: bench.playback.state.row > 200, timeout=LONG_MS)
+    click(qtbot, transport.play)
+    qtbot.waitUntil(
+        lambda: [bool(one.gap) for one in bench.library.entries] == [True], timeout=LONG_MS
+    )
+    assert bench.run is None
+    with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
+        click(qtbot, transport.end)
+    assert bench.run.record is bench.record
+    assert not bench.run.completed
+    assert phase(panel) is PlaybackPhase.IDLE
+    assert notices(window) == []
 
 
 def test_a_step_from_the_beginning_goes_to_the_first_row(qtbot, window, panel):

@@ -489,8 +489,24 @@
         <translation>von oben</translation>
     </message>
     <message>
+        <source>Use</source>
+        <translation>Übernehmen</translation>
+    </message>
+    <message>
         <source>the machine is moving</source>
         <translation>die Maschine bewegt sich</translation>
+    </message>
+    <message>
+        <source>Measured play: {play}</source>
+        <translation>Gemessenes Spiel: {play}</translation>
+    </message>
+    <message>
+        <source>the model in use has no backlash of this axis; diagnose</source>
+        <translation>das Modell im Einsatz hat kein Umkehrspiel dieser Achse; diagnostizieren</translation>
+    </message>
+    <message>
+        <source>Make {factor} × the play of the model in use the width</source>
+        <translation>Das {factor}-Fache des Spiels im Modell im Einsatz als Weite nehmen</translation>
     </message>
     <message>
         <source>Within {ends}</source>

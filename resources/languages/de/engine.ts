@@ -4745,7 +4745,7 @@
     </message>
     <message>
         <source>the input devices are released</source>
-        <extracomment>What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man of the pad would only keep it from acting. What is wrong with files of the user&apos;s, told at the start. Calibrations of sensors: those that are on correct readings from the start. The pad on the screen and its keys: a device like any other.</extracomment>
+        <extracomment>What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man of the pad would only keep it from acting. What is wrong with files of the user&apos;s, told at the start. Calibrations of sensors: those that are on correct readings from the start. The pad on the screen and its keys: a device like any other. To be penetrated one after the other; for the thread of whoever shows them.</extracomment>
         <translation>die Eingabegeräte werden losgelassen</translation>
     </message>
     <message>
@@ -5061,6 +5061,194 @@
     <message>
         <source>no answer within {limit} s</source>
         <translation>keine Antwort binnen {limit} s</translation>
+    </message>
+    <message>
+        <source>en</source>
+        <translation>de</translation>
+    </message>
+    <message>
+        <source>Run report: {name}</source>
+        <translation>Laufbericht: {name}</translation>
+    </message>
+    <message>
+        <source>Gap</source>
+        <translation>Abweichung</translation>
+    </message>
+    <message>
+        <source>Signals</source>
+        <translation>Signale</translation>
+    </message>
+    <message>
+        <source>Penetrations</source>
+        <translation>Penetrationen</translation>
+    </message>
+    <message>
+        <source>Events</source>
+        <translation>Ereignisse</translation>
+    </message>
+    <message>
+        <source>Facts</source>
+        <translation>Angaben</translation>
+    </message>
+    <message>
+        <source>Note: {note}</source>
+        <translation>Notiz: {note}</translation>
+    </message>
+    <message>
+        <source>axis</source>
+        <translation>Achse</translation>
+    </message>
+    <message>
+        <source>gap, this run</source>
+        <translation>Abweichung, dieser Lauf</translation>
+    </message>
+    <message>
+        <source>without offset</source>
+        <translation>ohne Versatz</translation>
+    </message>
+    <message>
+        <source>nominal model</source>
+        <translation>nominales Modell</translation>
+    </message>
+    <message>
+        <source>noise floor of the sensor</source>
+        <translation>Rauschgrenze des Sensors</translation>
+    </message>
+    <message>
+        <source>Gap: rms of measured − model in use, offset included, while anything moves and 0.5 s after.</source>
+        <translation>Abweichung: rms von gemessen − Modell im Einsatz, mit Versatz, solange sich etwas bewegt und 0,5 s danach.</translation>
+    </message>
+    <message>
+        <source>No axis moved.</source>
+        <translation>Keine Achse hat sich bewegt.</translation>
+    </message>
+    <message>
+        <source>Above: command, model in use and measured. Below: the gap; the band is the noise floor of the sensor.</source>
+        <translation>Oben: Sollwert, Modell im Einsatz und gemessen. Unten: die Abweichung; das Band ist die Rauschgrenze des Sensors.</translation>
+    </message>
+    <message>
+        <source>began</source>
+        <translation>Beginn</translation>
+    </message>
+    <message>
+        <source>result</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>reason</source>
+        <translation>Grund</translation>
+    </message>
+    <message>
+        <source>contact at</source>
+        <translation>Kontakt bei</translation>
+    </message>
+    <message>
+        <source>depth</source>
+        <translation>Tiefe</translation>
+    </message>
+    <message>
+        <source>peak speed</source>
+        <translation>Spitzengeschwindigkeit</translation>
+    </message>
+    <message>
+        <source>peak deviation</source>
+        <translation>größte Abweichung</translation>
+    </message>
+    <message>
+        <source>time [s]</source>
+        <translation>Zeit [s]</translation>
+    </message>
+    <message>
+        <source>what</source>
+        <translation>was</translation>
+    </message>
+    <message>
+        <source>text</source>
+        <translation>Text</translation>
+    </message>
+    <message>
+        <source>The first {shown} of {all} events.</source>
+        <translation>Die ersten {shown} von {all} Ereignissen.</translation>
+    </message>
+    <message>
+        <source>Nothing was noted.</source>
+        <translation>Nichts wurde vermerkt.</translation>
+    </message>
+    <message>
+        <source>Written by RoTeMiNa {version} from {file}.</source>
+        <translation>Geschrieben von RoTeMiNa {version} aus {file}.</translation>
+    </message>
+    <message>
+        <source>No axis has a gap that could be told: none was seen to move.</source>
+        <translation>Von keiner Achse lässt sich eine Abweichung angeben: keine bewegte sich sichtbar.</translation>
+    </message>
+    <message>
+        <source>Largest gap: {axis}, {gap}</source>
+        <translation>Größte Abweichung: {axis}, {gap}</translation>
+    </message>
+    <message>
+        <source>Largest gap: {axis}, {gap} ({floors} × its noise floor)</source>
+        <translation>Größte Abweichung: {axis}, {gap} ({floors} × Rauschgrenze)</translation>
+    </message>
+    <message>
+        <source>The run was stopped early.</source>
+        <translation>Der Lauf wurde vorzeitig angehalten.</translation>
+    </message>
+    <message>
+        <source>The figures are from the model {model}; {told} was in use during the run.</source>
+        <translation>Die Zahlen stammen vom Modell {model}; während des Laufs war {told} im Einsatz.</translation>
+    </message>
+    <message>
+        <source>date</source>
+        <translation>Datum</translation>
+    </message>
+    <message>
+        <source>duration</source>
+        <translation>Dauer</translation>
+    </message>
+    <message>
+        <source>robot</source>
+        <translation>Roboter</translation>
+    </message>
+    <message>
+        <source>driver</source>
+        <translation>Treiber</translation>
+    </message>
+    <message>
+        <source>model in use</source>
+        <translation>Modell im Einsatz</translation>
+    </message>
+    <message>
+        <source>effects</source>
+        <translation>Effekte</translation>
+    </message>
+    <message>
+        <source>run</source>
+        <translation>Lauf</translation>
+    </message>
+    <message>
+        <source>operator</source>
+        <translation>Bediener</translation>
+    </message>
+    <message>
+        <source>sample</source>
+        <translation>Probe</translation>
+    </message>
+    <message>
+        <source>measured</source>
+        <translation>gemessen</translation>
+    </message>
+    <message>
+        <source>command</source>
+        <translation>Sollwert</translation>
+    </message>
+    <message>
+        <source>gap [{unit}]</source>
+        <translation>Abweichung [{unit}]</translation>
+    </message>
+    <message>
+        <source>Command, model in use and measured of {axis}, and the gap</source>
+        <translation>Sollwert, Modell im Einsatz und Messwert von {axis}, und die Abweichung</translation>
     </message>
 </context>
 </TS>

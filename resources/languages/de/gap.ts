@@ -16,10 +16,6 @@
         <translation>Bericht</translation>
     </message>
     <message>
-        <source>Pages (*.html)</source>
-        <translation>Seiten (*.html)</translation>
-    </message>
-    <message>
         <source>Save the diagnosis</source>
         <translation>Die Diagnose speichern</translation>
     </message>
@@ -1733,10 +1729,6 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     <message>
         <source>This axis has no gap to close.</source>
         <translation>Diese Achse hat keine Abweichung zu schließen.</translation>
-    </message>
-    <message>
-        <source>{path}: no program here opens it; open it in a browser</source>
-        <translation>{path}: kein Programm öffnet diese Datei; in einem Browser öffnen</translation>
     </message>
     <message>
         <source>Signal: u is the voltage, ref the reference sensor, meas the machine&apos;s own sensor</source>

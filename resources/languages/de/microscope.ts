@@ -330,6 +330,10 @@
         <translation>Erkennen</translation>
     </message>
     <message>
+        <source>Map</source>
+        <translation>Karte</translation>
+    </message>
+    <message>
         <source>– no tools –</source>
         <translation>– ohne –</translation>
     </message>
@@ -486,8 +490,72 @@
         <translation>In eine Zelle klicken: Umriss suchen; nichts bewegt sich</translation>
     </message>
     <message>
+        <source>Map of the tip</source>
+        <translation>Karte der Spitze</translation>
+    </message>
+    <message>
+        <source>Go there</source>
+        <translation>Anfahren</translation>
+    </message>
+    <message>
         <source>Fit</source>
         <translation>Alles</translation>
+    </message>
+    <message>
+        <source>Show the trail and all places</source>
+        <translation>Die Spur und alle Orte zeigen</translation>
+    </message>
+    <message>
+        <source>Reach</source>
+        <translation>Reichweite</translation>
+    </message>
+    <message>
+        <source>Show all that the axes can reach</source>
+        <translation>Alles zeigen, was die Achsen erreichen</translation>
+    </message>
+    <message>
+        <source>Clear trail</source>
+        <translation>Spur löschen</translation>
+    </message>
+    <message>
+        <source>no place is chosen</source>
+        <translation>kein Ort ist gewählt</translation>
+    </message>
+    <message>
+        <source>the position is not known</source>
+        <translation>die Position ist nicht bekannt</translation>
+    </message>
+    <message>
+        <source>Lift the tip above both places, go across, come down</source>
+        <translation>Die Spitze über beide Orte heben, verfahren, absenken</translation>
+    </message>
+    <message>
+        <source>A far way: go?</source>
+        <translation>Ein weiter Weg: fahren?</translation>
+    </message>
+    <message>
+        <source>Click a place to choose it.</source>
+        <translation>Einen Ort anklicken, um ihn zu wählen.</translation>
+    </message>
+    <message>
+        <source>Position {name}</source>
+        <translation>Position {name}</translation>
+    </message>
+    <message>
+        <source>Cell {name}</source>
+        <translation>Zelle {name}</translation>
+    </message>
+    <message>
+        <source>Free place</source>
+        <translation>Freier Ort</translation>
+    </message>
+    <message>
+        <source>tip x, y, z [mm]: {place}</source>
+        <translation>Spitze x, y, z [mm]: {place}</translation>
+    </message>
+    <message>
+        <source>{way} from here; farthest: {axis}</source>
+        <translation>{way} von hier; am weitesten: {axis}</translation>
     </message>
     <message>
         <source>Show all of the picture (F)</source>
@@ -956,6 +1024,14 @@ Membran: {ahead} gegen frontal</translation>
     <message>
         <source>Do not move</source>
         <translation>Nicht fahren</translation>
+    </message>
+    <message>
+        <source>Where the tip has been, from above. ◆: saved positions; circles: cells of the list. Red is forbidden, the frame is what the axes can reach.</source>
+        <translation>Wo die Spitze war, von oben. ◆: gespeicherte Positionen; Kreise: Zellen der Liste. Rot ist verboten, der Rahmen ist, was die Achsen erreichen.</translation>
+    </message>
+    <message>
+        <source>Click to choose a place; nothing moves. Wheel: nearer or farther. Drag: move the map.</source>
+        <translation>Klick: einen Ort wählen; nichts bewegt sich. Rad: näher oder weiter. Ziehen: die Karte verschieben.</translation>
     </message>
 </context>
 <context>

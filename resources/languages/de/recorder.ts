@@ -203,6 +203,10 @@
         <translation>Mehr</translation>
     </message>
     <message>
+        <source>Run report, change name or note, find or open a file, delete</source>
+        <translation>Laufbericht, Name oder Notiz ändern, Datei suchen oder öffnen, löschen</translation>
+    </message>
+    <message>
         <source>Change name</source>
         <translation>Name ändern</translation>
     </message>
@@ -257,10 +261,6 @@
     <message>
         <source>{names} and {n} more</source>
         <translation>{names} und {n} weitere</translation>
-    </message>
-    <message>
-        <source>Change name or note, find or open a file, delete</source>
-        <translation>Name oder Notiz ändern, eine Datei suchen oder öffnen, löschen</translation>
     </message>
     <message>
         <source>Delete</source>

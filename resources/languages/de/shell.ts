@@ -1284,8 +1284,28 @@
         <translation>Das Support-Paket wird geschrieben.</translation>
     </message>
     <message>
+        <source>Pages (*.html)</source>
+        <translation>Seiten (*.html)</translation>
+    </message>
+    <message>
+        <source>Run report …</source>
+        <translation>Laufbericht …</translation>
+    </message>
+    <message>
+        <source>Write a page with date, machine, model, plots, gap, events and note of the run, and open it</source>
+        <translation>Eine Seite mit Datum, Maschine, Modell, Kurven, Abweichung, Ereignissen und Notiz des Laufs schreiben und öffnen</translation>
+    </message>
+    <message>
         <source>Saved {path}</source>
         <translation>Gespeichert: {path}</translation>
+    </message>
+    <message>
+        <source>{path}: nothing here opens it; open it in a browser</source>
+        <translation>{path}: nichts hier öffnet es; in einem Browser öffnen</translation>
+    </message>
+    <message>
+        <source>Run report</source>
+        <translation>Laufbericht</translation>
     </message>
     <message>
         <source>The support bundle is being assembled.</source>
@@ -1935,6 +1955,50 @@ Bedienfenster eines hybriden Roboters zur Zellmanipulation, mit Diagnose der Abw
     <message>
         <source>The layout {name!r} cannot be read; delete it and save it again.</source>
         <translation>Die Anordnung {name!r} ist nicht lesbar; löschen und neu speichern.</translation>
+    </message>
+    <message>
+        <source>Reload</source>
+        <translation>Neu laden</translation>
+    </message>
+    <message>
+        <source>Reload {name}</source>
+        <translation>{name} neu laden</translation>
+    </message>
+    <message>
+        <source>Plugin</source>
+        <translation>Plugin</translation>
+    </message>
+    <message>
+        <source>no package that is installed has a panel of this name</source>
+        <translation>kein installiertes Paket hat ein Panel dieses Namens</translation>
+    </message>
+    <message>
+        <source>its package has the driver in use; restart the program</source>
+        <translation>sein Paket hat den Treiber im Einsatz; das Programm neu starten</translation>
+    </message>
+    <message>
+        <source>Importing {name} …</source>
+        <translation>{name} wird importiert …</translation>
+    </message>
+    <message>
+        <source>the machine is moving; stop it first</source>
+        <translation>die Maschine bewegt sich; erst anhalten</translation>
+    </message>
+    <message>
+        <source>panels in the centre need a restart</source>
+        <translation>Panels in der Mitte brauchen einen Neustart</translation>
+    </message>
+    <message>
+        <source>Panel {name!r} is reloaded</source>
+        <translation>Panel {name!r} ist neu geladen</translation>
+    </message>
+    <message>
+        <source>Panel {name!r} is not reloaded: {reason}</source>
+        <translation>Panel {name!r} ist nicht neu geladen: {reason}</translation>
+    </message>
+    <message>
+        <source>Reload &amp;plugin</source>
+        <translation>&amp;Plugin neu laden</translation>
     </message>
 </context>
 </TS>

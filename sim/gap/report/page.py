@@ -1,22 +1,17 @@
-"""The report: one page that holds everything, and asks no network and no script for anything.
+"""The report of a diagnosis, in the frame of all reports."""
 
-Every text that comes from a file or a third party is escaped where it is put in (by the template,
-and by the drawings for their own texts); the page's policy forbids scripts and outside resources.
-"""
-
-from collections.abc import Callable, Sequence
-from importlib import resources
+from collections.abc import Sequence
 from importlib.metadata import version
 from os import PathLike
 
 import numpy as np
-from jinja2 import Environment, StrictUndefined
-from markupsafe import Markup
+from jinja2 import Environment
 
 from rotemina.sim.gap.diagnosis import Diagnosis, Verdict
 from rotemina.sim.gap.document import ordered_causes, shares
 from rotemina.sim.gap.report.charts import forecast
 from rotemina.sim.gap.report.facts import record_facts
+from rotemina.sim.gap.report.frame import environment
 from rotemina.sim.gap.report.quantities import unit_of
 from rotemina.sim.gap.report.views import axis_views
 from rotemina.sim.gap.report.words import (
@@ -31,7 +26,7 @@ from rotemina.sim.gap.report.words import (
 )
 from rotemina.sim.gap.wording import summary
 from rotemina.sim.messages import Wording, listed
-from rotemina.sim.quantities import Number, amount, amounts, percent, percents, rounded
+from rotemina.sim.quantities import Number, rounded
 from rotemina.sim.records.record import Record
 from rotemina.sim.whole_files import replaced
 
@@ -67,9 +62,8 @@ def _page(diagnosis: Diagnosis, records: Sequence[Record], names: Sequence[str])
     places = diagnosis.places
     return (
         _environment()
-        .from_string(_resource("page.html"))
+        .get_template("page.html")
         .render(
-            style=Markup(_resource("page.css")),  # noqa: S704 (the program's own)
             diagnosis=diagnosis,
             verdict=said(VERDICTS[diagnosis.verdict]),
             summary=list(map(shown, summary(diagnosis, records))),
@@ -109,39 +103,17 @@ def write_report(
 
 
 def _environment() -> Environment:
-    environment = Environment(
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    environment.filters.update(
-        t=said,
-        shown=shown,
+    made = environment(said)
+    made.filters.update(
         named=named,
         title=effect_title,
-        amount=_shown(amount),
-        amounts=_shown(amounts),
-        percent=_shown(percent),
-        percents=_shown(percents),
-        rounded=_shown(rounded),
         one_of=lambda names: listed(list(names), said("or")),
         axis_verdict=lambda verdict: said(AXIS_VERDICTS[Verdict(verdict)]),
         hertz=lambda edges: " … ".join(shown(rounded(edge, 3)) for edge in edges) + " Hz",
         few=_few,
         warmth=_warmth,
     )
-    return environment
-
-
-def _shown(number: Callable[..., Number]) -> Callable[..., str]:
-    """Return what writes a number in the page's language."""
-    return lambda *value: shown(number(*value))
-
-
-def _resource(name: str) -> str:
-    return resources.files("rotemina.sim.gap.report").joinpath(name).read_text("utf-8")
+    return made
 
 
 def _few(value: float) -> str:

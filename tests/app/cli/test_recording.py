@@ -103,3 +103,17 @@ def test_bad_input_is_one_clear_line(crashed, capsys, arguments, words):
     assert words in err
     assert err.count("\n") == 1
     assert not crashed.with_name("a.csv").exists()
+
+
+def test_a_report_is_written_of_a_recording_and_of_a_record(crashed, capsys, monkeypatch):
+    monkeypatch.setenv("XDG_DATA_HOME", str(crashed.parent / "data"))
+    main(["recording", "recover", "run.arrows.part"])
+    assert main(["recording", "report", "run.arrows", "-o", "run.html"]) == 0
+    assert capsys.readouterr().out.endswith("run.html\n")
+    assert "Run report: run" in crashed.with_name("run.html").read_text("utf-8")
+    assert main(["recording", "export", "run.arrows", "-o", "run.csv"]) == 0
+    assert main(["recording", "report", "run.csv", "-o", "csv.html"]) == 0
+    page = crashed.with_name("csv.html").read_text("utf-8")
+    assert page.count("<svg") == 1
+    assert main(["recording", "report", "run.csv", "-o", "run.csv"]) == 2
+    assert "it is the file that is read" in capsys.readouterr().err

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.app.motion.backlash import Approach
+from rotemina.app.motion.backlash import Approach, play_of
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.file import load_robot
@@ -168,3 +168,17 @@ def test_what_is_no_approach_is_refused_with_the_bound(machine):
     assert machine.session.snapshot().activity is DeviceState.IDLE
     session.use(type(machine.driver)(ROBOT, clock=machine.clock))
     assert session.backlash.applied == {}
+
+
+def test_the_play_is_that_of_enabled_backlash_on_the_axis():
+    def effect(axis="x", name="backlash", *, enabled=True, **parameters):
+        return AxisEffect(axis=axis, id=name, parameters=parameters, enabled=enabled)
+
+    effects = (
+        effect(width=1e-6),
+        effect(width=5e-6, enabled=False),
+        effect("y", width=3e-6),
+        effect(name="periodic_error"),
+    )
+    assert play_of(ROBOT, effects, "x") == pytest.approx(1e-6)
+    assert play_of(ROBOT, effects, "z") is None

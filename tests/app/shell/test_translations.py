@@ -13,7 +13,8 @@ import pytest
 from PySide6.QtCore import QTranslator
 
 from rotemina.app.cli.translated_help import CONTEXT as HELP
-from rotemina.sim.gap.report.texts import TEXTS
+from rotemina.app.records.run_report import TEXTS as RUN_TEXTS
+from rotemina.sim.gap.report.texts import TEXTS as GAP_TEXTS
 
 ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / "resources" / "languages"
@@ -140,11 +141,16 @@ def test_no_error_says_what_has_no_translation():
     assert found == []
 
 
-def test_the_report_says_nothing_that_has_no_translation(german):
-    page = (ROOT / "sim" / "gap" / "report" / "page.html").read_text("utf-8")
-    said = set(re.findall(r'"([^"]*)" \| t\b', page))
-    assert said == set(TEXTS)
-    bare = re.findall(r">([^<>{}]*[A-Za-z]{2}[^<>{}]*)<", page[page.index("</style>") :])
+@pytest.mark.parametrize(
+    ("folder", "name", "texts"),
+    [("sim/gap/report", "page.html", GAP_TEXTS), ("app/records", "run_report.html", RUN_TEXTS)],
+)
+def test_a_report_says_nothing_that_has_no_translation(folder, name, texts):
+    frame = (ROOT / "sim" / "gap" / "report" / "frame.html").read_text("utf-8")
+    page = (ROOT / folder / name).read_text("utf-8")
+    said = set(re.findall(r'"([^"]*)" \| t\b', frame + page))
+    assert said == set(texts)
+    bare = re.findall(r">([^<>{}]*[A-Za-z]{2}[^<>{}]*)<", page)
     assert bare == []
 
 

@@ -68,6 +68,32 @@ def test_it_follows_effects_and_not_commands(clock):
     assert abs(seen[0] - said[0]) > 1.0  # backlash, in px
 
 
+def test_the_cell_is_drawn_where_the_tip_feels_it(clock):
+    bench = Bench(clock)
+    bench.driver.open()
+    bench.camera.grab(1.0)
+    beside = bench.camera.scene.cell
+    low, at = ROBOT.axes["zn"].range[0], bench.driver.true_positions[bench.driver.axes.index("zn")]
+    values = {"place": at - low - 5e-6, "stiffness": -0.1}
+    bench.driver.set_effects((AxisEffect(axis="zn", id="contact", parameters=values),))
+    bench.camera.grab(1.0)
+    cell = bench.camera.scene.cell
+    assert cell.level(true_tip(bench.driver)) > 1.05
+    bench.settle(zn=at - 4.9e-6)
+    assert cell.level(true_tip(bench.driver)) == pytest.approx(1.0, abs=0.02)  # 5 µm ahead
+    assert bench.camera.grab(1.0).metadata["pierced"] is False
+    bench.driver.set_effects(())
+    bench.camera.grab(1.0)
+    assert bench.camera.scene.cell == beside  # it is taken away
+
+    bench.driver.set_effects((AxisEffect(axis="zn", id="contact", parameters=values),))
+    bench.settle(zn=at - 7e-6)
+    bench.camera.grab(1.0)
+    bench.driver.set_effects(())  # while the tip is inside: the membrane gives way
+    assert bench.camera.grab(1.0).metadata["pierced"] is True
+    assert bench.camera.scene.cell != beside
+
+
 def test_the_true_position_is_what_the_plant_says_and_may_be_had_of_a_closed_machine(clock):
     driver = Simulator(ROBOT, clock=clock)
     assert driver.true_positions[:3] == (0.0275, 0.0275, 0.04)

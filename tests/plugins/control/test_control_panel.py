@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication
 from rotemina.app.motion.backlash import Approach
 from rotemina.app.range_settings import kept_ranges
 from rotemina.drivers.samples import DeviceState
+from rotemina.sim.robot.model import AxisEffect
 
 LONG_MS = 30_000
 
@@ -315,6 +316,15 @@ def test_a_range_is_narrowed_and_an_approach_is_chosen_on_the_page_of_axes(qtbot
     qtbot.waitUntil(row.plus.isEnabled, timeout=LONG_MS)
     qtbot.mouseClick(row.plus, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: row.name.text() == "X ↑", timeout=LONG_MS)
+    assert not page.use_play.isEnabled()
+    found = AxisEffect(axis="x", id="backlash", parameters={"width": 1e-6})
+    qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)
+    session.use_model(replace(session.model, id="corrected", effects=(found,)))
+    qtbot.waitUntil(page.use_play.isEnabled, timeout=LONG_MS)
+    assert page.play.text() == "Measured play: 0.0010 mm"
+    qtbot.mouseClick(page.use_play, Qt.MouseButton.LeftButton)
+    assert session.backlash.applied == {"x": Approach(pytest.approx(1.5e-6), rising=True)}
     page.axis.setCurrentIndex(page.axis.findData("zn"))
     page.refresh(session.snapshot())
     assert not page.side.isEnabled()
+    assert not page.use_play.isVisible()

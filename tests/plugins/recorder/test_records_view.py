@@ -1,16 +1,19 @@
 """The library in the recorder's panel: searched, called otherwise, opened, deleted, found again."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLineEdit
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import QFileDialog, QLineEdit
 
 from rotemina.app.records.entry import Entry, Kind
 from rotemina.app.shell.record_chooser import RecordChooser
 from rotemina.app.shell.record_library import BOUND_GB, RecordLibrary
 from rotemina.app.shell.record_words import NAME, NOTE
+from rotemina.sim.comparison.gap import gap_text
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 
@@ -63,7 +66,13 @@ def of_kind(window, kind):
     return next(each for each in window.findChildren(kind) if each.isVisible())
 
 
-def test_playbacks_are_searched_annotated_compared_and_played_again(qtbot, window, bench, view):
+def test_playbacks_are_searched_annotated_compared_reported_and_played_again(
+    qtbot, window, bench, view, tmp_path, monkeypatch
+):
+    opened = []
+    monkeypatch.setattr(
+        QDesktopServices, "openUrl", lambda url: opened.append(Path(url.toLocalFile())) or True
+    )
     assert names(view) == ["right: tour", "left: tour"]
     view.table.search.setText("müller LEFT")
     assert names(view) == ["left: tour"]
@@ -84,6 +93,22 @@ def test_playbacks_are_searched_annotated_compared_and_played_again(qtbot, windo
         qtbot.mouseClick(view.open, Qt.MouseButton.LeftButton)
     assert bench.run.name == "right: tour"
     qtbot.waitUntil(lambda: view.chosen is not None and bool(view.chosen.gap), timeout=LONG_MS)
+    report = tmp_path / "run.html"
+    qtbot.mouseClick(window.panels["comparison"].report, Qt.MouseButton.LeftButton)
+    of_kind(window, QFileDialog).fileSelected.emit(str(report))
+    qtbot.waitUntil(lambda: opened == [report], timeout=LONG_MS)
+    size = gap_text(bench.run.gaps["zn", Tap.MEAS].rms, "m")
+    assert f"Z nano, {size} (" in report.read_text("utf-8")
+    of_kind(window, QFileDialog).close()
+    view.table.selectRow(1)
+    other = tmp_path / "other.html"
+    view.report.trigger()
+    of_kind(window, QFileDialog).fileSelected.emit(str(other))
+    qtbot.waitUntil(lambda: opened == [report, other], timeout=LONG_MS)
+    assert "Run report: first try" in other.read_text("utf-8")
+    assert "the dish was dry" in other.read_text("utf-8")
+    view.table.selectRow(0)
+
     with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
         qtbot.mouseClick(view.to_trajectory, Qt.MouseButton.LeftButton)
     assert bench.plan.name == "right: tour"
