@@ -26,7 +26,7 @@ class Leaving:
         """
         bench = self._workbench
         state = bench.session.snapshot()
-        if _moves(state) and not _may_stop(self._window, state):
+        if moves(state) and not _may_stop(self._window, state):
             return False
         if not state.stopping:
             bench.stop()
@@ -61,7 +61,7 @@ class Leaving:
         self._begun = False
 
 
-def _moves(state: SessionState) -> bool:
+def moves(state: SessionState) -> bool:
     """Whether something moves that nobody has stopped yet, or is about to go on."""
     return state.phase is Phase.MOVING or (state.phase is Phase.READY and bool(state.owners))
 
