@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
+import scipy
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.plant.group import groups_of
@@ -88,7 +88,7 @@ def undamped_modes(robot: Robot) -> UndampedModes:
     m = len(whole.axes)
     rates, shapes, column = np.zeros(m), np.zeros((m, m)), 0
     for members, part in _parts(robot, whole):
-        squared, vectors = eigh(part.stiffness, part.mass)
+        squared, vectors = scipy.linalg.eigh(part.stiffness, part.mass)
         squared[: _free_motions(part)] = 0.0
         columns = slice(column, column + len(members))
         rates[columns] = np.sqrt(np.maximum(squared, 0.0))
