@@ -8,9 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
-import tifffile
 from numpy.typing import NDArray
-from PIL import Image, PngImagePlugin
 
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.whole_files import replaced
@@ -86,6 +84,8 @@ def write_tiff(path: Path, frame: Frame, about: Circumstances) -> None:
     FileWriteError
         If it cannot be written.
     """
+    import tifffile  # takes a tenth of a second, for which no start of the window waits
+
     per_cm = 0.01 / about.pixel_m if about.pixel_m else None
     with replaced(path) as file:
         tifffile.imwrite(
@@ -117,6 +117,8 @@ def write_png(path: Path, shown: NDArray[np.uint8], frame: Frame, about: Circums
     FileWriteError
         If it cannot be written.
     """
+    from PIL import Image, PngImagePlugin  # as slow
+
     text = PngImagePlugin.PngInfo()
     text.add_text("Software", program())
     text.add_text("Description", description(frame, about))

@@ -6,8 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-import tifffile
-
 from rotemina.app.cameras.snapshot import Circumstances, description, program
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.whole_files import replaced
@@ -33,6 +31,8 @@ def write_stack(path: Path, pages: Sequence[Page], axis: str, about: Circumstanc
     FileWriteError
         If it cannot be written.
     """
+    import tifffile  # takes a tenth of a second, for which no start of the window waits
+
     per_cm = 0.01 / about.pixel_m if about.pixel_m else None
     with replaced(path) as file, tifffile.TiffWriter(file) as writer:
         for number, page in enumerate(pages, 1):

@@ -64,6 +64,7 @@ class MainWindow(ArrangedWindow):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
+        self.setAnimated(False)  # Qt would move every dock by an animation at each new layout
         self.workbench = workbench
         workbench.setParent(self)  # so that Qt ends it with the window, on this thread
         self.notices = NoticeBar(self)

@@ -119,11 +119,18 @@ class SignalPlot(pg.PlotWidget):
         """
         width = self._pens[name].width
         buckets = max(self.width(), 200) // (width + 1)
-        self._curves[name].setData(*envelope(time_s, values, buckets))
+        self._draw(name, *envelope(time_s, values, buckets))
 
     def clear_signal(self, name: str) -> None:
         """Draw nothing for a curve."""
-        self._curves[name].setData([], [])
+        curve = self._curves[name]
+        if curve.isVisible():
+            curve.setData([], [])
+            curve.hide()  # the scene passes it over
+
+    def _draw(self, name: str, x: FloatArray, y: FloatArray) -> None:
+        self._curves[name].setData(x, y)
+        self._curves[name].show()
 
     def set_time(self, start_s: float, end_s: float) -> None:
         """Show this span of time."""

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 logger = logging.getLogger(__name__)
 
 #: Each takes tenths of a second to load, for which whoever first chose its view would wait.
-LATE = ("scipy.signal", "polars")
+LATE = ("scipy.optimize", "scipy.interpolate", "scipy.signal", "polars", "tifffile")
 
 
 def preload(names: Iterable[str] = LATE) -> threading.Thread:

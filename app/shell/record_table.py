@@ -175,7 +175,7 @@ class RecordTable(QTableView):
         self.doubleClicked.connect(self._double_clicked)
         self.selectionModel().selectionChanged.connect(lambda *_: self.chosen_changed.emit())
         workbench.library.changed.connect(self._fill)
-        workbench.theme_changed.connect(lambda _: self.viewport().update())
+        workbench.theme_changed.connect(self._repaint)  # a lambda would outlive the table
         self._fill()
 
     @property
@@ -209,6 +209,9 @@ class RecordTable(QTableView):
             for column, text in enumerate(_WIDEST):
                 width = self.fontMetrics().horizontalAdvance(text) + _MARGIN
                 self.setColumnWidth(column, max(width, head.sectionSizeHint(column)))
+
+    def _repaint(self) -> None:
+        self.viewport().update()
 
     def _make_filter(self) -> None:
         self.search.setPlaceholderText(translate("shell", "Search"))

@@ -1,22 +1,19 @@
 """The status line: link, age of the data, latency of stops, owners, work in the background."""
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel
-
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase import driven, word
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.sim.quantities import fixed
 
 
-class StatusText(QLabel):
+class StatusText(ElidedLabel):
     """One line that says how the connection stands."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
-        self.setTextFormat(Qt.TextFormat.PlainText)
         self._busy = ""
         self._session = workbench.session
         workbench.busy_changed.connect(self._set_busy)
@@ -44,7 +41,7 @@ class StatusText(QLabel):
                 translate("shell", "last stop {ms:.1f} ms").format(ms=1e3 * state.stop_latency_s)
             )
         parts += [text for text in (driven(state), self._busy) if text]
-        self.setText("   ·   ".join(parts))
+        self.show_text("   ·   ".join(parts))
 
 
 def age(seconds: float) -> str:

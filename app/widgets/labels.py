@@ -12,16 +12,33 @@ from rotemina.app.widgets.controls import plain_tip
 
 
 class ElidedLabel(QLabel):
-    """One line of plain text that takes what room there is; its tooltip has all of it."""
+    """One line of plain text that takes what room there is; its tooltip has all of it.
+
+    It keeps its text by itself: Qt's label would have all of the window laid out anew at each one.
+    """
 
     def __init__(self) -> None:
         super().__init__()
+        self._text = ""
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
 
+    def text(self) -> str:
+        """Return all of the text."""
+        return self._text
+
+    def setText(self, text: str) -> None:  # noqa: N802 (Qt's name)
+        """Show another text, with the same tooltip."""
+        if bool(text) != bool(self._text):
+            super().setText(" " if text else "")  # for its height
+        if self.accessibleName() == self._text:
+            self.setAccessibleName(text)
+        self._text = text
+        self.update()
+
     def show_text(self, text: str) -> None:
         """Show another text."""
-        if text != self.text():
+        if text != self._text:
             self.setText(text)
             self.setToolTip(plain_tip(text) if text else "")
 
@@ -38,7 +55,7 @@ class ElidedLabel(QLabel):
         painter = QPainter(self)
         painter.setPen(self.palette().color(self.foregroundRole()))
         cut = self.fontMetrics().elidedText(
-            self.text(), Qt.TextElideMode.ElideRight, self.contentsRect().width()
+            self._text, Qt.TextElideMode.ElideRight, self.contentsRect().width()
         )
         painter.drawText(self.contentsRect(), int(Qt.AlignmentFlag.AlignVCenter), cut)
         painter.end()

@@ -40,7 +40,7 @@ class _Plot(SignalPlot):
 
     def draw(self, name: str, x: FloatArray, y: FloatArray) -> None:
         """Draw a curve (n,) as it is: thinning by its highest and lowest would tear a loop."""
-        self._curves[name].setData(x, y)
+        self._draw(name, x, y)
         self.autoRange(padding=0.04)
 
 

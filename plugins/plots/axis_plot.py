@@ -95,6 +95,8 @@ class AxisPlot(QWidget):
             self.plot.add_curve(curve, line)
         self.strip = GapStrip(workbench.theme, name, axis, self._floor)
         self._strip_height = 0
+        self._written: tuple[object, ...] = ()  # what the figures say
+        self._course: tuple[GapHistory | None, float] = (None, 0.0)  # what the strip shows
         # Notices and the banner of a replay need room, too; the lowest has the times below it.
         self.plot.setMinimumHeight(62 if times else 36)
         head = QHBoxLayout()
@@ -147,6 +149,7 @@ class AxisPlot(QWidget):
             self.plot.set_time(-picture.span_s, 0.0)
         self._draw_strip(picture)
         if len(window) == 0:
+            self._written = ()
             self.figures.show_text("")
             for name in CURVES:
                 self.plot.clear_signal(name)
@@ -163,6 +166,9 @@ class AxisPlot(QWidget):
         course, window = picture.course, picture.window
         if course is None or not self.strip.isVisible():
             return
+        if self._course[0] is course and self._course[1] == picture.span_s:
+            return
+        self._course = (course, picture.span_s)
         newest_s = window.device_time_s[-1] if len(window) else 0.0
         self.strip.show_course(
             course.time_s - newest_s, course.gap[:, self._column], picture.span_s
@@ -171,8 +177,11 @@ class AxisPlot(QWidget):
     def _show_gap(self, picture: Picture) -> None:
         """Write the gap of the last 10 s, and of the run in hand where this axis was in it."""
         live, unit = picture.live.get(self._name), self._si_unit
-        lines = [(live_gap(live, unit), small_print(live, unit))]
         run = picture.run.get((self._name, Tap.MEAS))
+        if self._written == (live, run):
+            return
+        self._written = (live, run)
+        lines = [(live_gap(live, unit), small_print(live, unit))]
         if run is not None:
             lines.append((run_gap(run, unit), small_print(run, unit)))
         self.figures.show_text("  ·  ".join(text for text, _ in lines))
@@ -191,6 +200,7 @@ class AxisPlot(QWidget):
         self._tell(values_text(at_a, at_b, unit))
 
     def _tell(self, read: Reading) -> None:
+        self._written = ()
         self.figures.show_text(read.short)
         self.figures.setToolTip(plain_tip(read.full))
 

@@ -54,7 +54,7 @@ class ViewPlot(SignalPlot):
         A wide line is thinned further: it hides what is narrower than itself.
         """
         width = self._pens[name].width
-        self._curves[name].setData(*thinned_loop(x, y, max(self.width(), 200) // (2 * width)))
+        self._draw(name, *thinned_loop(x, y, max(self.width(), 200) // (2 * width)))
 
     def follow_across(self, low: float, high: float, least: float) -> None:
         """Make the horizontal scale fit, as :meth:`follow` does the vertical one."""

@@ -3,7 +3,7 @@
 from math import pi
 
 import numpy as np
-from scipy import signal
+import scipy
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 
@@ -12,10 +12,10 @@ def lagged(values: FloatArray, poles: ComplexArray | FloatArray, step_s: float) 
     """Filter ``values`` (n,) by a low-pass with the given ``poles`` (1/s) and static gain 1."""
     numerator = np.atleast_1d(np.float64(np.real(np.prod(-poles))))
     denominator = np.asarray(np.real(np.poly(poles)), np.float64)
-    digital = signal.cont2discrete((numerator, denominator), step_s, "foh")
-    sections = signal.tf2sos(np.ravel(digital[0]), digital[1])
-    settled = signal.sosfilt_zi(sections) * values[0]
-    return np.asarray(signal.sosfilt(sections, values, zi=settled)[0])
+    digital = scipy.signal.cont2discrete((numerator, denominator), step_s, "foh")
+    sections = scipy.signal.tf2sos(np.ravel(digital[0]), digital[1])
+    settled = scipy.signal.sosfilt_zi(sections) * values[0]
+    return np.asarray(scipy.signal.sosfilt(sections, values, zi=settled)[0])
 
 
 def mode_poles(frequency_hz: float, damping_ratio: float) -> ComplexArray:

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numba
 import numpy as np
-from scipy.linalg import expm
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 
@@ -32,7 +32,7 @@ def propagator(structure: Structure, step_s: float) -> tuple[FloatArray, FloatAr
     system[d : 2 * d, :d] = -inverse @ structure.stiffness
     system[d : 2 * d, d : 2 * d] = -inverse @ structure.damping
     system[d : 2 * d, 2 * d :] = inverse
-    whole = expm(system * step_s)
+    whole = scipy.linalg.expm(system * step_s)
     return whole[: 2 * d, : 2 * d].copy(), whole[: 2 * d, 2 * d :].copy()
 
 

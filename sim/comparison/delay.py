@@ -1,7 +1,7 @@
 """How much later a real signal comes than the modelled one."""
 
 import numpy as np
-from scipy import fft
+import scipy
 
 from rotemina.sim.arrays import FloatArray, IntArray
 
@@ -35,9 +35,9 @@ def delay(time_s: FloatArray, model: FloatArray, real: FloatArray) -> float | No
 
 def _correlate(model: FloatArray, real: FloatArray, longest: int) -> tuple[IntArray, FloatArray]:
     """Return ``Σ real[k + lag]·model[k]`` for every lag up to ``longest`` samples either way."""
-    size = fft.next_fast_len(len(model) + longest, real=True)
-    spectrum = fft.rfft(real, size) * np.conj(fft.rfft(model, size))
-    circular = fft.irfft(spectrum, size)
+    size = scipy.fft.next_fast_len(len(model) + longest, real=True)
+    spectrum = scipy.fft.rfft(real, size) * np.conj(scipy.fft.rfft(model, size))
+    circular = scipy.fft.irfft(spectrum, size)
     lags = np.arange(-longest, longest + 1)
     return lags, circular[lags]
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate import kernel
@@ -110,7 +110,7 @@ def find_stages(
     low = np.concatenate([[least, 0.0, -_MOST_LOW], np.full(len(times_s), -0.1 * _MOST_CREEP)])
     high = np.concatenate([[least + MOST_LAG, 1.0, _MOST_LOW], np.full(len(times_s), _MOST_CREEP)])
     scale = np.concatenate([[0.3, 0.3, 0.03], np.full(len(times_s), 1e-2)])
-    found = least_squares(
+    found = scipy.optimize.least_squares(
         tail,
         start,
         bounds=(low, high),

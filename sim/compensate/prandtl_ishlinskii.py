@@ -12,7 +12,7 @@ Its inverse is of the same form (Kuhnen, European Journal of Control 9 (2003) 40
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import lsq_linear
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate import kernel
@@ -73,5 +73,7 @@ def bounded(rows: FloatArray, goals: FloatArray, low: FloatArray) -> FloatArray:
     """
     triangle = np.asarray(np.linalg.qr(np.column_stack([rows, goals]), mode="r"))
     columns = rows.shape[1]
-    found = lsq_linear(triangle[:, :columns], triangle[:, columns], (low, np.inf), method="bvls")
+    found = scipy.optimize.lsq_linear(
+        triangle[:, :columns], triangle[:, columns], (low, np.inf), method="bvls"
+    )
     return np.asarray(found.x)

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 
@@ -48,7 +48,7 @@ def bent_ends(asked: FloatArray, given: FloatArray, seen: tuple[float, float]) -
         return _softly(x, p[0], p[1], p[2]) - y
 
     found = [
-        least_squares(
+        scipy.optimize.least_squares(
             off,
             (low - beyond * reach, high + beyond * reach, softness),
             bounds=(

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import lsq_linear
+import scipy
 
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
@@ -278,7 +278,9 @@ def _bounded_minimum(
     rows = roots[:, None] * vectors.T  # rowsᵀ rows is the scaled hessian
     target = -(vectors.T @ (slope / scale)) / roots
     lows, highs = (low - x) * scale, (high - x) * scale
-    step = lsq_linear(rows, target, (np.minimum(lows, 0.0) - 1e-9, np.maximum(highs, 0.0) + 1e-9))
+    step = scipy.optimize.lsq_linear(
+        rows, target, (np.minimum(lows, 0.0) - 1e-9, np.maximum(highs, 0.0) + 1e-9)
+    )
     return np.asarray(np.clip(x + step.x / scale, low, high))
 
 

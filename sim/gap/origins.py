@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.effects.facts import Facts
@@ -141,7 +141,9 @@ def _likeliest(seen: Sequence[_Line], near: float, reach: float) -> float:
     tried = near + np.arange(-_AROUND, _AROUND + 0.5 / _FINER, 1.0 / _FINER) / reach
     best = float(min(tried, key=left))
     about = (best - 1.0 / _FINER / reach, best + 1.0 / _FINER / reach)
-    found = minimize_scalar(left, bounds=about, method="bounded", options={"xatol": _SHARP / reach})
+    found = scipy.optimize.minimize_scalar(
+        left, bounds=about, method="bounded", options={"xatol": _SHARP / reach}
+    )
     return float(found.x)
 
 

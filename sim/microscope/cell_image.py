@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import gaussian_filter
-from scipy.special import ndtr
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.microscope import kernels
@@ -106,7 +105,7 @@ def _blur(optics: Optics, point_m: FloatArray, focus_m: float) -> float:
 
 
 def _inside(distance: Image, blur: float) -> FloatArray:
-    return np.asarray(ndtr(-distance / blur))
+    return np.asarray(scipy.special.ndtr(-distance / blur))
 
 
 def _line(distance: Image, wide: float, blur: float) -> FloatArray:
@@ -130,7 +129,7 @@ def _grain(
     size = _GRAIN_M / optics.pixel_m
     first = [int(x) for x in corner]
     part = grains[first[1] : first[1] + shape[0], first[0] : first[0] + shape[1]]
-    soft = gaussian_filter(part, float(np.hypot(size, blur)), mode="nearest")
+    soft = scipy.ndimage.gaussian_filter(part, float(np.hypot(size, blur)), mode="nearest")
     # White noise of unit variance, smoothed to the grain's size, has this standard deviation.
     return np.asarray(_GRAINS * soft * 2.0 * np.sqrt(np.pi) * size)
 

@@ -3,7 +3,7 @@
 from math import cos, exp, hypot, sin, sqrt
 
 import numpy as np
-from scipy.special import erf
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.microscope import kernels
@@ -127,8 +127,13 @@ def _disc(distance: FloatArray, radius: float, blur: float) -> FloatArray:
     Exact in the middle, ``1 − exp(−R²/2σ²)``, and the edge of a half plane for R ≫ σ.
     """
     share = 1.0 / (sqrt(2.0) * blur)
-    strip = 0.5 * (erf((radius - distance) * share) + erf((radius + distance) * share))
-    return np.asarray(strip * (1.0 - exp(-((radius * share) ** 2))) / erf(radius * share))
+    strip = 0.5 * (
+        scipy.special.erf((radius - distance) * share)
+        + scipy.special.erf((radius + distance) * share)
+    )
+    return np.asarray(
+        strip * (1.0 - exp(-((radius * share) ** 2))) / scipy.special.erf(radius * share)
+    )
 
 
 def _row(*values: float) -> Image:

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
-from scipy.ndimage import gaussian_filter, zoom
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.microscope import kernels
@@ -120,6 +120,8 @@ def _illuminated(light: Light, shape: tuple[int, int], rng: np.random.Generator)
     field = 1.0 - light.vignetting * (across**2 + down**2) / 2.0
     field = field + 0.5 * (light.gradient[0] * across + light.gradient[1] * down)
     coarse = (height // _DUST_PX + 3, width // _DUST_PX + 3)
-    dust = zoom(gaussian_filter(rng.standard_normal(coarse), 0.7), _DUST_PX, order=1)
+    dust = scipy.ndimage.zoom(
+        scipy.ndimage.gaussian_filter(rng.standard_normal(coarse), 0.7), _DUST_PX, order=1
+    )
     field = field * (1.0 + light.dust * dust[:height, :width])
     return np.maximum(field, 0.0).astype(np.float32)

@@ -12,8 +12,7 @@ J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998), ch. 3 (return 
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
-from scipy.optimize import brentq
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.robot.plate import Joint
@@ -53,7 +52,7 @@ def seat_force(joint: Joint, stiffness: FloatArray, trial: FloatArray) -> SeatFo
         return SeatForce(trial, np.zeros(3))
     quadric = np.diag(1.0 / limits(joint) ** 2)
     # With V from Q v = s K⁻¹ v, Vᵀ K⁻¹ V = 1: V⁻¹ (1 + λ K Q) V = diag(1 + λ s).
-    shares, axes = eigh(quadric, np.linalg.inv(stiffness))
+    shares, axes = scipy.linalg.eigh(quadric, np.linalg.inv(stiffness))
     parts = np.linalg.solve(axes, trial)
 
     def outside(slip: float) -> float:
@@ -62,6 +61,6 @@ def seat_force(joint: Joint, stiffness: FloatArray, trial: FloatArray) -> SeatFo
     high = 1.0 / shares.max()
     while outside(high) > 0.0:
         high *= 2.0
-    slip = brentq(outside, 0.0, high, xtol=1e-15 * high, rtol=1e-14)
+    slip = scipy.optimize.brentq(outside, 0.0, high, xtol=1e-15 * high, rtol=1e-14)
     force = axes @ (parts / (1.0 + slip * shares))
     return SeatForce(force, slip * (quadric @ force))

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
@@ -104,7 +104,9 @@ def _chosen(error: FloatArray, most_pieces: int) -> list[int]:
 def _hermite(shape: Shape, places: FloatArray) -> Shape:
     """Return the cubics through a move's positions and speeds at some instants."""
     polynomial = shape.polynomial
-    spline = CubicHermiteSpline(places, polynomial(places), polynomial.derivative()(places))
+    spline = scipy.interpolate.CubicHermiteSpline(
+        places, polynomial(places), polynomial.derivative()(places)
+    )
     return Shape(spline.x, spline.c)
 
 

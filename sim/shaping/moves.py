@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, sqrt
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
@@ -108,9 +108,9 @@ def tabled(time_s: Sequence[float], position: Sequence[float]) -> Shape:
     if len(times) == 2:
         slopes = np.zeros(2)
     else:
-        slopes = np.array(PchipInterpolator(times, values).derivative()(times))
+        slopes = np.array(scipy.interpolate.PchipInterpolator(times, values).derivative()(times))
         slopes[0] = slopes[-1] = 0.0
-    spline = CubicHermiteSpline(times, values, slopes)
+    spline = scipy.interpolate.CubicHermiteSpline(times, values, slopes)
     return Shape(spline.x, spline.c)
 
 

@@ -5,7 +5,7 @@ from math import factorial
 from typing import Self
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.messages import message
@@ -51,14 +51,14 @@ class Shape:
             raise ShapingError(message("engine", "shape: times must rise from 0 s"))
 
     @classmethod
-    def of(cls, polynomial: PPoly) -> Self:
+    def of(cls, polynomial: "scipy.interpolate.PPoly") -> Self:
         """Return the shape of a polynomial that begins at 0 s."""
         return cls(polynomial.x, polynomial.c)
 
     @property
-    def polynomial(self) -> PPoly:
+    def polynomial(self) -> "scipy.interpolate.PPoly":
         """The pieces alone, without what is before and behind them."""
-        return PPoly(self.coefficients, self.breaks_s)
+        return scipy.interpolate.PPoly(self.coefficients, self.breaks_s)
 
     @property
     def duration_s(self) -> float:

@@ -9,10 +9,6 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from pymoo.algorithms.moo.nsga2 import NSGA2
-from pymoo.core.evaluator import Evaluator
-from pymoo.core.problem import Problem
-from pymoo.problems.static import StaticProblem
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.feedback.gains import Gains
@@ -80,6 +76,12 @@ def generations(
     ``evaluate_all`` is ``map``, or one that works on several cores: figures depend on gains alone,
     so the search is the same.
     """
+    # The library takes tenths of a second to load, for which no start of the window waits.
+    from pymoo.algorithms.moo.nsga2 import NSGA2
+    from pymoo.core.evaluator import Evaluator
+    from pymoo.core.problem import Problem
+    from pymoo.problems.static import StaticProblem
+
     space = Problem(n_var=len(VARIABLES), n_obj=2, n_ieq_constr=3, xl=0.0, xu=1.0)
     algorithm = NSGA2(pop_size=settings.population)
     algorithm.setup(space, termination=("n_gen", settings.generations), seed=settings.seed)

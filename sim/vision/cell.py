@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
@@ -240,7 +240,9 @@ def _ellipse(path: FloatArray, centre: FloatArray) -> tuple[FloatArray, FloatArr
     start = np.array([*centre, 1.05 * radius, 0.95 * radius, 0.0])
     best = min(
         (
-            least_squares(off, np.array([*start[:4], turn]), loss="soft_l1", f_scale=_FAR)
+            scipy.optimize.least_squares(
+                off, np.array([*start[:4], turn]), loss="soft_l1", f_scale=_FAR
+            )
             for turn in (0.0, np.pi / 2)
         ),
         key=lambda fit: float(fit.cost),

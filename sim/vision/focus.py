@@ -14,7 +14,7 @@ from typing import Self
 
 import cv2
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
@@ -75,7 +75,7 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
         return np.asarray(base + height / (1.0 + ((x - place) / width) ** 2) - (s - low) / rise)
 
     best = float((z[int(np.argmax(s))] - z.mean()) / span)
-    fit = least_squares(misfit, [0.0, 1.0, best, 0.2], x_scale=[1.0, 1.0, 0.1, 0.1])
+    fit = scipy.optimize.least_squares(misfit, [0.0, 1.0, best, 0.2], x_scale=[1.0, 1.0, 0.1, 0.1])
     freedom = max(len(z) - 4, 1)
     jacobian = np.asarray(fit.jac, dtype=np.float64)
     spread = np.linalg.pinv(jacobian.T @ jacobian) * 2.0 * float(fit.cost) / freedom

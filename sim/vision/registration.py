@@ -16,7 +16,7 @@ from typing import cast
 
 import cv2
 import numpy as np
-from scipy import fft
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
@@ -161,14 +161,14 @@ def _refined(
 
 def _phase_correlation(first: Image, second: Image) -> Image:
     window = cv2.createHanningWindow((first.shape[1], first.shape[0]), cv2.CV_32F)
-    one, two = (fft.rfft2((image - image.mean()) * window) for image in (first, second))
+    one, two = (scipy.fft.rfft2((image - image.mean()) * window) for image in (first, second))
     cross = np.conj(one) * two
     size = np.abs(cross)
-    across = fft.rfftfreq(first.shape[1])
-    down = fft.fftfreq(first.shape[0])[:, None]
+    across = scipy.fft.rfftfreq(first.shape[1])
+    down = scipy.fft.fftfreq(first.shape[0])[:, None]
     low_pass = np.exp(-2.0 * np.pi**2 * _PEAK_WIDTH**2 * (across**2 + down**2))
     cross *= low_pass / np.maximum(size, 1e-9 * float(size.max()))
-    return cast(Image, np.asarray(fft.irfft2(cross, s=first.shape), dtype=np.float32))
+    return cast(Image, np.asarray(scipy.fft.irfft2(cross, s=first.shape), dtype=np.float32))
 
 
 def _peak(surface: Image) -> tuple[FloatArray, float, float]:

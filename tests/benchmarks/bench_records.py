@@ -5,6 +5,7 @@ only prints. All take turns in one run, so that a slow moment of the machine mee
 export of pandas, which takes half a minute, has one turn. It needs the extra ``bench``.
 """
 
+import os
 import statistics
 import subprocess
 import sys
@@ -98,7 +99,10 @@ def importers(source: Path) -> Mapping[str, Callable[[], object]]:
 
 
 def exporters(record: Record, target: Path) -> Mapping[str, Callable[[], object]]:
-    """Return what writes the same numbers from each library's own table."""
+    """Return what writes the same numbers from each library's own table, each up to the disk.
+
+    Ours is on the disk when it returns; the others leave that to the system.
+    """
     names = ["t [s]", *(f"{column} [m]" for column in record.columns)]
     columns = [record.time_s, *record.values.T]
     frame = pd.DataFrame(dict(zip(names, columns, strict=True)))
@@ -106,10 +110,21 @@ def exporters(record: Record, target: Path) -> Mapping[str, Callable[[], object]
     arrow = pa.table(dict(zip(names, columns, strict=True)))
     return {
         "rotemina": lambda: write_record(record, target),
-        "polars": lambda: table.write_csv(target),
-        "pyarrow": lambda: pa.csv.write_csv(arrow, target),
-        ONE_TURN: lambda: frame.to_csv(target, index=False),
+        "polars": to_disk(target, lambda: table.write_csv(target)),
+        "pyarrow": to_disk(target, lambda: pa.csv.write_csv(arrow, target)),
+        ONE_TURN: to_disk(target, lambda: frame.to_csv(target, index=False)),
     }
+
+
+def to_disk(target: Path, write: Callable[[], object]) -> Callable[[], None]:
+    """Return what writes a file and waits until it is on the disk."""
+
+    def task() -> None:
+        write()
+        with target.open("rb+") as file:
+            os.fsync(file.fileno())
+
+    return task
 
 
 def measure(tasks: Mapping[str, Callable[[], object]]) -> dict[str, float]:

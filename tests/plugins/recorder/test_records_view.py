@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QLineEdit
 
@@ -120,6 +120,8 @@ def test_playbacks_are_searched_annotated_compared_reported_and_played_again(
     with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
         qtbot.mouseClick(chooser.open, Qt.MouseButton.LeftButton)
     assert bench.run.name == "first try"
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    bench.theme_changed.emit(bench.theme)  # nothing of a chooser that is closed hears it
 
 
 def test_what_is_gone_is_found_or_deleted_and_labels_are_kept(
