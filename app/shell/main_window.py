@@ -103,6 +103,13 @@ class MainWindow(ArrangedWindow):
         self._stop_watch.start()
         workbench.closing.connect(self._stop_watch.close)
         self.panels.making_one = self._stop_watch.of_windows_alone
+        self._connect()
+        self.panels.failed = self._leave_out
+        for name, reason in broken.items():
+            self._leave_out(name, reason)
+
+    def _connect(self) -> None:
+        workbench = self.workbench
         workbench.noticed.connect(self.notices.show_notice)
         self.notices.asked.connect(self.help_page.open_page)
         self.notices.more_asked.connect(self.show_log)
@@ -114,9 +121,6 @@ class MainWindow(ArrangedWindow):
         )
         workbench.run_changed.connect(lambda run: self._bring_up_new("comparison", run.record))
         workbench.ports_offered.connect(lambda ports: ports and self.bring_up("connection"))
-        self.panels.failed = self._leave_out
-        for name, reason in broken.items():
-            self._leave_out(name, reason)
 
     # --- parts ------------------------------------------------------------------------------------
 
