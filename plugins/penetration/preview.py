@@ -35,7 +35,7 @@ class ThrustPreview(QWidget):
         self.curves: dict[str, Curve] = {}
         self._plan: ThrustPlan | None = None
         self.plot = SignalPlot(theme)
-        self.plot.add_curve("wanted", LINES["reference"])
+        self.plot.add_curve("desired", LINES["reference"])
         self.plot.add_curve("commanded", LINES["command"])
         self.plot.add_curve("measured", LINES["measured"])
         self.plot.show_times(True)
@@ -78,7 +78,7 @@ class ThrustPreview(QWidget):
         """Draw a thrust, and how the latest one went, if that was by the same parameters."""
         self._plan, self.curves = plan, {}
         if plan is not None:
-            self.curves = {"wanted": wanted_curve(plan), "commanded": commanded_curve(plan)}
+            self.curves = {"desired": wanted_curve(plan), "commanded": commanded_curve(plan)}
         if plan is not None and trace is not None:
             self.curves["measured"] = measured_curve(trace)
         self._draw()

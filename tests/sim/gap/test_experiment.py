@@ -55,7 +55,8 @@ def examined(record, rivals, *, robot=ROBOT, verdict=Verdict.EXPLAINED):
     )
     key = rivals[0].id, rivals[0].from_axis
     selection = Selection(fitted[0], fitted[0], fitted[0], tuple(fitted))
-    return Examination(evidence, {}, (), selection, fitted[0], verdict, {key: ranked}, None, None)
+    ranking = {key: ranked}
+    return Examination(evidence, {}, (), selection, fitted[0], verdict, ranking, {}, None, None)
 
 
 def on_zn(*ids):
