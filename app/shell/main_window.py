@@ -211,7 +211,8 @@ class MainWindow(ArrangedWindow):
             name=name, reason=reason
         )
         page = "plugins.md#what-a-bad-plugin-can-do"
-        self.workbench.notify(Level.ERROR, Explained(text, page, self.reloading.remedy(name)))
+        message = Explained(text, page, self.reloading.remedy(name))
+        self.workbench.notify(Level.ERROR, message)
 
     def _make_menus(self) -> None:
         for command in self.commands():

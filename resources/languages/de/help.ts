@@ -957,5 +957,17 @@
         <source>a robot file, or a shipped robot: emps, fsm, picma, rotemina, rotemina_worn, xyz (default: rotemina)</source>
         <translation>eine Roboterdatei oder ein mitgelieferter Roboter: emps, fsm, picma, rotemina, rotemina_worn, xyz (Vorgabe: rotemina)</translation>
     </message>
+    <message>
+        <source>open it in the browser</source>
+        <translation>im Browser öffnen</translation>
+    </message>
+    <message>
+        <source>write the run report of a recording or a playback</source>
+        <translation>den Laufbericht einer Aufnahme oder Wiedergabe schreiben</translation>
+    </message>
+    <message>
+        <source>*.arrows, or a text record</source>
+        <translation>*.arrows oder ein Datensatz als Text</translation>
+    </message>
 </context>
 </TS>

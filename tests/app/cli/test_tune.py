@@ -99,7 +99,7 @@ def test_an_interrupt_keeps_what_was_found_and_says_so(capsys, monkeypatch):
     monkeypatch.setattr(search, "generations", interrupted)
     status, said = tuned(capsys, "--generations", "9")
     assert status == 130
-    assert "stopped after 1 of 9 generations; zn.toml has what was found" in said.err
+    assert "stopped after 1 of 9 generations; zn.toml holds the points found so far" in said.err
     assert load_tuning("zn.toml").provenance.done == 1
 
 

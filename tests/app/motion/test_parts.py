@@ -59,7 +59,7 @@ def test_a_queued_move_keeps_where_the_machine_rests(link, admission):
 def test_reserved_axes_are_nobody_else_s(link, admission):
     reservations = Reservations(link, admission)
     reservations.reserve("one")
-    with pytest.raises(RefusedError, match="driven by one"):
+    with pytest.raises(RefusedError, match="one controls axis"):
         reservations.check("another")
     reservations.take_over(["x"], "another")
     assert not reservations.held_by("one")

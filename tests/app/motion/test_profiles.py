@@ -131,7 +131,7 @@ def test_reserved_axes_stay_their_owners_at_rest(ready):
         lambda: session.set_voltage("thx", 60.0),
         lambda: session.reservations.reserve("another"),
     ):
-        with pytest.raises(RefusedError, match="driven by penetration"):
+        with pytest.raises(RefusedError, match="penetration controls axis"):
             ask()
     session.stop()
     stepped.until_idle()

@@ -112,7 +112,7 @@ def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
     assert not window.docks["faults"].isHidden()  # the panel that it acts in is shown
     window.toggle_palette()
     assert palette.field.text() == ""
-    qtbot.keyClicks(palette.field, "back latest move")
+    qtbot.keyClicks(palette.field, "back previous position")
     assert palette.reason.text() == "Not now: there is no previous position."
     palette.field.setText("qqqqq")
     assert palette.list.count() == 0

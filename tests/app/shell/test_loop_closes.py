@@ -163,7 +163,7 @@ def test_worse_on_a_motion_is_said_in_the_headline_and_asked_about(
     assert panel.use.text() == "Use anyway …"
     click(qtbot, panel.use)
     box = question(window)
-    assert "worse than the nominal one: Z nano" in box.informativeText()
+    assert "worse than the nominal one on elsewhere: Z nano" in box.informativeText()
     assert not box.isModal()
     box.button(QMessageBox.StandardButton.No).click()
     qtbot.waitUntil(lambda: question(window) is None, timeout=LONG_MS)

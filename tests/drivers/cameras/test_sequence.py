@@ -63,7 +63,7 @@ def test_what_is_no_sequence(source, tmp_path):
     with pytest.raises(CameraRefusedError, match="no TIFF or PNG"):
         opened(source, tmp_path)
     (tmp_path / "cut.tif").write_bytes(b"II*\0 cut off")
-    with pytest.raises(CameraRefusedError, match="no picture"):
+    with pytest.raises(CameraRefusedError, match="not a picture"):
         opened(source, tmp_path / "cut.tif")
     with pytest.raises(CameraRefusedError, match="nothing was named"):
         source.addressed("")

@@ -68,7 +68,7 @@ def test_a_port_that_is_pulled_out_is_lost(terminal):
     master, name = terminal
     port = open_port(name, 9600)
     os.close(master)
-    with pytest.raises(ConnectionLostError, match="unplugged"):
+    with pytest.raises(ConnectionLostError, match="the port has disappeared"):
         use(port)
     port.close()
 

@@ -108,7 +108,7 @@ def test_learn_put_on_and_take_off(qtbot, panel, tmp_path, monkeypatch):
     panel.open_file(path)
     qtbot.waitUntil(lambda: "Mind the gap" in panel.check.why.text(), timeout=LONG_MS)
     controls.axis.setCurrentIndex(0)
-    qtbot.waitUntil(lambda: "is of axis zn" in controls.switch.toolTip(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "belongs to axis zn" in controls.switch.toolTip(), timeout=LONG_MS)
     controls.axis.setCurrentIndex(2)
     qtbot.waitUntil(controls.switch.isEnabled, timeout=LONG_MS)
     controls.switch.click()

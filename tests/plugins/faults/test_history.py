@@ -83,7 +83,7 @@ def test_refusals_are_counted_where_they_repeat(history):
 def test_the_latch_is_noted_once(history):
     for latched in (None, "emergency stop", "emergency stop", None):
         history.note_latch(BEGIN, latched)
-    assert [entry.told for entry in history.entries] == ["emergency stop latched", "released"]
+    assert [entry.told for entry in history.entries] == ["emergency stop locked", "released"]
 
 
 def test_old_entries_give_way(history):

@@ -52,7 +52,7 @@ def test_it_is_driven_like_any_other_and_revealed_beside_the_answer(
     answer = Answer.of(diagnosis, ["day one.csv"], [record])  # hysteresis, or creep
     hiding.reveal(answer)
     (box,) = boxes(window)
-    assert box.text().startswith("Right")
+    assert box.text().startswith("Correct")
     assert "It has: θx creep" in box.informativeText()
     assert "Score: 1 of 1" in box.informativeText()
     box.close()

@@ -50,7 +50,7 @@ def test_figures_are_those_of_the_plan_and_the_place(session):
     ("parameters", "said"),
     [
         ({"axis": "q"}, "has no axis 'q'"),
-        ({"axis": "thx"}, "turns"),
+        ({"axis": "thx"}, "rotates"),
         ({"duration_s": 3e-3}, "input shaping"),
         ({"shape": "table", "table": [[0, 0], [1, 1]], "shaping": "inverse"}, "feed-forward"),
     ],
@@ -101,8 +101,8 @@ def test_a_cell_is_put_ahead_moved_and_taken_away():
 @pytest.mark.parametrize(
     ("at", "stiffness", "said"),
     [
-        (-1e-6, 0.1, "a cell at -1.00 µm of Z nano: must be 0.65 µm to 64.35 µm"),
-        (65e-6, 0.1, "must be 0.65 µm to 64.35 µm"),
+        (-1e-6, 0.1, "a cell at -1.00 µm of Z nano must be within 0.65 µm to 64.35 µm"),
+        (65e-6, 0.1, "must be within 0.65 µm to 64.35 µm"),
         (50e-6, 100.0, "stiffness"),
     ],
 )

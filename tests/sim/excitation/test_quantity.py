@@ -32,11 +32,11 @@ def test_amounts_become_si(text, unit, amount):
         ("5urad", "axis x: '5urad' is in rad, not in m"),
         ("5um/s", "is in m/s, not in m"),
         ("5%/s", "unknown unit"),
-        ("um", "no amount"),
-        ("", "no amount"),
-        ("nan um", "no amount"),
+        ("um", "not an amount"),
+        ("", "not an amount"),
+        ("nan um", "not an amount"),
         ("1e999um", "not a finite number"),
-        ("1,5um", "no amount"),
+        ("1,5um", "not an amount"),
     ],
 )
 def test_what_is_no_amount_is_refused(text, words):

@@ -27,7 +27,7 @@ def test_what_speaks_against_arming_is_known_before_and_reserves_nothing(bench):
     assert "still moving" in bench.why_not()
     bench.stepped.until_idle()
     bench.session.reservations.reserve("joystick")
-    assert "driven by joystick" in bench.why_not()
+    assert "joystick controls axis" in bench.why_not()
     bench.session.reservations.set_free("joystick")
     bench.ready().arm()
     bench.press().step()
@@ -72,7 +72,7 @@ def test_somebody_else_who_drives_is_not_pushed_aside(bench):
         bench.arm()
     bench.stepped.until_idle()
     bench.session.reservations.reserve("joystick")
-    with pytest.raises(RefusedError, match="driven by joystick"):
+    with pytest.raises(RefusedError, match="joystick controls axis"):
         bench.arm()
     assert bench.phase is Phase.DISARMED
 
@@ -81,7 +81,7 @@ def test_somebody_else_who_drives_is_not_pushed_aside(bench):
     ("parameters", "error", "message"),
     [
         ({"axis": "q"}, PenetrationError, "has no axis 'q' to penetrate with"),
-        ({"axis": "thx"}, PenetrationError, "turns"),
+        ({"axis": "thx"}, PenetrationError, "rotates"),
         ({"direction": "up"}, PenetrationError, "1 µm of its range are left upwards"),
         ({"approach_distance": 2e-5}, PenetrationError, "72 µm are needed"),
         ({"duration_s": 3e-3}, PenetrationError, "input shaping"),

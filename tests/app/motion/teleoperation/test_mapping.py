@@ -112,7 +112,7 @@ def test_a_profile_for_another_device_says_which_and_what_is_there():
     one = profile(DeviceMapping(key="hid:046d:*", axes=(axis("X", "x"),)))
     with pytest.raises(ProfileError) as caught:
         check(one, ROBOT, [device("hid:054c:1")])
-    assert "is for hid:046d:*" in str(caught.value)
+    assert "needs hid:046d:*" in str(caught.value)
     assert "plugged in: Stick hid:054c:1 (hid:054c:1)" in str(caught.value)
     assert "plugged in: nothing" in missing(one, [])
 

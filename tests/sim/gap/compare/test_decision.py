@@ -47,9 +47,9 @@ def test_what_is_sure_is_named_whatever_is_left(left, at_a_tap, sure, verdict):
 @pytest.mark.parametrize(
     ("closes", "left", "weight", "standing"),
     [
-        (100.0, 20.0, 0.6, True),  # over twice the rms of what is left
-        (100.0, 20.0, 0.4, False),  # as likely nothing, or something else
-        (100.0, 30.0, 1.0, False),  # not twice the rms of what nothing explains
+        (100.0, 30.0, 0.6, True),  # it takes over 70 % of the rest away
+        (100.0, 30.0, 0.4, False),  # as likely nothing, or something else
+        (100.0, 45.0, 1.0, False),  # too little beside what nothing explains
         (0.5, 0.0, 0.6, True),  # nothing is left
     ],
 )
