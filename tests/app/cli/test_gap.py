@@ -299,7 +299,8 @@ def test_a_twin_is_a_robot_file_that_every_command_takes(document, made_diagnosi
     capsys.readouterr()
     assert main(["gap", "twin", document, "-o", "twin.toml"]) == 0
     assert capsys.readouterr().out == (
-        "twin.toml: robot RoTeMiNa with gain_error on axis thx, hysteresis on axis thx, cross_coupling on axis thx\n"
+        "twin.toml: robot RoTeMiNa with gain_error on axis thx, hysteresis on axis thx, "
+        "cross_coupling on axis thx\n"
     )
     assert load_robot("twin.toml").effects == made_diagnosis.fitted
     assert "# [paper] 240 arcsec" in Path("twin.toml").read_text("utf-8")
