@@ -64,7 +64,11 @@ class MapSection(Section):
             lambda: self.view.fit(whole=True),
             translate("microscope", "Show all that the axes can reach"),
         )
-        self.clear = button(translate("microscope", "Clear trail"), self._clear)
+        self.clear = button(
+            translate("microscope", "Clear trail"),
+            self._clear,
+            translate("microscope", "Forget where the tip has been; nothing moves"),
+        )
         try:
             self._map: TipMap | None = TipMap(workbench.robot)
         except InputError as error:

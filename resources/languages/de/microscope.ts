@@ -518,6 +518,10 @@
         <translation>Spur löschen</translation>
     </message>
     <message>
+        <source>Forget where the tip has been; nothing moves</source>
+        <translation>Die Spur der Spitze vergessen; nichts bewegt sich</translation>
+    </message>
+    <message>
         <source>no place is chosen</source>
         <translation>kein Ort ist gewählt</translation>
     </message>
