@@ -57,7 +57,7 @@
     </message>
     <message>
         <source>Delay</source>
-        <translation>Verzögerung</translation>
+        <translation>Verzug</translation>
     </message>
     <message>
         <source>delay</source>
@@ -209,7 +209,7 @@
     </message>
     <message>
         <source>Start virtual board</source>
-        <translation>Virtuelle Steuerkarte starten</translation>
+        <translation>Virtuelle Karte starten</translation>
     </message>
     <message>
         <source>End</source>
