@@ -280,13 +280,13 @@ def _without_false_cells(whole: Evidence, first: _Found, account: Account, jobs:
 
 
 def _with_even_rows(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return what is found once no rows count by more than what is left around them.
+    """Return what is found once no rows count by more than what must be left around them.
 
     What is left where the machine does most else may decide for causes that only bend to it. Rows
     that count less show less: they speak against no cause that all rows show.
     """
-    evidence, aside, _, best = first
-    even = huber_weighted(evidence, best.held_out)
+    evidence, aside, tried, best = first
+    even = huber_weighted(evidence, [one.held_out for one in (best, *tried.tried)])
     if even is None:
         return first
     selection, other = _explained(whole, even, aside, account, jobs)

@@ -1,4 +1,4 @@
-"""Weights of rows, by what an explanation leaves around them.
+"""Weights of rows, by what no explanation takes away around them.
 
 A real machine does more than any explanation holds, and far more of it at some times than at
 others. Least squares then follow the worst minute of all records, and what the others show clearly
@@ -6,6 +6,7 @@ counts for little. So no block of rows counts by more than the median block leav
 (Annals of Mathematical Statistics 35 (1964) 73-101), block by block.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,11 +19,11 @@ from rotemina.sim.records.record import Tap
 _UNEVEN = 0.25  # of what is left, that blocks hold beyond the median
 
 
-def huber_weighted(evidence: Evidence, left: FloatArray) -> Evidence | None:
-    """Return evidence whose rows are weighted by what is ``left`` (rows,), over the floor.
+def huber_weighted(evidence: Evidence, left: Sequence[FloatArray]) -> Evidence | None:
+    """Return evidence whose rows are weighted by the least that is ``left`` of their block.
 
-    None where that is about even. Taps that are read in cells keep their weights: what lies beyond
-    a cell is no longer linear in what is left.
+    Each of several explanations leaves (rows,), over the floor. None where that is about even. Taps
+    that are read in cells keep their weights: what lies beyond a cell is no longer linear in it.
     """
     weights: dict[tuple[int, Tap], FloatArray] = {}
     uneven = False
@@ -42,10 +43,12 @@ def huber_weighted(evidence: Evidence, left: FloatArray) -> Evidence | None:
                 ),
             )
         ]
-        power = np.array([max(float(np.mean(left[block] ** 2)), 1.0) for block in blocks])
+        power = np.array(
+            [max(min(float(np.mean(one[block] ** 2)) for one in left), 1.0) for block in blocks]
+        )
         share = np.minimum(1.0, np.median(power) / power)
         uneven |= float(power @ (1.0 - share)) > _UNEVEN * float(power.sum())
-        by_row = np.ones(len(left))
+        by_row = np.ones(len(left[0]))
         for block, one in zip(blocks, share, strict=True):
             by_row[block] = np.sqrt(one)
         weights |= {(part.record, tap): by_row[part.rows] for part in parts}

@@ -35,7 +35,7 @@ def width(evidence):
 def test_one_bad_time_of_a_record_no_longer_bends_a_fit():
     evidence = recorded(besides=300.0)
     bent = fit(evidence, [AxisEffect(axis="x", id="backlash")])
-    weighted = huber_weighted(evidence, bent.residual)
+    weighted = huber_weighted(evidence, [bent.residual])
     assert weighted is not None
     true = PLAY.parameters["width"]
     assert abs(width(weighted) - true) < 0.1 * abs(bent.effects[0].parameters["width"] - true)
@@ -46,5 +46,5 @@ def test_one_bad_time_of_a_record_no_longer_bends_a_fit():
 
 def test_what_is_left_evenly_keeps_its_weights():
     evidence = recorded(besides=0.0)
-    assert huber_weighted(evidence, fit(evidence, [PLAY]).residual) is None
+    assert huber_weighted(evidence, [fit(evidence, [PLAY]).residual]) is None
     assert evidence.unweighted() is evidence
