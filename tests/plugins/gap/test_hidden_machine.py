@@ -53,7 +53,7 @@ def test_it_is_driven_like_any_other_and_revealed_beside_the_answer(
     hiding.reveal(answer)
     (box,) = boxes(window)
     assert box.text().startswith("Correct")
-    assert "It has: θx creep" in box.informativeText()
+    assert "The machine has: θx creep" in box.informativeText()
     assert "Score: 1 of 1" in box.informativeText()
     box.close()
     qtbot.waitUntil(lambda: session.driver.name == "simulator", timeout=LONG_MS)
