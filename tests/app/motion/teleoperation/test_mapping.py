@@ -114,7 +114,7 @@ def test_a_profile_for_another_device_says_which_and_what_is_there():
         check(one, ROBOT, [device("hid:054c:1")])
     assert "needs hid:046d:*" in str(caught.value)
     assert "connected: Stick hid:054c:1 (hid:054c:1)" in str(caught.value)
-    assert "plugged in: nothing" in missing(one, [])
+    assert "connected: nothing" in missing(one, [])
 
 
 @pytest.mark.parametrize(
