@@ -360,8 +360,6 @@ def _explained(
     aside: Sequence[Disturbance],
     account: Account,
     jobs: int,
-    *,
-    known: Sequence[AxisEffect] = (),
 ) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
@@ -373,7 +371,7 @@ def _explained(
         tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
         for tap, power in power_by_tap(whole, leaving).items()
     }
-    selection = select(evidence, account, power, known=known, jobs=jobs)
+    selection = select(evidence, account, power, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
 
 

@@ -19,7 +19,6 @@ from rotemina.sim.gap.explanations import (
     MOST_STEPS,
     Explanation,
     beside,
-    explain,
     explanation,
     untouched,
 )
@@ -86,14 +85,12 @@ def select(
     account: Account,
     aside: Mapping[Tap, float],
     *,
-    known: Sequence[AxisEffect] = (),
     jobs: int = 1,
 ) -> Selection:
     """Find the causes of an axis' gap, together with the model's own re-tuned parameters.
 
     ``account`` hears of stages, and of every candidate what it leaves. ``aside`` is the power at
-    each tap, in its floors squared, of what was set aside before. Beside causes that are ``known``
-    only further ones are looked for.
+    each tap, in its floors squared, of what was set aside before.
     """
     own = possible_causes(evidence)
     bare = untouched(evidence)
@@ -107,10 +104,7 @@ def select(
     beam, tried = [bare], [alone]
     if alone.score >= NOTICED and closed(bare.score, alone.score) >= _MOSTLY_OWN:
         beam = [bare, alone]
-    if known:
-        best = explain(evidence, known)
-        beam, tried = [best], [*tried, best]
-    for level in range(len(known), MOST_CAUSES):
+    for level in range(MOST_CAUSES):
         found = _all_extended(evidence, beam, own, bare, account, jobs)
         found = _unique(_apart_from_own(evidence, bare, alone, found))
         overtones = [one for one in found if has_overtone(evidence, one)]
