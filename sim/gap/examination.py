@@ -9,8 +9,7 @@ import numpy as np
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.attribution import attributed
-from rotemina.sim.gap.baseline import is_own, is_whole_own
+from rotemina.sim.gap.baseline import is_whole_own
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.coarse_reading import steps_of
 from rotemina.sim.gap.companions import accompanied
@@ -18,7 +17,7 @@ from rotemina.sim.gap.compare.decision import Closing, decide, is_sure
 from rotemina.sim.gap.compare.retained import with_retained
 from rotemina.sim.gap.contest import Ranking, contested, rivals_of
 from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
-from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap, set_aside
+from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import (
     Explanation,
@@ -33,47 +32,32 @@ from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.residual_features import Probe, probed
 from rotemina.sim.gap.richness import is_poor
 from rotemina.sim.gap.rivals import Key, not_ruled_out
-from rotemina.sim.gap.row_weights import huber_weighted
+from rotemina.sim.gap.search import MUCH_BETTER, acts, searched
 from rotemina.sim.gap.selection import (
     CLEARLY,
     LEAST_POWER,
     LEAST_SHARE,
-    NOTICED,
     Selection,
-    select,
 )
 from rotemina.sim.gap.wander import wander
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
-_GAP = 1.5  # mean square over the floor from which there is something to explain
 _TAILS = 0.08  # of the gap's power, that outliers have beyond the tails of what else is set aside
 _WITH_TAILS = {Sign.NOISE, Sign.STEPS, Sign.TONES}
 _STILL_OUT = 0.5  # of their power, that outliers keep beside an explanation
-_MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
-_BETTER = 0.9  # of a score: what is left of the same causes beside more that is set aside
-_WITHOUT_JUMPS = 0.97  # of the gap, closed without them, from which jumps are none
-_NO_STEPS = 0.03  # of the power of steps: nothing explains their own error
-_BEYOND_STEPS = 0.8  # of what is beyond cells, that an explanation closes
-_NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
-
-_LOOKS = 3  # for disturbances, beside what the one before explains
-_UNEXPLAINED = 1.2  # mean square over the floor, from which there is another look
-_CLEARLY_MORE = 1.1  # times the power of a disturbance that was found before
-
-_Found = tuple[Evidence, tuple[Disturbance, ...], Selection, Explanation]
 
 
 @dataclass(frozen=True, eq=False)
 class Examination:
     """The findings on an axis, before they become a diagnosis.
 
-    ``evidence`` is without what was set aside, and ``declared`` the noise floor of each tap, SI,
-    before that raised it; ``disturbances`` are what of it counts. The fit
-    of ``best`` may hold more than its causes: what corrects the model further but is too small, or
-    too much like something else, to be named. ``alike`` are the
-    effects that cannot be told from each cause. ``probe`` tells what is left of it depends on, and
-    ``black_box`` is fitted to the raw gap instead. In ``steps`` the corrected model reads.
+    ``evidence`` is free of disturbances; ``declared`` is the noise floor of each tap, SI, before
+    they raised it; ``disturbances`` are the ones that count. The fit of ``best`` may contain more
+    than its causes: corrections that are too small or too ambiguous to be named. ``alike`` holds,
+    for each cause, the effects that cannot be told from it. ``probe`` tells what the remainder
+    depends on; ``black_box`` is fitted to the raw gap instead. The corrected model reads in
+    ``steps``.
     """
 
     evidence: Evidence
@@ -94,7 +78,7 @@ class Examination:
         if self.verdict not in CORRECTING:
             return ()
         acting = self.best.fit.effects if self.best.causes else ()
-        return (*(one for one in acting if _acts(one)), *self.steps)
+        return (*(one for one in acting if acts(one)), *self.steps)
 
 
 def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
@@ -103,23 +87,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     if modal is not None:
         return _of_modes(whole, modal)
     whole = with_origins(whole)
-    evidence, aside = set_aside(whole)
-    selection, best = _explained(whole, evidence, aside, account, jobs)
-    evidence, aside, selection, best = _looked_again(
-        whole, (evidence, aside, selection, best), account, jobs
-    )
-    evidence, aside, selection, best = _without_false_noise(
-        whole, (evidence, aside, selection, best), account, jobs
-    )
-    evidence, aside, selection, best = _without_false_jumps(
-        whole, (evidence, aside, selection, best), account, jobs
-    )
-    evidence, aside, selection, best = _without_false_cells(
-        whole, (evidence, aside, selection, best), account, jobs
-    )
-    evidence, aside, selection, best = _with_even_rows(
-        whole, (evidence, aside, selection, best), account, jobs
-    )
+    evidence, aside, selection, best = searched(whole, account, jobs)
     aside = tuple(one for one in aside if not _was_explained(whole, evidence, best, one))
     account.tell("deciding", None)
     plain = evidence.unweighted()
@@ -190,113 +158,9 @@ def _stepped(
     whole: Evidence, best: Explanation, disturbances: Sequence[Disturbance]
 ) -> tuple[AxisEffect, ...]:
     """Return the steps in which the corrected model is to read, if a coarse sensor was found."""
-    acting = [one for one in best.fit.effects if _acts(one)] if best.causes else []
+    acting = [one for one in best.fit.effects if acts(one)] if best.causes else []
     found = (steps_of(whole, acting, one.step) for one in disturbances if one.step is not None)
     return tuple(one for one in found if one is not None)
-
-
-def _looked_again(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return the findings after a second look without disturbances hidden by the first findings.
-
-    Steps of a screw hide lost steps, and a coarse converter hides spikes of a sensor.
-    """
-    for _ in range(_LOOKS):
-        _, aside, _, best = first
-        acting = [one for one in best.fit.effects if _acts(one)]
-        if best.score < _UNEXPLAINED or not acting:
-            break
-        evidence, found = set_aside(whole, acting)
-        if not _more(found, aside):
-            break
-        again = explain(evidence, [one for one in best.causes if not is_own(evidence, one)])
-        if again.score > _BETTER * best.score:
-            break  # what is set aside beside these causes hid nothing
-        selection, better = _explained(whole, evidence, found, account, jobs)
-        if better.score > _MUCH_BETTER * best.score:
-            break
-        first = evidence, found, selection, better
-    return first
-
-
-def _without_false_noise(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return the findings with the declared floor, if effects can explain the apparent noise.
-
-    Row-to-row remainders of a fast motion, such as an encoder's own error, look like noise; so does
-    an axis at either end of its travel, or with coarse steps.
-    """
-    evidence, aside, selection, best = first
-    if selection.tried and best.fit.cost >= _NOT_NOISE:
-        return first
-    steps = bool(selection.tried) and best.fit.cost < _NO_STEPS and not evidence.in_cells
-    doubted = {Sign.NOISE, Sign.STEPS} if steps else {Sign.NOISE}
-    raised = {one.sign for one in aside} & doubted
-    if not raised:
-        return first
-    if Sign.STEPS in raised:
-        raised.add(Sign.SPIKES)  # whose rows come back with those that steps left out
-    declared = evidence.with_observations(
-        [
-            replace(
-                own,
-                floor=was.floor,
-                cell=was.cell,
-                kept=was.kept if Sign.SPIKES in raised else own.kept,
-            )
-            for own, was in zip(evidence.observations, whole.observations, strict=True)
-        ]
-    )
-    others = tuple(one for one in aside if one.sign not in raised)
-    second = declared, others, *_explained(whole, declared, others, account, jobs)
-    if not selection.tried and second[3].score > _NOT_NOISE * second[2].raw:
-        return first  # nothing but noise explains it
-    return second
-
-
-def _without_false_jumps(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return the findings with jumps left in, if effects can explain the apparent lost steps.
-
-    An axis that sticks and breaks loose also jumps, by the deflection of its drive; so does a loose
-    axis, at every reversal by its play. Only these explanations count where little remains.
-    """
-    _, aside, _, best = first
-    if best.score < NOTICED or not any(one.sign is Sign.JUMPS for one in aside):
-        return first
-    evidence, others = set_aside(whole, jumps=False)
-    second = evidence, others, *_explained(whole, evidence, others, account, jobs)
-    simpler = closed(second[2].raw, second[3].score) >= _WITHOUT_JUMPS
-    return second if simpler or second[3].score < _MUCH_BETTER * best.score else first
-
-
-def _without_false_cells(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return the findings with steps as noise, if nothing explains deviations beyond the cells.
-
-    Steps need not be even, and a sensor may drift between them.
-    """
-    evidence, _, selection, best = first
-    if not evidence.in_cells or closed(selection.raw, best.score) >= _BEYOND_STEPS:
-        return first
-    evidence, aside = set_aside(whole, cells=False)
-    return evidence, aside, *_explained(whole, evidence, aside, account, jobs)
-
-
-def _with_even_rows(whole: Evidence, first: _Found, account: Account, jobs: int) -> _Found:
-    """Return what is found once no rows count by more than what must be left around them.
-
-    What is left where the machine does most else may decide for causes that only bend to it. Rows
-    that count less show less: they speak against no cause that all rows show.
-    """
-    evidence, aside, tried, best = first
-    even = huber_weighted(evidence, [one.held_out for one in (best, *tried.tried)])
-    if even is None:
-        return first
-    selection, other = _explained(whole, even, aside, account, jobs)
-    return first if set(best.ids) >= set(other.ids) else (even, aside, selection, other)
-
-
-def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
-    """Tell whether disturbances are others than before, or clearly more of them."""
-    known = {one.sign: one.power for one in before}
-    return any(one.power > _CLEARLY_MORE * known.get(one.sign, 0.0) for one in found)
 
 
 def _was_explained(
@@ -325,7 +189,7 @@ def _fullest(selection: Selection, best: Explanation) -> Sequence[Explanation]:
         for one in selection.tried
         if named < {(own.id, own.from_axis) for own in one.fit.effects}
         and {key for key in named if not is_whole_own(key[0])} < set(one.ids)
-        and one.score < _MUCH_BETTER * best.score
+        and one.score < MUCH_BETTER * best.score
     ]
     if not fuller:
         return ()
@@ -352,27 +216,6 @@ def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:
 
 def _floors(evidence: Evidence) -> dict[Tap, float]:
     return {part.tap: evidence.floor(part.tap) for part in evidence.parts}
-
-
-def _explained(
-    whole: Evidence,
-    evidence: Evidence,
-    aside: Sequence[Disturbance],
-    account: Account,
-    jobs: int,
-) -> tuple[Selection, Explanation]:
-    """Return the selection, and the best explanation with its own parameters as causes."""
-    bare = untouched(evidence)
-    if max(bare.by_tap.values()) < _GAP:
-        return Selection(bare, bare, bare, ()), bare
-    # What readings leave beyond their steps is nothing that these leave of themselves.
-    leaving = [one for one in aside if not (evidence.in_cells and one.sign is Sign.STEPS)]
-    power = {
-        tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
-        for tap, power in power_by_tap(whole, leaving).items()
-    }
-    selection = select(evidence, account, power, jobs=jobs)
-    return selection, attributed(evidence, selection.bare, selection.best)
 
 
 def _aside_at(
@@ -421,7 +264,3 @@ def _counting(
         if one.power >= LEAST_POWER and (share or clearly):
             counting.append(one)
     return tuple(counting)
-
-
-def _acts(effect: AxisEffect) -> bool:
-    return any(value != 0.0 for value in effect.parameters.values())
