@@ -2,11 +2,12 @@
 
 import numpy as np
 
+from rotemina.app.display import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.plate.solved import Solved
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.application import agreement
-from rotemina.sim.plate.report import TOLERANCE, mode_name, pose_text
+from rotemina.sim.plate.report import TOLERANCE, mode_name
 from rotemina.sim.plate.stress import Safety, StressPoint, safety
 from rotemina.sim.quantities import fixed
 from rotemina.sim.robot.plate import Plate
@@ -86,12 +87,16 @@ def plate_text(solved: Solved) -> str:
     )
     stiff = agrees if far <= TOLERANCE else differs
     whole = translate("plate", "Whole range: {safety}, at {pose}")
+    pose = ", ".join(
+        f"{label(name)} {fixed(per_si * value, 1)} {unit}"
+        for (name, unit, per_si), value in zip(AXES, solved.least.pose, strict=True)
+    )
     return "\n".join(
         [
             stiff.format(axial=1e-6 * axial, x=tilt_x, y=tilt_y, tolerance=TOLERANCE),
             whole.format(
                 safety=safety_text(solved.least, solutions.held.plate),
-                pose=pose_text(solved.least.pose),
+                pose=pose,
             ),
         ]
     )
