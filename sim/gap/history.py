@@ -2,9 +2,9 @@
 
 What an axis remembers from before an unknown history is the record's own. It is taken to lie
 somewhere between extremes: the axis was long at the low or at the high end of its range until a row
-before the first one, or has come slowly from the high end; or it has come to rest in swings that
-died away, as after a record before. How the answers to these differ from the answer to a rest at
-the first command are nuisances of the record, in amounts of about one.
+before the first one, or has come slowly from the high end; or it has made the motion of the record
+once before, as an experiment that is repeated does. How the answers to these differ from the answer
+to a rest at the first command are nuisances of the record, in amounts of about one.
 """
 
 from collections.abc import Iterator
@@ -21,7 +21,6 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import ForceAxis
 
 _WAY_S, _WAY_ROWS = 2.0, 200  # to the first command, the last half of it there
-_SWINGS = 8  # that die away on it
 
 
 def start(plant: Plant, record: Record, run: Run) -> PlantState:
@@ -53,12 +52,12 @@ def other_starts(plant: Plant, record: Record, run: Run, axis: str) -> Iterator[
         command = np.array(run.command[0])
         command[plant.axes.index(axis)] = end
         yield plant.at_rest(before_s, command)
-    left = np.maximum(1.0 - np.linspace(0.0, 2.0, _WAY_ROWS), 0.0)
-    swings = 0.5 * left * np.cos(2.0 * np.pi * _SWINGS * left)
     column = plant.axes.index(axis)
-    first, high, span = run.command[0, column], described.range[1], described.span
-    yield _come(plant, run, column, first + left * (high - first))
-    yield _come(plant, run, column, np.clip(first + span * swings, *described.range))
+    own, half = run.command[:, column], _WAY_ROWS // 2
+    fall = np.linspace(described.range[1], own[0], half)
+    before = own[np.linspace(0, len(own) - 1, half).astype(int)]
+    for way in (fall, before):
+        yield _come(plant, run, column, np.append(way, np.full(half, own[0])))
 
 
 def _come(plant: Plant, run: Run, column: int, way: FloatArray) -> PlantState:

@@ -147,7 +147,13 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
     if even is None:
         return first
     selection, other = _explained(whole, even, aside, account, jobs)
-    return first if set(best.ids) >= set(other.ids) else (even, aside, selection, other)
+    if set(best.ids) >= set(other.ids):
+        return first
+    if len(best.ids) <= len(other.ids):
+        again = explain(even, [one for one in best.causes if not is_own(even, one)])
+        if other.score > MUCH_BETTER * again.score:
+            return first  # as few causes leave about as little, however rows count
+    return even, aside, selection, other
 
 
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:

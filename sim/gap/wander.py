@@ -72,11 +72,15 @@ def _coloured(left: FloatArray) -> float:
     return max(float(np.mean(left**2)) - max(_white(left), 1.0), 0.0)
 
 
+def _rows(later_s: Sequence[float], period_s: float, least: int) -> list[int]:
+    """Return after how many rows these times have passed, each number once."""
+    return list(dict.fromkeys(max(round(one / period_s), least) for one in later_s))
+
+
 def _walks(time_s: FloatArray, left: FloatArray, white: float) -> bool:
     period_s = float(np.median(np.diff(time_s)))
     grown = []
-    for later_s in _WALKED_S:
-        rows = max(round(later_s / period_s), 1)
+    for rows in _rows(_WALKED_S, period_s, least=1):
         if rows <= len(left) / _WALKS_A_RECORD:
             change = float(np.mean((left[rows:] - left[:-rows]) ** 2)) - 2.0 * white
             if change > 2.0 * (_STANDS_OUT - 1.0) * white:
@@ -94,8 +98,7 @@ def _goes_on(time_s: FloatArray, left: FloatArray, resting: BoolArray, white: fl
     shares, grown = [], []
     still_white: float | None = None
     would_tell = False
-    for later_s in (0.0, *_LATER_S):
-        rows = max(round(later_s / period_s), 1 if later_s == 0.0 else 2)
+    for rows in [1, *_rows(_LATER_S, period_s, least=2)]:
         if rows >= len(left):
             break
         change = (left[rows:] - left[:-rows]) ** 2

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rotemina.sim.gap import examination, method, selection
+from rotemina.sim.gap import method, search, selection
 from rotemina.sim.gap.diagnosis import UNKNOWN, Verdict
 from rotemina.sim.gap.disturbances import set_aside
 from rotemina.sim.gap.errors import GapError
@@ -241,7 +241,7 @@ def test_candidates_rank_while_they_are_tried(monkeypatch):
         selected.append(selection.select(*given, **options))
         return selected[-1]
 
-    monkeypatch.setattr(examination, "select", select)
+    monkeypatch.setattr(search, "select", select)
     truth = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6, "shape": 1.4})
     found = diagnose(ROBOT, records([truth], "zn"), listener=steps.append)
     rankings = [step.ranking for step in steps if step.ranking is not None]
