@@ -46,10 +46,11 @@ test-slow: system $(VENV)/.slow $(VENV)/src  ## run the long tests
 	@if grep -rqs --include='*.py' '^ *@pytest\.mark\.slow\|^pytestmark.*slow' tests; \
 	then $(PYTEST) --numprocesses auto --maxprocesses 2 --dist loadgroup -m slow; else echo 'There are no slow tests.'; fi
 
-soak: system $(VENV)/.test  ## hours of random faults, requests and stops
-	@ROTEMINA_SOAK_S=3600 ROTEMINA_OPERATIONS=100000 ROTEMINA_STRESS=10000 $(PYTEST) -s -m slow \
-	tests/drivers/mc68hc11/test_soak.py tests/drivers/mc68hc11/test_random_run.py \
-	tests/app/motion/test_gate_stress.py
+soak: system $(VENV)/.test  ## hours of random faults, requests, stops and kills
+	@ROTEMINA_SOAK_S=3600 ROTEMINA_OPERATIONS=100000 ROTEMINA_STRESS=10000 ROTEMINA_KILLS=50 \
+	$(PYTEST) -s -m slow tests/drivers/mc68hc11/test_soak.py \
+	tests/drivers/mc68hc11/test_random_run.py tests/app/motion/test_gate_stress.py \
+	tests/app/motion/recording/test_kill.py
 
 # The other extras are installed along with it so that their versions are written down as well.
 latest:  ## run the quick tests with the newest versions; those that pass are the tested ones

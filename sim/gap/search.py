@@ -139,20 +139,21 @@ def _without_false_cells(whole: Evidence, first: Found, account: Account, jobs: 
 def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
     """Return what is found once no rows count by more than what must be left around them.
 
-    What is left where the machine does most else may decide for causes that only bend to it. Rows
-    that count less show less: they speak against no cause that all rows show.
+    What is left where the machine does most else may decide for causes that only bend to it. Even
+    rows may show others in their place, but not more: cut down to the median, the gap makes small
+    causes look large.
     """
     evidence, aside, tried, best = first
     even = huber_weighted(evidence, [one.held_out for one in (best, *tried.tried)])
     if even is None:
         return first
     selection, other = _explained(whole, even, aside, account, jobs)
-    if set(best.ids) >= set(other.ids):
+    if len(other.ids) > len(best.ids) or set(best.ids) >= set(other.ids):
         return first
-    if len(best.ids) <= len(other.ids):
+    if len(other.ids) == len(best.ids):
         again = explain(even, [one for one in best.causes if not is_own(even, one)])
         if other.score > MUCH_BETTER * again.score:
-            return first  # as few causes leave about as little, however rows count
+            return first
     return even, aside, selection, other
 
 

@@ -16,7 +16,7 @@ from rotemina.sim.robot.file import load_robot
 pytestmark = pytest.mark.slow
 
 ROBOT = load_robot("rotemina")
-DRAWN = {"first": ("healthy", 1, None), "second": ("single", 3, "gain_error")}
+DRAWN = {"first": ("healthy", 1, None), "second": ("single", 6, "gain_error")}
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import pytest
 
 from rotemina.app.cli.main import main
 
-CASES = 4
+CASES = 2
 
 
 @pytest.mark.slow

@@ -15,12 +15,13 @@ PROGRAM = Path(__file__).parents[2] / "benchmarks" / "bench_memory.py"
 def test_plays_and_actions_leave_nothing_behind():
     # What views keep from their first use on is there after the first half.
     told = subprocess.run(
-        [sys.executable, PROGRAM, "--plays", "40", "--actions", "800", "--after", "0.5"],
-        check=True,
+        [sys.executable, PROGRAM, "--plays", "20", "--actions", "400", "--after", "0.5"],
+        check=False,
         capture_output=True,
         text=True,
         timeout=600,
     )
+    assert told.returncode == 0, told.stderr[-4000:]
     found = json.loads(told.stdout)
     grown, kinds = found["grown_percent"], found["most_grown"]
     assert kinds.get("rotemina.sim.records.record.Record", 0) <= 3, kinds

@@ -148,7 +148,7 @@ def measured(hand, stick):
     for axis in ("Y", "Z"):
         measuring.wanted[axis].setChecked(False)
     hand.press(measuring.next)
-    hand.until(lambda: "let go" in measuring.text.text())
+    hand.until(lambda: "release" in measuring.text.text())
     assert not measuring.next.isEnabled()
     hand.press(measuring.next)  # it can be pressed after a second
     hand.until(lambda: "axis X hardly moved" in measuring.problems.text())

@@ -180,7 +180,7 @@ def test_done_then_held_by_an_emergency_stop_and_brought_back(qtbot, make_robot_
     assert lit == ["approach", "contact", "thrust", "hold", "inject", "retract"]
     assert ("inject", True) in tool
     assert ("hold", True) not in tool
-    qtbot.waitUntil(lambda: "Done: 45." in panel.message.text(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "Done: depth 45." in panel.message.text(), timeout=LONG_MS)
 
     panel.form.show_parameters(PenetrationParameters(hold_s=30.0))
     panel._change()
