@@ -31,7 +31,7 @@ class FoldedPanels(QWidget):
             button.setToolTip(plain_tip(translate("shell", "Open or close this panel")))
             button.setCheckable(True)
             button.clicked.connect(lambda opened, name=name: self._open(name if opened else ""))
-            dock.visibilityChanged.connect(lambda _: self.refresh())
+            dock.visibilityChanged.connect(self.refresh)
             row.addWidget(button)
         self.refresh()
 

@@ -61,11 +61,14 @@ def start(
 
     qt_messages.log_qt_messages()
     if not reason:
+        from rotemina.app.shell.application import show_splash
+
+        splash = show_splash()
         from rotemina.app.shell import window_run
 
         settings = Settings()
         session = MotionSession(_driver(kind, described, given, settings))
-        return window_run.run(session, settings, speaks=speaks)
+        return window_run.run(session, settings, speaks=speaks, splash=splash)
     from rotemina.app.shell import offscreen_run
 
     print(f"No window ({reason}): doing the main job offscreen instead.")

@@ -4,15 +4,13 @@ import atexit
 import gc
 import signal
 import sys
-from importlib import resources
 from pathlib import Path
 
 import pyqtgraph as pg
 from platformdirs import user_data_path
 from pyqtgraph.util.garbage_collector import GarbageCollector
-from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QIcon, QImage, QPixmap
-from PySide6.QtWidgets import QApplication
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QSplashScreen
 
 from rotemina.app.motion.heartbeat import PERIOD_S
 from rotemina.app.motion.session import MotionSession
@@ -21,6 +19,7 @@ from rotemina.app.settings import Settings
 from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.allocator import trim_heap
+from rotemina.app.shell.application import make_application
 from rotemina.app.shell.exits import exits_refused
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
@@ -33,19 +32,6 @@ from rotemina.sim.errors import InputError
 DEFAULT_THEME = "dark"
 # How long another thread may go on once the window's, or the session's, wants to: both do so often.
 SWITCH_S = 0.001
-
-
-def make_application() -> QApplication:
-    """Return the one application object, made if there is none."""
-    # A dialog of the desktop's own would take Esc for itself, and nothing would stop.
-    QApplication.setAttribute(Qt.ApplicationAttribute.AA_DontUseNativeDialogs)
-    application = QApplication.instance() or QApplication(["rotemina"])
-    assert isinstance(application, QApplication)
-    application.setApplicationName("RoTeMiNa")
-    icon = resources.files("rotemina.resources.icons").joinpath("rotemina.svg").read_bytes()
-    application.setWindowIcon(QIcon(QPixmap.fromImage(QImage.fromData(icon))))
-    pg.setConfigOptions(antialias=False, useOpenGL=False)
-    return application
 
 
 def make_window(
@@ -63,6 +49,7 @@ def make_window(
     """
     folder = played_folder or user_data_path("rotemina", appauthor=False) / "played"
     application = make_application()
+    pg.setConfigOptions(antialias=False, useOpenGL=False)
     language.use(
         application, language.chosen(settings, speaks)
     )  # before anything is made that speaks
@@ -101,15 +88,21 @@ def _tell_of(settings: Settings, workbench: Workbench) -> None:
     workbench.notify(Level.WARNING, text, about="window.md")
 
 
-def run(session: MotionSession, settings: Settings, *, speaks: str | None = None) -> int:
+def run(
+    session: MotionSession,
+    settings: Settings,
+    *,
+    speaks: str | None = None,
+    splash: QSplashScreen | None = None,
+) -> int:
     """Show the window, in another language than the last where it is given, and run it.
 
-    Return the exit status.
+    It takes the place of the splash screen. Return the exit status.
     """
     atexit.register(session.stop, "the program ends")  # also where a plugin's SystemExit ends it
     try:
         with exits_refused():
-            return _run(session, settings, speaks)
+            return _run(session, settings, speaks, splash)
     except BaseException:
         session.stop("the program ends")
         raise
@@ -117,7 +110,9 @@ def run(session: MotionSession, settings: Settings, *, speaks: str | None = None
         atexit.unregister(session.stop)
 
 
-def _run(session: MotionSession, settings: Settings, speaks: str | None) -> int:
+def _run(
+    session: MotionSession, settings: Settings, speaks: str | None, splash: QSplashScreen | None
+) -> int:
     trim_heap()
     sys.setswitchinterval(SWITCH_S)
     application = make_application()
@@ -146,6 +141,8 @@ def _run(session: MotionSession, settings: Settings, speaks: str | None) -> int:
     collector = GarbageCollector(interval=1.0)
     with watch.guarding():
         window.show()
+        if splash is not None:
+            splash.finish(window)
         if not settings.get("window.state", ""):  # a first start shows what is needed to begin
             window.arrangement.arrange(OPERATE)
         window.first_steps.offer()

@@ -186,7 +186,8 @@ def test_a_stop_is_heard_at_once(baud: int, clock: str) -> None:
 
 def test_a_stop_is_heard_while_the_window_paints(tmp_path) -> None:
     from rotemina.app.settings import Settings
-    from rotemina.app.shell.window_run import make_application, make_window
+    from rotemina.app.shell.application import make_application
+    from rotemina.app.shell.window_run import make_window
 
     application = make_application()
     with boards() as found:

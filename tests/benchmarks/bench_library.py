@@ -16,8 +16,8 @@ from rotemina.app.records.entry import Entry, Kind, WorstGap
 from rotemina.app.records.library import Library
 from rotemina.app.records.store import RecordStore
 from rotemina.app.shell import theme as themes
+from rotemina.app.shell.application import make_application
 from rotemina.app.shell.record_table import RecordTable
-from rotemina.app.shell.window_run import make_application
 
 ENTRIES, TURNS = 10_000, 9
 MOST_MS = 100.0

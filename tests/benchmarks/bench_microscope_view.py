@@ -28,7 +28,8 @@ def test_from_the_camera_to_the_screen(tmp_path):
     from rotemina.app.cameras.feed import FeedState
     from rotemina.app.motion.session import MotionSession
     from rotemina.app.settings import Settings
-    from rotemina.app.shell.window_run import make_application, make_window
+    from rotemina.app.shell.application import make_application
+    from rotemina.app.shell.window_run import make_window
     from rotemina.drivers.simulator.driver import Simulator
     from rotemina.sim.robot.file import load_robot
 
@@ -83,8 +84,8 @@ def test_pictures_of_16_bits(size):
 
     from rotemina.app.cameras.feed import FeedState, FeedView
     from rotemina.app.microscope.status import MicroscopeStatus
+    from rotemina.app.shell.application import make_application
     from rotemina.app.shell.theme import DARK
-    from rotemina.app.shell.window_run import make_application
     from rotemina.drivers.cameras.frame import Frame, Region
     from rotemina.plugins.microscope.contrast import Contrast, Table
     from rotemina.plugins.microscope.picture_view import PictureView

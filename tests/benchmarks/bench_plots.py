@@ -21,7 +21,8 @@ def test_frames_of_every_view(tmp_path):
 
     from rotemina.app.motion.session import MotionSession
     from rotemina.app.settings import Settings
-    from rotemina.app.shell.window_run import make_application, make_window
+    from rotemina.app.shell.application import make_application
+    from rotemina.app.shell.window_run import make_window
     from rotemina.drivers.samples import Samples
     from rotemina.drivers.simulator.driver import Simulator
     from rotemina.sim.robot.file import load_robot

@@ -63,7 +63,8 @@ def test_the_loop_keeps_a_kilohertz() -> None:
 
 def test_the_loop_beside_the_window(tmp_path) -> None:
     from rotemina.app.settings import Settings
-    from rotemina.app.shell.window_run import make_application, make_window
+    from rotemina.app.shell.application import make_application
+    from rotemina.app.shell.window_run import make_window
 
     application = make_application()
     driver = Timed(load_robot("rotemina"))

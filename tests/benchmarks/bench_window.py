@@ -21,7 +21,8 @@ from PySide6.QtCore import QEvent, QObject, QTimer
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
 from rotemina.app.shell.layouts import OPERATE
-from rotemina.app.shell.window_run import make_application, make_window
+from rotemina.app.shell.application import make_application
+from rotemina.app.shell.window_run import make_window
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
 
@@ -80,7 +81,8 @@ def test_six_scrolling_plots(tmp_path):
 
     from rotemina.app.motion.session import MotionSession
     from rotemina.app.settings import Settings
-    from rotemina.app.shell.window_run import make_application, make_window
+    from rotemina.app.shell.application import make_application
+    from rotemina.app.shell.window_run import make_window
     from rotemina.drivers.samples import Samples
     from rotemina.drivers.simulator.driver import Simulator
     from rotemina.sim.robot.file import load_robot

@@ -20,9 +20,10 @@ from PySide6.QtWidgets import QApplication, QDialog, QMenu, QMessageBox
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
 from rotemina.app.shell.allocator import trim_heap
+from rotemina.app.shell.application import make_application
 from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.layouts import OPERATE
-from rotemina.app.shell.window_run import SWITCH_S, make_application, make_window
+from rotemina.app.shell.window_run import SWITCH_S, make_window
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.records.record import Record, Tap
@@ -122,9 +123,11 @@ class UsedWindow:
         self.until(lambda: self.bench.plan is not before)
 
     def play(self) -> None:
-        """Play the trajectory in hand, and wait until it is compared and written."""
-        if self.bench.plan is None:
-            self.plan()
+        """Play a trajectory, and wait until it is compared and written.
+
+        What is in hand may be a piece too short to be compared: chance also sets where it begins.
+        """
+        self.plan()
         before = self._played
         while not self.bench.ask(self._begin):
             self.settle(0.05)  # what was done before still moves it

@@ -106,7 +106,8 @@ from PySide6.QtWidgets import QApplication
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
 from rotemina.app.shell.main_window import MainWindow
-from rotemina.app.shell.window_run import make_application, run
+from rotemina.app.shell.application import make_application
+from rotemina.app.shell.window_run import run
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim import plugin_import, plugin_points
 from rotemina.sim.robot.file import load_robot

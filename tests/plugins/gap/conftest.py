@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QMainWindow
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.shell import theme as themes
-from rotemina.app.shell.window_run import make_application
+from rotemina.app.shell.application import make_application
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.plugins.gap.answer import Answer

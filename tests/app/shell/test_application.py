@@ -1,0 +1,30 @@
+"""The splash screen is there at once, and gone when the window is."""
+
+from PySide6.QtWidgets import QWidget
+
+from rotemina.app.shell.application import make_application, show_splash
+
+
+def test_the_splash_shows_icon_and_name_until_the_window_is_there(qtbot):
+    splash = show_splash()
+    qtbot.addWidget(splash)
+    assert splash.isVisible()
+    picture = splash.pixmap().toImage()
+    ratio = picture.devicePixelRatio()
+
+    def colours(left, right):
+        columns = range(round(left * ratio), round(right * ratio))
+        return {picture.pixel(x, y) for x in columns for y in range(picture.height())}
+
+    assert len(colours(26, 106)) > 20  # the icon
+    assert len(colours(130, 350)) > 20  # the name
+    assert len(colours(0, 20)) == 1
+    window = QWidget()
+    qtbot.addWidget(window)
+    window.show()
+    splash.finish(window)
+    assert not splash.isVisible()
+
+
+def test_there_is_one_application():
+    assert make_application() is make_application()
