@@ -62,8 +62,7 @@ class PlayedRecords(QObject):
         self._session, self._library, self._phase, self._work = session, library, phase, work
         self._paused_run: tuple[Run, Path] | None = None
         self._ended = self._taken = 0  # playbacks: counted by the worker, and by the window
-        #: Count no further ends.
-        self.close = session.subscribe(self._count)
+        self.close = session.subscribe(self._count)  # counts no further ends
 
     @property
     def untold(self) -> bool:
