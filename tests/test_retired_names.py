@@ -19,7 +19,7 @@ MODULES = {
     "hand", "hands", "joined", "kept", "known", "leaps", "left", "listing", "look",
     "operator_desk", "prospect", "rail", "searching", "sight", "sight_of", "stages", "standing",
     "stepping", "teeth", "telling", "told", "unchecked", "uploading", "using", "visits", "way",
-    "where", "which",
+    "where", "which", "whiteness",
 }  # fmt: skip
 
 

@@ -343,11 +343,11 @@ class MotionSession:
     @property
     def labels(self) -> RunLabels:
         """Run, operator and sample, which every playback and recording names; any thread."""
-        return self._link.worker.labels
+        return self._link.worker.notes.labels
 
     @labels.setter
     def labels(self, labels: RunLabels) -> None:
-        self._link.worker.labels = labels
+        self._link.worker.notes.labels = labels
 
     @property
     def model(self) -> ModelInUse:
@@ -381,7 +381,7 @@ class MotionSession:
 
     def note_contact(self, what: str) -> None:
         """Note a contact: effects learned from the present motion may come from it."""
-        self._link.worker.note(what)
+        self._link.worker.notes.add(what)
 
     def _run(self) -> None:
         mailbox = self._link.mailbox

@@ -7,9 +7,8 @@ without any thread, by a test.
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from datetime import datetime
-from types import MappingProxyType
 
+from rotemina.app.motion.device_report import with_samples, with_status
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.held_inverses import HeldInverses
 from rotemina.app.motion.history import LiveHistory
@@ -26,11 +25,12 @@ from rotemina.app.motion.mailbox import (
     RunProfile,
     SetVoltage,
 )
-from rotemina.app.motion.model_in_use import NOTED, Machine, ModelInUse
+from rotemina.app.motion.model_in_use import Machine, ModelInUse
 from rotemina.app.motion.ownership import Ownership
+from rotemina.app.motion.playback_notes import PlaybackNotes
 from rotemina.app.motion.position_trust import LOST, PositionTrust
 from rotemina.app.motion.reading_deviation import ReadingDeviation
-from rotemina.app.motion.run_labels import RunLabels
+from rotemina.app.motion.sample_portions import SamplePortions
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
     Alarmed,
@@ -39,7 +39,6 @@ from rotemina.app.motion.state import (
     Event,
     Faulted,
     ModelChanged,
-    PlaybackFinished,
     SessionState,
     StateChanged,
     Stopped,
@@ -47,17 +46,15 @@ from rotemina.app.motion.state import (
 from rotemina.app.motion.stop_latency import StopLatency
 from rotemina.app.motion.stop_request import StopRequest
 from rotemina.app.motion.stop_tracking import StopTracking
-from rotemina.drivers.abilities import Homer, Linked, Parameterised
+from rotemina.drivers.abilities import Homer, Linked
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import DriverError, StateError
 from rotemina.drivers.gate import Gate
 from rotemina.drivers.link import LinkQuality
-from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
-from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import marked, message
+from rotemina.sim.messages import message
 
 #: Called with samples and what the models say of them.
 Tap = Callable[[Samples, ModelOutputs], None]
@@ -99,17 +96,13 @@ class Worker:
         self._trust = PositionTrust(driver.robot)
         #: What the tip's bounds are judged on beside commands.
         self.deviation = ReadingDeviation(driver.robot)
-        #: What the operator says of all that is played; replaced as a whole by any thread.
-        self.labels = RunLabels()
+        self.notes = PlaybackNotes()
         #: Of axes that the device does not compensate by itself.
         self.inverses = HeldInverses(driver.robot)
         self._executor = self._executor_of(driver)
         self._next = self.state
-        self._unread: list[Samples] = []
-        self._worked_up_s = float("-inf")
-        self._received_s = float("-inf")
+        self._portions = SamplePortions()
         self._stirred = False  # since the state was published
-        self._noted: list[str] = []  # faults and contacts since the latest playback began
         self._stops = StopTracking(clock)
 
     @property
@@ -155,10 +148,6 @@ class Worker:
                 self._trust.doubt(LOST, self._lost_axes())
             self._fail(_described(error))
         self._publish()
-
-    def note(self, what: str) -> None:
-        """Note a contact: what is learned from this motion may come from it; any thread."""
-        self._noted.append(what)
 
     def use_model(self, prepared: PreparedModel) -> None:
         """Answer by another model from now on; on the worker's thread.
@@ -250,12 +239,11 @@ class Worker:
         self._mailbox.clear()
         self._stops.take_failure()
         self._executor.forget()
-        self._unread.clear()
+        self._portions.restart()
         self.corrections.restart()
         self.models.prepare()
         self.driver.open()
         self._gate.reconnected()
-        self._worked_up_s = float("-inf")
         self._history.clear()
         self.models.begin_anew()
         self._check_machine()
@@ -269,7 +257,7 @@ class Worker:
         while (posted := self._mailbox.take()) is not None:
             self._stirred |= isinstance(posted.command, _STIRRING)
             if isinstance(posted.command, Play):
-                self._noted.clear()
+                self.notes.begin()
             try:
                 self._executor.do(posted.command, posted.permit)
                 if isinstance(posted.command, ClearFault) and posted.permit.valid:
@@ -286,20 +274,14 @@ class Worker:
         read = self.corrections.corrected(self.driver.read())
         samples = self.inverses.wanted(read, self.driver.status)
         now_s = self._clock()
-        if len(samples):
-            self._unread.append(samples)
-            self._received_s = now_s
+        self._portions.add(samples, now_s)
         self._next = self._stops.confirmed(self._next, now_s, lambda: self.driver.stop_pending)
-        since_s = now_s - self._worked_up_s
-        if not len(samples) and since_s < _PORTION_S:
+        if self._portions.idle:
             return
         status = self.driver.status()
         news = status.state is not self._next.activity and not self._executor.between_segments
-        # A cycle that has just read a portion leaves the work to the next one, which has the time.
-        if news or since_s >= _LATEST_S or (since_s >= _PORTION_S and not len(samples)):
-            self._worked_up_s = now_s
-            parts, self._unread = self._unread, []
-            self._work_up(Samples.joined(parts, len(self.driver.axes)), status)
+        if self._portions.due(news=news):
+            self._work_up(self._portions.take(now_s, len(self.driver.axes)), status)
 
     def _work_up(self, samples: Samples, status: DeviceStatus) -> None:
         found = self._supervised(samples, status)
@@ -310,9 +292,9 @@ class Worker:
         self._next = self._stops.followed(self._next, status.state)
         self._note_rest(status)
         faulted = status.state is DeviceState.FAULT and self.state.fault != self._next.fault
-        self._noted += [one.message for one in found if isinstance(one, Faulted)]
+        self.notes.add(*(one.message for one in found if isinstance(one, Faulted)))
         if faulted:
-            self._noted.append(self._next.fault or "")
+            self.notes.add(self._next.fault or "")
             self._mailbox.clear()
             self._executor.forget()
         # Published before events tell of it: a subscriber may answer with the next command.
@@ -358,35 +340,14 @@ class Worker:
     def _updated(
         self, samples: Samples, answers: ModelOutputs, status: DeviceStatus
     ) -> SessionState:
-        fault = self._next.fault
-        if status.state is DeviceState.FAULT:
-            fault = status.fault or marked("engine", "the device reports a fault")
         if self._next.activity is DeviceState.HOMING and status.state is DeviceState.IDLE:
             self._trust.homed(self._executor.sought - set(status.unhomed))
-        between_segments = self._executor.between_segments and status.state is DeviceState.IDLE
-        state = replace(
-            self._next,
-            activity=DeviceState.MOVING if between_segments else status.state,
-            progress=status.progress,
-            fault=fault,
-            unhomed=status.unhomed,
-            silent_s=status.silent_s,
-            link=self._link(),
-            differences=self._differences(),
-            model_id=self.models.model.id,
-        )
-        if len(samples):
-            axes = self.driver.axes
-            state = replace(
-                state,
-                measured=_by_axis(axes, samples.measured),
-                command=_by_axis(axes, samples.command),
-                model=_by_axis(axes, answers.in_use),
-                nominal=_by_axis(axes, answers.nominal),
-                unsettled=self.models.unsettled,
-                device_time_s=float(samples.device_time_s[-1]),
-                sample_host_time_s=self._received_s,
-            )
+        driver = self.driver
+        between_segments = self._executor.between_segments
+        state = with_status(self._next, driver, status, between_segments=between_segments)
+        state = replace(state, link=self._link(), model_id=self.models.model.id)
+        unsettled, received_s = self.models.unsettled, self._portions.received_s
+        state = with_samples(state, driver.axes, samples, answers, unsettled, received_s)
         known = status.position_known and state.sample_host_time_s is not None
         state = replace(state, position_known=known)
         return replace(state, locked=lock_reason(state, self._trust.reason))
@@ -399,12 +360,6 @@ class Worker:
         self.latency.add(quality.stop_s)
         return quality
 
-    def _differences(self) -> tuple[str, ...]:
-        driver = self.driver
-        if not isinstance(driver, Parameterised):
-            return ()
-        return tuple(str(one) for one in driver.differences)
-
     def _lost_axes(self) -> Sequence[str]:
         """Return the axes that may be elsewhere after a lost connection."""
         driver = self.driver
@@ -412,34 +367,21 @@ class Worker:
 
     def _executor_of(self, driver: Driver) -> Executor:
         return Executor(
-            driver, self._clock, self.corrections, self.inverses, self._said_of_playback
+            driver,
+            self._clock,
+            self.corrections,
+            self.inverses,
+            lambda: self.notes.metadata(self.driver, self.models.model),
         )
-
-    def _said_of_playback(self) -> dict[str, str]:
-        """Return what the metadata of a playback that begins now are to say, beside its motion."""
-        driver = self.driver
-        effects = driver.effects_text if isinstance(driver, EffectCarrier) else ""
-        return {
-            "began": datetime.now().astimezone().isoformat(timespec="milliseconds"),
-            "robot_sha256": self.models.model.machine.robot,
-            **({"effects": effects} if effects else {}),
-            **self.labels.metadata,
-        }
 
     def _end_recording(self, *, completed: bool) -> None:
         recorder, self._executor.recorder = self._executor.recorder, None
-        if recorder is None:
-            return
-        recorder.say("model", self.models.model.id)
-        if self._noted:
-            recorder.say(NOTED, "; ".join(dict.fromkeys(self._noted)))
-        record = recorder.finish()
-        whole = completed and recorder.complete and record is not None
-        self._emit(PlaybackFinished(record, whole, self.models.model, recorder.answers))
+        if recorder is not None:
+            self._emit(self.notes.finished(recorder, self.models.model, completed=completed))
 
     def _fail(self, message: str) -> None:
         """Lock motion; only an explicit reconnection ends this."""
-        self._noted.append(message)
+        self.notes.add(message)
         self._gate.reconnected()
         self._mailbox.clear()
         self._executor.forget()
@@ -476,17 +418,11 @@ _TAKEN_OFF = message(
     "engine", "the inverse of axis {axes} is off: the axis receives its targets as commands"
 )
 _STIRRING = (Move, Drive, Play, Home, RunProfile, SetVoltage)
-_PORTION_S = 0.016  # between two times that samples are worked up
-_LATEST_S = 0.019
 
 
 def _told(state: SessionState) -> tuple[object, ...]:
     """Return what of a state is worth an event; positions are read from the history instead."""
     return (state.phase, state.activity, state.fault, state.locked, state.position_known)
-
-
-def _by_axis(axes: tuple[str, ...], values: FloatArray) -> MappingProxyType[str, float]:
-    return MappingProxyType(dict(zip(axes, values[-1].tolist(), strict=True)))
 
 
 def _described(error: Exception) -> str:

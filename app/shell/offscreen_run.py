@@ -106,19 +106,19 @@ def tell_the_story(window: MainWindow, effects: tuple[AxisEffect, ...]) -> Story
     _say("diagnosing …")
     panel.diagnose()
     _wait(window, bench.refreshed, lambda: panel.answer is not None, DIAGNOSIS_LIMIT_MS)
-    _wait(window, bench.refreshed, panel.use.isEnabled)
+    _wait(window, bench.refreshed, panel.result.use.isEnabled)
     _say("using the corrected model …")
-    panel.use.click()
+    panel.result.use.click()
     _wait(window, bench.refreshed, lambda: bench.run.model_id.startswith("corrected"))
     _wait(window, bench.refreshed, lambda: not bench.busy)
     _say("playing another motion …")
     after = play(window, demonstration(bench.robot, _OTHER_PACE))
-    _wait(window, bench.refreshed, lambda: panel.proof.proof is not None)
+    _wait(window, bench.refreshed, lambda: panel.result.proof.proof is not None)
     window.arrangement.arrange(DIAGNOSE)
     window.bring_up("gap")
     panel.show_proof()
     _rest(200)  # the panels draw what they have just been given
-    return Story((before, after), panel.verdict.text())
+    return Story((before, after), panel.result.headline.sentence.text())
 
 
 def _wait(

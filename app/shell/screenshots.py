@@ -43,7 +43,7 @@ def main(folder: Path) -> int:
         tell_the_story(window, worn_effects(robot))
         while window.workbench.busy or window.panels["plate"].solved is None:
             QApplication.processEvents()  # panels that work on what was played
-        window.panels["gap"].tabs.setCurrentIndex(2)  # how far the gap shrinks
+        window.panels["gap"].result.tabs.setCurrentIndex(2)  # how far the gap shrinks
         window.workbench.emergency_stop()
         window.workbench.refreshed.emit(window.workbench.session.snapshot())
         window.workbench.release()

@@ -36,8 +36,9 @@ from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.help_topics import Explained, page_for, page_of, remedy_of
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.plan import Plan
+from rotemina.app.shell.played_records import PlayedRecords
 from rotemina.app.shell.progress import Progress
-from rotemina.app.shell.record_library import RecordLibrary, write_played
+from rotemina.app.shell.record_library import RecordLibrary
 from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests import Requests
 from rotemina.app.shell.theme import Theme
@@ -127,24 +128,27 @@ class Workbench(Requests):
         self.bounds: dict[str, float] = {}
         self.progress: Progress | None = None
         self._checked_for: tuple[object, ...] = ()  # plan and standing of the latest check
-        self._paused_run: tuple[Run, Path] | None = (
-            None  # shown when the playback ends from its pause
-        )
         self._background = Background(self)
         self._exceeded.connect(self._tell_excess)
         self._told.connect(lambda text: self.notify(Level.WARNING, text, about="motion.md"))
-        self._ended = self._compared = 0  # playbacks: counted by the worker, and by the window
-        self._unsubscribe_count = session.subscribe(self._count)
-        # Before this subscribes itself: when it hears of an end, the playback knows it already.
-        self.playback = Playback(session, self._exceeded.emit)
-        self.operation = Operation(
-            session, settings.folder, played_folder.parent, told=self._told.emit
-        )
         self.library = RecordLibrary(
             session,
             settings,
             played_folder,
             lambda text: self.notify(Level.WARNING, text, about="recording.md#the-library"),
+        )
+        self._played = PlayedRecords(
+            session, self.library, lambda: self.playback.state.phase, self.work
+        )
+        self._played.stored.connect(self._note_saved)
+        self._played.compared.connect(self.take_run)
+        self._played.told.connect(
+            lambda text: self.notify(Level.WARNING, text, about="trajectory.md")
+        )
+        # Before this subscribes itself: when it hears of an end, the playback knows it already.
+        self.playback = Playback(session, self._exceeded.emit)
+        self.operation = Operation(
+            session, settings.folder, played_folder.parent, told=self._told.emit
         )
         self.microscope = Microscope(
             session,
@@ -175,7 +179,7 @@ class Workbench(Requests):
         self._frames.stop()
         self.closing.emit()
         self._unsubscribe()
-        self._unsubscribe_count()
+        self._played.close()
         self.microscope.close()
         self.operation.close()
         self.playback.close()
@@ -193,7 +197,7 @@ class Workbench(Requests):
     @property
     def untold(self) -> bool:
         """Whether a playback has ended of which the window has yet to hear."""
-        return self._ended != self._compared
+        return self._played.untold
 
     @property
     def busy(self) -> bool:
@@ -280,26 +284,21 @@ class Workbench(Requests):
 
     def load_trajectory(self, path: Path, columns: str | None = None) -> None:
         """Read a trajectory and try it on the model; the plan changes only if all goes well."""
-
-        def work() -> Plan:
-            trajectory = read_record(path, columns=columns, robot=self.robot)
-            return Plan.tried(self.session, path.name, trajectory)
-
-        self.work(
-            "plan",
-            translate("shell", "Reading {name} …").format(name=path.name),
-            work,
-            self.take_plan,
+        self._plan(
+            path.name,
+            _reading(path.name),
+            lambda: read_record(path, columns=columns, robot=self.robot),
         )
 
     def plan_trajectory(self, name: str, trajectory: Record) -> None:
         """Try a trajectory on the model and take it in hand."""
-        self.work(
-            "plan",
-            translate("shell", "Dry run …"),
-            lambda: Plan.tried(self.session, name, trajectory),
-            self.take_plan,
-        )
+        self._plan(name, translate("shell", "Dry run …"), lambda: trajectory)
+
+    def _plan(self, name: str, doing: str, read: Callable[[], Record]) -> None:
+        def work() -> Plan:
+            return Plan.tried(self.session, name, read())
+
+        self.work("plan", doing, work, self.take_plan)
 
     def plan_again(self, plan: Plan) -> None:
         """Try the trajectory in hand once more, on another model or device."""
@@ -322,7 +321,7 @@ class Workbench(Requests):
                 self.library.add(path, run.record, path.name)
             self._take_run(run, path)
 
-        self.work("run", translate("shell", "Reading {name} …").format(name=path.name), work, done)
+        self.work("run", _reading(path.name), work, done)
 
     def open_entry(self, entry: Entry) -> None:
         """Compare a record of the library with the model, as :meth:`open_record` does."""
@@ -330,25 +329,14 @@ class Workbench(Requests):
         def work() -> Run:
             return compared(self.session.model, entry.name, read(entry, self.robot))
 
-        self.work(
-            "run",
-            translate("shell", "Reading {name} …").format(name=entry.name),
-            work,
-            lambda run: self._take_run(run, entry.path),
-        )
+        self.work("run", _reading(entry.name), work, lambda run: self._take_run(run, entry.path))
 
     def load_entry(self, entry: Entry) -> None:
         """Take the commands of a record of the library in hand as a trajectory."""
-
-        def work() -> Plan:
-            record = commands(entry, self.robot, self.session.setpoint_period_s)
-            return Plan.tried(self.session, entry.name, record)
-
-        self.work(
-            "plan",
-            translate("shell", "Reading {name} …").format(name=entry.name),
-            work,
-            self.take_plan,
+        self._plan(
+            entry.name,
+            _reading(entry.name),
+            lambda: commands(entry, self.robot, self.session.setpoint_period_s),
         )
 
     def save_record(self, path: Path) -> None:
@@ -360,8 +348,7 @@ class Workbench(Requests):
             return
 
         def done(_: None) -> None:
-            if self.unsaved is record:
-                self.unsaved = None
+            self._note_saved(record)
             self.notify(Level.GOOD, translate("shell", "Saved {path}").format(path=path))
 
         self.work(
@@ -458,7 +445,7 @@ class Workbench(Requests):
     def _refresh(self) -> None:
         state = self.session.snapshot()
         self._check_plan(state)
-        self._show_paused_run()
+        self._played.look()
         self.refreshed.emit(state)
         self._at_rest.look(state)
         self.replaying.step()
@@ -529,7 +516,7 @@ class Workbench(Requests):
             logger.info("%s", event.request)
             self.stopped.emit()
         elif isinstance(event, PlaybackFinished):
-            self._compare_played(event)
+            self._take_played(event)
         elif isinstance(event, ModelChanged):
             self._take_model(event)
 
@@ -543,22 +530,15 @@ class Workbench(Requests):
             about=excess,
         )
 
-    def _keep(self, record: Record, name: str) -> Path:
-        """Write a played record into the folder of played records, and return where."""
-        path = self.library.place(name)
+    def _note_saved(self, record: Record) -> None:
+        if self.unsaved is record:
+            self.unsaved = None
 
-        def done(_: None) -> None:
-            if self.unsaved is record:
-                self.unsaved = None
-            self.library.add(path, record, name)
-
-        self.work(
-            f"keep {path.name}",
-            translate("shell", "Storing {name} …").format(name=path.name),
-            lambda: write_played(record, path),
-            done,
-        )
-        return path
+    def _take_played(self, event: PlaybackFinished) -> None:
+        """Take the record of a playback in hand, until it is compared; its plan names it."""
+        if event.record is not None:
+            self.record = self.unsaved = event.record
+        self._played.take(event, self.plan.name if self.plan else "playback")
 
     def _take_model(self, event: ModelChanged) -> None:
         """Show everything by another model."""
@@ -578,50 +558,6 @@ class Workbench(Requests):
                 self._renew_run,
             )
 
-    def _count(self, event: Event) -> None:
-        if isinstance(event, PlaybackFinished):
-            self._ended += 1
 
-    def _compare_played(self, event: PlaybackFinished) -> None:
-        self._compared += 1
-        record, completed = event.record, event.completed
-        name = self.plan.name if self.plan else "playback"
-        paused = self.playback.state.phase is PlaybackPhase.PAUSED
-        if record is None:
-            if not paused:
-                text = translate("shell", "{name}: stopped before its first row was played.")
-                self.notify(Level.WARNING, text.format(name=name), about="trajectory.md")
-            return
-        # Kept before anything else: no comparison that fails, nor the next run, may lose it.
-        self.record = self.unsaved = record
-        self._paused_run = None
-        path = self._keep(record, name)
-        if not (completed or paused):
-            text = translate("shell", "{name}: stopped after {duration_s:.2f} s.").format(
-                name=name, duration_s=record.duration_s
-            )
-            self.notify(Level.WARNING, text, about="trajectory.md")
-
-        def compare() -> Run:
-            model = event.model or self.session.model
-            return compared(model, name, record, completed=completed, answers=event.answers)
-
-        def done(run: Run) -> None:
-            self.library.set_gap(path, run)
-            if paused and self.playback.state.phase is not PlaybackPhase.IDLE:
-                self._paused_run = run, path
-            else:
-                self.take_run(run, path)
-
-        # A kind of its own: each stretch has its gap in the library, however soon the next ends.
-        comparing = translate("shell", "Comparing model and real …")
-        self.work(f"played {path.name}", comparing, compare, done)
-
-    def _show_paused_run(self) -> None:
-        """Take the run of the latest pause in hand once the playback has ended from there."""
-        held = self._paused_run
-        # In this order: what has ended is counted before the playback says that it has.
-        idle = held is not None and self.playback.state.phase is PlaybackPhase.IDLE
-        if held is not None and idle and not self.untold:
-            self._paused_run = None
-            self.take_run(*held)
+def _reading(name: str) -> str:
+    return translate("shell", "Reading {name} …").format(name=name)

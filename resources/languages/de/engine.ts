@@ -5,7 +5,7 @@
     <name>engine</name>
     <message>
         <source>the machine is still moving; change the model at rest</source>
-        <extracomment>What puts readings right, before anybody sees them. The one that is open, or was open last; exchanged on this worker&apos;s thread. What the tip&apos;s bounds are judged on beside commands. What the operator says of all that is played; replaced as a whole by any thread. Of axes that the device does not compensate by itself.</extracomment>
+        <extracomment>What puts readings right, before anybody sees them. The one that is open, or was open last; exchanged on this worker&apos;s thread. What the tip&apos;s bounds are judged on beside commands. Of axes that the device does not compensate by itself.</extracomment>
         <translation>die Maschine bewegt sich noch; das Modell in Ruhe wechseln</translation>
     </message>
     <message>

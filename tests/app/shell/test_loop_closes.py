@@ -78,9 +78,9 @@ def panel(qtbot, window):
 
 def use(qtbot, bench, panel, answer):
     panel.take_answer(answer)
-    qtbot.waitUntil(panel.use.isEnabled, timeout=LONG_MS)
+    qtbot.waitUntil(panel.result.use.isEnabled, timeout=LONG_MS)
     with qtbot.waitSignals([bench.model_changed, bench.run_changed], timeout=LONG_MS):
-        panel.use.click()
+        panel.result.use.click()
 
 
 def test_what_a_diagnosis_found_is_used_everywhere_at_once(qtbot, window, bench, panel, play):
@@ -121,9 +121,9 @@ def test_the_gap_is_the_same_string_in_all_four_places(qtbot, window, bench, pan
     heads = [comparison.horizontalHeaderItem(n).text() for n in range(comparison.columnCount())]
     row = next(n for n in range(comparison.rowCount()) if "meas" in comparison.item(n, 0).text())
     assert comparison.item(row, heads.index("Gap, this run")).text() == size
-    qtbot.waitUntil(lambda: panel.proof.proof and panel.proof.proof.name == "again")
-    assert panel.proof.title.text() == "Gap, this run"
-    assert panel.proof.table.texts()[0][3] == size
+    qtbot.waitUntil(lambda: panel.result.proof.proof and panel.result.proof.proof.name == "again")
+    assert panel.result.proof.title.text() == "Gap, this run"
+    assert panel.result.proof.table.texts()[0][3] == size
     write_report(panel.answer.diagnosis, panel.answer.records, tmp_path / "page.html", ["a"], run)
     assert told in (tmp_path / "page.html").read_text("utf-8")
     assert any(told in line for line in run_lines(run))
@@ -149,19 +149,19 @@ def test_worse_on_a_motion_is_said_in_the_headline_and_asked_about(
     play()
     window.bring_up("gap")
     panel.take_answer(answer_of(bench.run, WRONG))
-    assert panel.use.text() == "Use corrected model"
+    assert panel.result.use.text() == "Use corrected model"
     play("elsewhere", swing(0.3))
-    qtbot.waitUntil(lambda: panel.proof.proof is not None, timeout=LONG_MS)
-    assert panel.headline.property("tone") == "worse"
-    assert panel.verdict.text().startswith("Worse on elsewhere: Z nano ")
-    assert "× larger" in panel.verdict.text()
-    assert "× larger" in panel.proof.table.texts()[0][4]
-    assert "diagnose them together" in panel.headline.remainder.text() or (
-        "play the motion again" in panel.headline.remainder.text()
+    qtbot.waitUntil(lambda: panel.result.proof.proof is not None, timeout=LONG_MS)
+    assert panel.result.headline.property("tone") == "worse"
+    assert panel.result.headline.sentence.text().startswith("Worse on elsewhere: Z nano ")
+    assert "× larger" in panel.result.headline.sentence.text()
+    assert "× larger" in panel.result.proof.table.texts()[0][4]
+    assert "diagnose them together" in panel.result.headline.remainder.text() or (
+        "play the motion again" in panel.result.headline.remainder.text()
     )
-    qtbot.waitUntil(panel.use.isEnabled, timeout=LONG_MS)
-    assert panel.use.text() == "Use anyway …"
-    click(qtbot, panel.use)
+    qtbot.waitUntil(panel.result.use.isEnabled, timeout=LONG_MS)
+    assert panel.result.use.text() == "Use anyway …"
+    click(qtbot, panel.result.use)
     box = question(window)
     assert "worse than the nominal one on elsewhere: Z nano" in box.informativeText()
     assert not box.isModal()
@@ -183,8 +183,8 @@ def test_what_was_learned_beside_a_fault_or_a_contact_is_confirmed_by_name(
         {**run.record.metadata, NOTED: "the tip was in contact"},
     )
     panel.take_answer(Answer(answer.diagnosis, ("day one",), (noted,), answer.traces, {}))
-    qtbot.waitUntil(panel.use.isEnabled, timeout=LONG_MS)
-    panel.use.click()
+    qtbot.waitUntil(panel.result.use.isEnabled, timeout=LONG_MS)
+    panel.result.use.click()
     told = question(window).informativeText()
     assert "During day one: the tip was in contact." in told
     assert "The model includes contact" in told

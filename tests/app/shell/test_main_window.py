@@ -306,7 +306,7 @@ def test_the_window_stays_until_it_has_heard_of_what_was_played(qtbot, window, t
 
 def test_a_record_whose_comparison_fails_is_kept_all_the_same(qtbot, window, tmp_path, monkeypatch):
     monkeypatch.setattr(
-        "rotemina.app.shell.workbench.compared",
+        "rotemina.app.shell.played_records.compared",
         lambda *_, **__: (_ for _ in ()).throw(InputError("no")),
     )
     load(qtbot, window, short_trajectory(tmp_path / "move.csv"))

@@ -29,7 +29,7 @@ LEAST_SMALLER = 10.0  # of the gap, once the model is corrected
 SOON_S, LONG_S = 90.0, 300.0
 TRIES = 6
 FIRST = ("nice", "-n", "-10") if shutil.which("nice") else ()
-PROOF = "panels['gap'].proof.proof"
+PROOF = "panels['gap'].result.proof.proof"
 PLAY = "panels['trajectory'].transport.play"
 AXES = {"thx": 0.61, "thy": 0.83, "zn": 0.47}  # swings, Hz
 XVFB, XDOTOOL = shutil.which("Xvfb"), shutil.which("xdotool")
@@ -145,10 +145,10 @@ class Operator:
 
     def play_new(self):
         """Let the gap page play a motion that is new to it."""
-        if not self.see("place(panels['gap'].motion)"):
+        if not self.see("place(panels['gap'].result.motion)"):
             self.focus("RoTeMiNa")
             self.press("ctrl+3")  # a comparison has come up before it
-        self.click("panels['gap'].motion.isEnabled() and place(panels['gap'].motion)")
+        self.click("panels['gap'].result.motion.isEnabled() and place(panels['gap'].result.motion)")
         self.click("button('New motion', 'Play')")
 
     def make_ready(self):
@@ -263,29 +263,29 @@ def test_the_loop_closes_on_a_machine_that_moved_before(on_the_simulator, tmp_pa
     hand.press("ctrl+3")
     hand.click("place(panels['gap'].start)")
     hand.wait("panels['gap'].answer is not None", 2.0 * LONG_S)  # it stands back
-    hand.click("panels['gap'].use.isEnabled() and place(panels['gap'].use)")
+    hand.click("panels['gap'].result.use.isEnabled() and place(panels['gap'].result.use)")
     hand.wait("window._bar.model.text().startswith('Corrected: ')", LONG_S)
     hand.wait("bench.run.model_id.startswith('corrected-') and not bench.busy", LONG_S)
     last, nominal = hand.play_file(paths[1])
     assert last <= nominal / LEAST_SMALLER
 
-    hand.wait("panels['gap'].proof.proof is not None", LONG_S)
-    hand.wait("panels['gap'].proof.proof.name == 'two.csv'", LONG_S)
-    size = hand.see("panels['gap'].proof.table.texts()[0][3]")
+    hand.wait("panels['gap'].result.proof.proof is not None", LONG_S)
+    hand.wait("panels['gap'].result.proof.proof.name == 'two.csv'", LONG_S)
+    size = hand.see("panels['gap'].result.proof.table.texts()[0][3]")
     hand.wait(f"panels['plots'].plots['zn'].figures.text().endswith('Gap, this run {size}')")
     cells = "[panels['comparison'].table.item(r, 1).text() for r in range(2)]"
     assert size in hand.see(cells)
     report = tmp_path / "page.html"
     hand.focus("RoTeMiNa")
     hand.press("ctrl+3")
-    hand.click("place(panels['gap'].report)")
+    hand.click("place(panels['gap'].result.report)")
     hand.wait("dialog('Report') is not None")
     hand.focus("Report")
     hand.write_into("written('Report')", str(report))
     hand.press("Return")
     hand.wait(f"__import__('pathlib').Path({str(report)!r}).exists() and not bench.busy")
     assert f"Gap, this run {size}" in report.read_text("utf-8")
-    assert hand.see("panels['gap'].headline.property('tone')") in ("good", "partly")
+    assert hand.see("panels['gap'].result.headline.property('tone')") in ("good", "partly")
     print(f"the gap is {nominal / last:.0f} times smaller: {size}, in all places")
 
 
@@ -313,17 +313,19 @@ def test_from_the_start_to_a_twin_that_is_right(operator, tmp_path):
     hand.press("ctrl+3")
     hand.click("place(panels['gap'].start)")
     hand.wait("panels['gap'].answer is not None", LONG_S)
-    named = hand.wait("panels['gap'].verdict.text()")
+    named = hand.wait("panels['gap'].result.headline.sentence.text()")
 
-    hand.click("place(panels['gap'].twin)")
+    hand.click("place(panels['gap'].result.twin)")
     hand.click("button('Add to twin', 'Save')")
     hand.wait("panels['gap'].robots.currentText() == 'twin.toml'")
     effects = load_robot(tmp_path / "twin.toml").effects
     assert effects
 
-    hand.until_done(hand.play_new, f"id({PROOF}) != {{proof}} and panels['gap'].proof.isVisible()")
+    hand.until_done(
+        hand.play_new, f"id({PROOF}) != {{proof}} and panels['gap'].result.proof.isVisible()"
+    )
     shrunk = hand.see(
-        "{one.trace.axis: one.times for one in panels['gap'].proof.proof.shrunk"
+        "{one.trace.axis: one.times for one in panels['gap'].result.proof.proof.shrunk"
         " if one.trace.tap == 'meas'}"
     )
 

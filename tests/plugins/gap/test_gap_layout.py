@@ -42,11 +42,11 @@ def within(widget, panel):
 
 
 def test_the_rail_stands_at_the_side_of_a_large_page_and_above_a_small_one(window, answered):
-    cells = answered.cells
+    cells = answered.result.cells
     cells.show_answer(answered.answer)
     window.resize(1900, 800)
     QApplication.processEvents()
-    rail, page = within(answered.rail, answered), within(answered.headline, answered)
+    rail, page = within(answered.rail, answered), within(answered.result.headline, answered)
     assert rail.width() == 320
     assert rail.right() < page.left()
     assert page.height() >= 120
@@ -54,7 +54,7 @@ def test_the_rail_stands_at_the_side_of_a_large_page_and_above_a_small_one(windo
     assert answered.rail.list.isVisible()
     window.resize(1270, 540)
     QApplication.processEvents()
-    rail, page = within(answered.rail, answered), within(answered.headline, answered)
+    rail, page = within(answered.rail, answered), within(answered.result.headline, answered)
     assert rail.bottom() < page.top()
     assert rail.height() <= 40
     assert not answered.rail.list.isVisible()
@@ -66,10 +66,10 @@ def test_the_rail_stands_at_the_side_of_a_large_page_and_above_a_small_one(windo
 
 @pytest.mark.parametrize(("width", "columns"), [(1900, 6), (1270, 3)])
 def test_six_cells_stand_in_one_row_or_in_two(window, answered, width, columns):
-    answered.cells.show_answer(six(answered.answer))
+    answered.result.cells.show_answer(six(answered.answer))
     window.resize(width, 800)
     QApplication.processEvents()
-    places = [within(cell, answered.cells) for cell in answered.cells.cells]
+    places = [within(cell, answered.result.cells) for cell in answered.result.cells.cells]
     assert len({place.left() for place in places}) == columns
     assert len({place.top() for place in places}) == 6 // columns
     assert all(place.width() >= 220 and place.height() == 96 for place in places)
@@ -79,15 +79,15 @@ def test_six_cells_stand_in_one_row_or_in_two(window, answered, width, columns):
 
 
 def test_a_cell_draws_both_gaps_from_zero_with_the_floor_and_chooses_its_axis(qtbot, answered):
-    first, second = answered.cells.cells
+    first, second = answered.result.cells.cells
     before, after, floor = first.bars()
     assert before.left() == after.left()
     assert after.width() / before.width() == pytest.approx(7.7e-7 / 3.3e-5, rel=1e-3)
     assert (floor - before.left()) / before.width() == pytest.approx(4e-7 / 3.3e-5, rel=1e-3)
     assert first.figures == "33.0 µrad → 0.770 µrad"
-    assert answered.cells.current == "thx"
+    assert answered.result.cells.current == "thx"
     click(qtbot, second)
-    assert answered.cells.current == "thy"
+    assert answered.result.cells.current == "thy"
     assert not second.grab().toImage().isNull()
 
 
@@ -128,14 +128,16 @@ def test_a_motion_on_which_the_model_is_worse_is_red_beside_one_on_which_it_is_b
         answered.answer.diagnosis, answered._candidate, run, window.workbench.session.memory
     )
     worse = Proof("wednesday", (replace(good.shrunk[0], times=1.0 / 1.5),))
-    answered.proof.show_proof(good)
-    answered.proof.show_proof(worse)
-    table = answered.proof.table
+    answered.result.proof.show_proof(good)
+    answered.result.proof.show_proof(worse)
+    table = answered.result.proof.table
     assert [row[0] for row in table.texts()][:2] == ["wednesday", "tuesday"]
     assert table.texts()[0][4] == "worse: 1.5 × larger"
     assert table.item(0, 4).foreground().color().name() == DARK.danger_text
     assert table.texts()[1][4].startswith("better: ")
     assert not table.selectedItems()  # a selection would hide the red
-    answered.headline.show_answer(answered.answer, worse)
-    assert answered.verdict.text().startswith("Worse on wednesday: θx 1.5 × larger")
-    assert answered.headline.property("tone") == "worse"
+    answered.result.headline.show_answer(answered.answer, worse)
+    assert answered.result.headline.sentence.text().startswith(
+        "Worse on wednesday: θx 1.5 × larger"
+    )
+    assert answered.result.headline.property("tone") == "worse"

@@ -99,13 +99,13 @@ def saved(qtbot, window, path):
 
 
 def test_without_records_the_page_says_what_to_do_first(panel):
-    assert panel.views.currentWidget() is panel.hint
-    assert panel.hint.text().startswith("1  Choose records")
+    assert panel.result.views.currentWidget() is panel.result.hint
+    assert panel.result.hint.text().startswith("1  Choose records")
     assert panel.start.text() == "Diagnose …"  # which asks for records first
-    for button in (panel.stop, panel.twin, panel.motion, panel.report):
+    for button in (panel.stop, panel.result.twin, panel.result.motion, panel.result.report):
         assert not button.isEnabled()
         assert "Not now: " in button.toolTip()
-    assert panel.tabs.isHidden()
+    assert panel.result.tabs.isHidden()
     panel.diagnose()  # by the palette or a script
     assert not panel.diagnosing.running
 
@@ -121,7 +121,7 @@ def test_diagnose_without_records_asks_for_files_and_goes_on(
     panel.records.add_files([tmp_path / "one.csv", tmp_path / "two.csv"])
     qtbot.waitUntil(lambda: len(stepwise.calls) == 1, timeout=LONG_MS)
     assert len(stepwise.calls[0][1]) == 2  # not before both were read
-    assert panel.views.currentWidget() is panel.running
+    assert panel.result.views.currentWidget() is panel.result.running
     panel.end()
 
 
@@ -216,8 +216,8 @@ def test_candidates_rank_while_a_diagnosis_runs(qtbot, chosen, stepwise):
     standings.add([AxisEffect(axis="thx", id="hysteresis"), coupled], 2.0, Grade.UNSEEN)
     stepwise.rankings.append(standings.ranking())
     click(qtbot, chosen.start)
-    qtbot.waitUntil(lambda: list(chosen.running.rankings) == ["thx"], timeout=LONG_MS)
-    view = chosen.running.rankings["thx"]
+    qtbot.waitUntil(lambda: list(chosen.result.running.rankings) == ["thx"], timeout=LONG_MS)
+    view = chosen.result.running.rankings["thx"]
     assert view.accessibleName() == "θx: 1 candidate tried: Creep 70 %"
     stepwise.steps.release()
     qtbot.waitUntil(lambda: "θx: 2 candidates tried" in view.accessibleName(), timeout=LONG_MS)
@@ -226,7 +226,7 @@ def test_candidates_rank_while_a_diagnosis_runs(qtbot, chosen, stepwise):
     assert not view.grab().toImage().isNull()
     stepwise.steps.release()
     qtbot.waitUntil(lambda: chosen.answer is not None, timeout=LONG_MS)
-    assert chosen.running.isHidden()
+    assert chosen.result.running.isHidden()
 
 
 def test_stop_works_at_once_and_what_comes_late_is_dropped(qtbot, chosen, stepwise):
@@ -303,16 +303,16 @@ def test_the_time_left_is_told_once_it_can_be_guessed_and_runs_down():
 
 
 def test_where_names_axes_taps_and_shares_with_a_map_of_the_chosen_one(answered):
-    rows = answered.distribution.places.texts()
+    rows = answered.result.distribution.places.texts()
     assert rows[0][0] == "θx ref"
     assert [row[1] for row in rows if row[0].startswith("θy")] == ["noise", "noise"]
-    heat = answered.distribution.heat.texts()
-    assert "Click a cell" in answered.distribution.heat_title.text()
+    heat = answered.result.distribution.heat.texts()
+    assert "Click a cell" in answered.result.distribution.heat_title.text()
     assert {"reversal", "forward", "backward"} <= {row[0] for row in heat}
     shares = {row[0]: float(row[1].removesuffix(" %").removeprefix("< ")) for row in heat}
     assert shares["fast"] + shares["slow"] + shares["reversal"] == pytest.approx(100.0, abs=3.0)
-    answered.distribution.places.selectRow(1)
-    assert answered.distribution.heat_title.text().startswith("θx meas")
+    answered.result.distribution.places.selectRow(1)
+    assert answered.result.distribution.heat_title.text().startswith("θx meas")
 
 
 def test_warmth_goes_from_none_to_all():
@@ -322,56 +322,56 @@ def test_warmth_goes_from_none_to_all():
 
 
 def test_which_ranks_candidates_and_says_what_cannot_be_told_apart(answered):
-    answered.tabs.setCurrentIndex(WHICH)
-    assert answered.views.currentWidget() is answered.causes
-    assert answered.causes.ranking.texts()[0] == [
+    answered.result.tabs.setCurrentIndex(WHICH)
+    assert answered.result.views.currentWidget() is answered.result.causes
+    assert answered.result.causes.ranking.texts()[0] == [
         "Hysteresis (prandtl ishlinskii)",
         "91 %",
         "1.2",
         "1.1 … 1.3",
     ]
-    text = answered.causes.text.toPlainText()
+    text = answered.result.causes.text.toPlainText()
     assert "These records cannot distinguish it from creep." in text
     assert "width: 120 µrad (110 µrad … 130 µrad), at its high bound" in text
     assert (
-        answered.verdict.text()
+        answered.result.headline.sentence.text()
         == "θx: hysteresis or creep (these records cannot distinguish them)."
     )
 
 
 def test_how_far_shows_bars_and_the_gap_before_and_after(qtbot, answered):
-    answered.tabs.setCurrentIndex(FAR)
-    assert [(bar.name, bar.text) for bar in answered.shrinkage.bars.bars] == [
+    answered.result.tabs.setCurrentIndex(FAR)
+    assert [(bar.name, bar.text) for bar in answered.result.shrinkage.bars.bars] == [
         ("nominal", "33 µrad"),
         ("re-tuned", "32 µrad"),
         ("+ Hysteresis", "0.78 µrad, 42.3 × smaller"),
         ("corrected", "0.77 µrad, 42.9 × smaller"),
     ]
-    assert [line.text for line in answered.shrinkage.bars.lines] == ["0.4 µrad"]
-    assert not answered.shrinkage.bars.grab().toImage().isNull()
-    assert answered.shrinkage.traces.choice.currentText() == "day one.csv: meas"
+    assert [line.text for line in answered.result.shrinkage.bars.lines] == ["0.4 µrad"]
+    assert not answered.result.shrinkage.bars.grab().toImage().isNull()
+    assert answered.result.shrinkage.traces.choice.currentText() == "day one.csv: meas"
     before, after = (
-        np.asarray(answered.shrinkage.traces.plot._curves[name].getData()[1])
+        np.asarray(answered.result.shrinkage.traces.plot._curves[name].getData()[1])
         for name in ("before", "after")
     )
     assert np.std(before) > 10 * np.std(after) > 0.0
-    click(qtbot, answered.cells.cells[1])
-    assert answered.shrinkage.bars.bars == ()
-    assert answered.shrinkage.title.text() == "This axis has no gap to close."
+    click(qtbot, answered.result.cells.cells[1])
+    assert answered.result.shrinkage.bars.bars == ()
+    assert answered.result.shrinkage.title.text() == "This axis has no gap to close."
 
 
 def test_another_theme_recolours_everything(window, answered):
     for theme in ("light", "dark"):
         window.use_theme(theme)
         for view in (WHERE, WHICH, FAR, PROOF):
-            answered.tabs.setCurrentIndex(view)
+            answered.result.tabs.setCurrentIndex(view)
             assert not answered.grab().toImage().isNull()
     quiet = answered.workbench.theme.quiet
-    assert answered.causes.ranking.item(1, 0).foreground().color().name() == quiet
+    assert answered.result.causes.ranking.item(1, 0).foreground().color().name() == quiet
 
 
 def test_a_cell_of_the_map_leads_to_its_traces_and_back(qtbot, answered):
-    where = answered.distribution
+    where = answered.result.distribution
     texts = where.heat.texts()
     row = next(n for n, each in enumerate(texts) if each[0] == "reversal")
     place = where.heat.visualItemRect(where.heat.item(row, 2)).center()
@@ -405,15 +405,15 @@ def experimental(panel, diagnosis, record):
 def test_a_suggested_experiment_is_played_after_a_question_and_diagnosed_with_the_old_records(
     qtbot, window, answered, diagnosis, record, stepwise
 ):
-    assert answered.plan.isHidden()
+    assert answered.result.plan.isHidden()
     command = experimental(answered, diagnosis, record)
-    text = answered.causes.text.toPlainText()
+    text = answered.result.causes.text.toPlainText()
     assert "Next experiment: A long hold parts them." in text
     assert "Press “Play next experiment …” to distinguish them." in text
-    click(qtbot, answered.plan)
+    click(qtbot, answered.result.plan)
     click(qtbot, question(window).button(QMessageBox.StandardButton.No))
     assert window.workbench.plan is None  # nothing is taken in hand unasked
-    click(qtbot, answered.plan)
+    click(qtbot, answered.result.plan)
     box = next(each for each in window.findChildren(QMessageBox) if each.isVisible())
     assert "θx: " in box.informativeText()
     assert "µrad" in box.informativeText()
@@ -427,22 +427,22 @@ def test_a_suggested_experiment_is_played_after_a_question_and_diagnosed_with_th
 
 
 def test_what_is_played_after_an_answer_shows_how_far_its_gap_has_shrunk(window, qtbot, answered):
-    assert answered.proof.currentIndex() == 0  # what to do to see anything here
+    assert answered.result.proof.currentIndex() == 0  # what to do to see anything here
     bench, record = window.workbench, answered.answer.records[0]
     bench.run_changed.emit(Run("tuesday", compare(bench.robot, record)))
-    qtbot.waitUntil(lambda: answered.proof.proof is not None, timeout=LONG_MS)
-    first = answered.proof.table.texts()[0]
+    qtbot.waitUntil(lambda: answered.result.proof.proof is not None, timeout=LONG_MS)
+    first = answered.result.proof.table.texts()[0]
     assert first[:2] == ["tuesday", "θx meas"]
-    assert answered.proof.proof.shrunk[0].times > 5.0
+    assert answered.result.proof.proof.shrunk[0].times > 5.0
     assert first[4].startswith("better: ")
     assert first[4].endswith("× smaller")
-    assert answered.tabs.currentIndex() == WHERE  # it was not asked for here
+    assert answered.result.tabs.currentIndex() == WHERE  # it was not asked for here
 
 
 def test_a_new_motion_stays_where_the_records_went_and_is_asked_about(
     qtbot, window, answered, diagnosis, record
 ):
-    click(qtbot, answered.motion)
+    click(qtbot, answered.result.motion)
     qtbot.waitUntil(lambda: question(window) is not None, timeout=LONG_MS)
     click(qtbot, question(window).button(QMessageBox.StandardButton.No))
     motion = new_motion(diagnosis, [record], ["thx", "thy"])

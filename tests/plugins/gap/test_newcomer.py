@@ -80,24 +80,26 @@ def test_five_clicks_name_a_hidden_effect_and_a_new_motion_shows_the_gap_shrink(
     hand.click(dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Open))
     assert hand.clicks == 5
     qtbot.waitUntil(lambda: page.answer is not None, timeout=LONG_MS)
-    named = page.verdict.text()
+    named = page.result.headline.sentence.text()
     assert len(page.answer.records) == count
 
-    hand.click(page.twin)
+    hand.click(page.result.twin)
     dialog = hand.dialog(window, QFileDialog)
     hand.click(dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Save))
     qtbot.waitUntil(lambda: page.robots.currentText() == "twin.toml", timeout=SOON_MS)
     assert load_robot(records / "twin.toml").effects == page.answer.diagnosis.fitted
 
-    hand.click(page.motion)
+    hand.click(page.result.motion)
     question = hand.dialog(window, QMessageBox)
     hand.click(question.button(QMessageBox.StandardButton.Yes))
-    qtbot.waitUntil(lambda: page.proof.proof is not None, timeout=LONG_MS)
-    assert page.views.currentWidget() is page.proof
-    qtbot.waitUntil(page.proof.isVisible, timeout=SOON_MS)
+    qtbot.waitUntil(lambda: page.result.proof.proof is not None, timeout=LONG_MS)
+    assert page.result.views.currentWidget() is page.result.proof
+    qtbot.waitUntil(page.result.proof.isVisible, timeout=SOON_MS)
 
     hidden = case.label()["effects"][0]  # only now
     assert effect_title(hidden["effect"]).lower() in named
-    shrunk = {one.trace.axis: one for one in page.proof.proof.shrunk if one.trace.tap == "meas"}
+    shrunk = {
+        one.trace.axis: one for one in page.result.proof.proof.shrunk if one.trace.tap == "meas"
+    }
     assert shrunk[hidden["axis"]].times >= LEAST_TIMES
-    assert "×" in page.proof.table.texts()[0][4]
+    assert "×" in page.result.proof.table.texts()[0][4]

@@ -1,7 +1,5 @@
 """Which of the model's own parameters is a cause, beside rivals that are fitted without it."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from rotemina.sim.gap import attribution
@@ -50,14 +48,3 @@ def test_what_was_fitted_without_an_own_parameter_may_take_its_place(monkeypatch
     found = attributed(seen, bare, late)
     assert ("delay", None) in found.ids
     assert {name for name, _ in found.ids} <= {"delay", GAIN}
-
-
-def test_evidence_is_sent_without_its_caches_and_listeners():
-    seen = replace(evidence(LATE), heartbeat=lambda: None)
-    residual = seen.residual()
-    assert seen._runs
-    make, figures = seen.__reduce__()
-    sent = make(*figures)
-    assert sent.heartbeat is not seen.heartbeat
-    assert not sent._runs
-    np.testing.assert_allclose(sent.residual(), residual)

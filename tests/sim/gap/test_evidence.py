@@ -1,9 +1,16 @@
-"""Evidence: what records of unknown memory leave."""
+"""Evidence: what records of unknown memory leave, and what of it goes to another process."""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from rotemina.sim.gap.evidence import beside
+
+sys.path.insert(0, str(Path(__file__).parent))  # no test module: the records
+from short_records import LATE, evidence
 
 PARALLEL = np.outer(1e8 * np.sin(np.linspace(0.0, 9.0, 2000)), [1.0, 1.0])
 
@@ -21,3 +28,14 @@ def test_a_memory_is_taken_in_amounts_of_about_one():
     memory = np.full(4, 0.5)
     left = beside([memory], 3.0 * memory)
     assert left == pytest.approx(1.5 * memory)  # mᵀm = 1: half of what would take all away
+
+
+def test_evidence_is_sent_without_its_caches_and_listeners():
+    seen = replace(evidence(LATE), heartbeat=lambda: None)
+    residual = seen.residual()
+    assert seen._runs
+    make, figures = seen.__reduce__()
+    sent = make(*figures)
+    assert sent.heartbeat is not seen.heartbeat
+    assert not sent._runs
+    np.testing.assert_allclose(sent.residual(), residual)

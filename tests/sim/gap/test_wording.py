@@ -15,7 +15,6 @@ from rotemina.sim.gap.diagnosis import (
     Verdict,
 )
 from rotemina.sim.gap.wording import details, findings, summary
-from rotemina.sim.messages import AxisName, EffectName, Listed, Wording, message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 
@@ -98,21 +97,3 @@ def test_axes_without_a_gap_come_last_and_poor_records_say_so():
         "No gap of its own on x and y.",
     ]
     assert details(Diagnosis(ROBOT, quiet), []) == summary(Diagnosis(ROBOT, quiet), [])
-
-
-def test_a_message_is_rendered_by_whoever_shows_it():
-    class Loud(Wording):
-        def text(self, context, template):
-            return f"[{context}] {template.upper().replace('{WHO}', '{who}')}"
-
-        def axis(self, name):
-            return f"axis {name}"
-
-        def conjunction(self, *, one_of_them):
-            return "oder" if one_of_them else "und"
-
-    who = Listed((AxisName("x"), EffectName("creep"), "nobody", message("a", "me")), True)
-    said = message("b", "it was {who}").fill(who=who)
-    assert Loud().of(said) == "[b] IT WAS axis x, creep, nobody oder [a] ME"
-    assert str(said) == "it was x, creep, nobody or me"
-    assert str(message("b", "{e}").fill(e=EffectName("of_a_plugin"))) == "of_a_plugin"

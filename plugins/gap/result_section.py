@@ -1,0 +1,215 @@
+"""The result of a diagnosis: its sentence and axes, the views, and what can be done about it."""
+
+from PySide6.QtCore import QSignalBlocker
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QMenu,
+    QPushButton,
+    QStackedWidget,
+    QTabBar,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.labels import hint
+from rotemina.plugins.gap.advice import readiness
+from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.axis_cells import AxisCells
+from rotemina.plugins.gap.causes_view import CausesView
+from rotemina.plugins.gap.distribution_view import DistributionView
+from rotemina.plugins.gap.headline_view import Headline
+from rotemina.plugins.gap.progress_view import ProgressView
+from rotemina.plugins.gap.proof import Proof
+from rotemina.plugins.gap.proof_view import ProofView
+from rotemina.plugins.gap.shrinkage_view import ShrinkageView
+
+VIEWS = (
+    marked("gap", "Where"),
+    marked("gap", "Which effect"),
+    marked("gap", "How far"),
+    marked("gap", "Unseen motion"),
+)
+WHERE, WHICH, FAR, PROOF, RUNNING, HINT = range(6)
+TIPS = (
+    marked("gap", "Axis, channel, frequencies and kind of motion in which the gap lies"),
+    marked("gap", "Candidates with their probabilities, explanation and advice"),
+    marked("gap", "How far the gap shrinks with the causes, down to the noise floor"),
+    marked("gap", "How far it shrinks on a motion that the diagnosis has not seen"),
+)
+_WIDEST = 1400  # px: longer lines read worse
+_NO_ANSWER = marked("gap", "there is no diagnosis yet; diagnose records first")
+
+
+class ResultSection(QWidget):
+    """The main column of the page; its buttons are connected by the panel."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._answer: Answer | None = None
+        self._make_buttons()
+        self._make_views(theme)
+        self._lay_out()
+        self.cells.chosen.connect(self._show_axis)
+
+    def _make_buttons(self) -> None:
+        self.use = QPushButton(translate("gap", "Use corrected model"))
+        self.twin = QPushButton(translate("gap", "Add to twin …"))
+        self.motion = QPushButton(translate("gap", "New motion …"))
+        self.report = QPushButton(translate("gap", "Report …"))
+        self.more = QToolButton()
+        self.more.setText(translate("gap", "More"))
+        self.more.setToolTip(
+            translate("gap", "Save the diagnosis as JSON; test how often the diagnosis is correct")
+        )
+        self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.menu = menu = QMenu(self)
+        self.save = menu.addAction(translate("gap", "Save JSON …"))
+        self.test = menu.addAction(translate("gap", "Blind test …"))
+        menu.addSeparator()
+        self.hide_machine = menu.addAction(translate("gap", "Hidden machine …"))
+        self.reveal = menu.addAction(translate("gap", "Reveal"))
+        self.more.setMenu(menu)
+
+    def _make_views(self, theme: Theme) -> None:
+        self.distribution, self.causes, self.shrinkage = (
+            DistributionView(theme),
+            CausesView(theme),
+            ShrinkageView(theme),
+        )
+        self.proof, self.running = ProofView(theme), ProgressView(theme)
+        self.hint = hint(readiness(0))
+        self.views = QStackedWidget()
+        for view in (
+            self.distribution,
+            self.causes,
+            self.shrinkage,
+            self.proof,
+            self.running,
+            self.hint,
+        ):
+            self.views.addWidget(view)
+        self.tabs = QTabBar()
+        self.tabs.setAccessibleName(translate("gap", "View"))
+        self.tabs.setExpanding(False)
+        self.tabs.setDrawBase(False)
+        for number, name in enumerate(VIEWS):
+            self.tabs.addTab(translate("gap", name))
+            self.tabs.setTabToolTip(number, translate("gap", TIPS[number]))
+        self.headline = Headline([self.use], [self.twin, self.report, self.more])
+        self.plan = QPushButton(translate("gap", "Play next experiment …"))
+        self.plan.setToolTip(
+            plain_tip(
+                translate(
+                    "gap",
+                    "Play the motion that best distinguishes the candidates, and diagnose its "
+                    "record with the others",
+                )
+            )
+        )
+        self.cells = AxisCells(theme)
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        head.setSpacing(8)
+        head.addWidget(self.tabs)
+        head.addStretch(1)
+        head.addWidget(self.plan)
+        head.addWidget(self.motion)
+        self.setMaximumWidth(_WIDEST)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(6)
+        for widget in (self.headline, self.cells):
+            column.addWidget(widget)
+        column.addLayout(head)
+        column.addWidget(self.views, 1)
+
+    # --- what is shown ----------------------------------------------------------------------------
+
+    def show_answer(self, answer: Answer) -> None:
+        """Show a diagnosis, of which no motion has said anything yet."""
+        self._answer = answer
+        self.distribution.show_answer(answer)
+        self.proof.show_proof(None)
+        self.cells.show_answer(answer)
+        self.headline.show_answer(answer, None)
+
+    def show_proof(self, answer: Answer, proof: Proof) -> None:
+        """Show what a new motion says of a diagnosis."""
+        self.proof.show_proof(proof)
+        self.headline.show_answer(answer, proof)
+
+    def bring_up_proof(self) -> None:
+        """Turn to what a new motion says."""
+        with QSignalBlocker(self.tabs):
+            self.tabs.setCurrentIndex(PROOF)
+
+    def show_state(self, answer: Answer | None, chosen: int, *, running: bool) -> None:
+        """Offer what can be done with an answer, while a diagnosis of ``chosen`` records runs."""
+        why = translate("gap", _NO_ANSWER) if answer is None else None
+        found = unfound(answer)
+        allow(
+            self.twin,
+            found,
+            translate("gap", "Write a robot file of the model with the causes found"),
+        )
+        allow(
+            self.motion,
+            found,
+            translate("gap", "Play a motion that no record contains, and measure its gap"),
+        )
+        allow(
+            self.report,
+            why,
+            translate("gap", "Write the report with all figures, and open it"),
+        )
+        self.save.setEnabled(why is None)
+        done = answer is not None and not running
+        self.plan.setVisible(done and bool(answer and answer.diagnosis.experiments))
+        self.tabs.setVisible(done)
+        for widget in (self.headline, self.cells, self.motion):
+            widget.setVisible(done)
+        self.hint.setText(readiness(chosen))
+        shown = self.tabs.currentIndex() if done else RUNNING if running else HINT
+        self.views.setCurrentIndex(shown)
+
+    def offer_use(self, why_not: str | None, doubt: str | None) -> None:
+        """Offer the corrected model: after a question where there is a doubt about it."""
+        said = translate(
+            "gap",
+            "Predictions only: commands to the machine do not change. The panel "
+            "Compensation changes them.",
+        )
+        self.use.setText(
+            translate("gap", "Use anyway …") if doubt else translate("gap", "Use corrected model")
+        )
+        set_property(self.use, "primary", doubt is None)
+        allow(self.use, why_not, "\n".join(filter(None, (doubt, said))))
+
+    def set_theme(self, theme: Theme) -> None:
+        """Change all colours."""
+        for view in (
+            self.distribution,
+            self.causes,
+            self.shrinkage,
+            self.proof,
+            self.running,
+            self.cells,
+        ):
+            view.set_theme(theme)
+
+    def _show_axis(self, axis: str) -> None:
+        if self._answer is not None:
+            self.causes.show_axis(self._answer, axis)
+            self.shrinkage.show_axis(self._answer, axis)
+
+
+def unfound(answer: Answer | None) -> str | None:
+    """Return why there is no cause to do anything about; None: there is one."""
+    if answer is None:
+        return translate("gap", _NO_ANSWER)
+    return None if answer.diagnosis.fitted else translate("gap", "no effect was found")

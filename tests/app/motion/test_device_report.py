@@ -1,0 +1,35 @@
+"""What a state takes over from the device, without a session."""
+
+import pytest
+
+from rotemina.app.motion.device_report import with_status
+from rotemina.app.motion.state import SessionState
+from rotemina.drivers.samples import DeviceState, DeviceStatus
+from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.robot.file import load_robot
+
+
+@pytest.fixture(scope="module")
+def driver():
+    return Simulator(load_robot("rotemina"))
+
+
+@pytest.mark.parametrize(
+    ("between_segments", "activity"), [(True, DeviceState.MOVING), (False, DeviceState.IDLE)]
+)
+def test_a_device_between_two_segments_still_moves(driver, between_segments, activity):
+    status = DeviceStatus(DeviceState.IDLE)
+    state = with_status(SessionState(), driver, status, between_segments=between_segments)
+    assert state.activity is activity
+
+
+def test_a_fault_between_two_segments_is_a_fault(driver):
+    status = DeviceStatus(DeviceState.FAULT, fault="axis x: lost steps")
+    state = with_status(SessionState(), driver, status, between_segments=True)
+    assert (state.activity, state.fault) == (DeviceState.FAULT, "axis x: lost steps")
+
+
+def test_a_fault_stays_until_it_is_cleared(driver):
+    before = SessionState(fault="axis x: lost steps")
+    status = DeviceStatus(DeviceState.IDLE)
+    assert with_status(before, driver, status, between_segments=False).fault == before.fault
