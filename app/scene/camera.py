@@ -8,12 +8,12 @@ import numpy as np
 from rotemina.app.scene.scene import Command
 from rotemina.sim.arrays import FloatArray
 
-_HALF_HEIGHT = np.tan(np.radians(72.0) / 2)  # of the picture, at unit distance
+_HALF_HEIGHT = np.tan(np.radians(62.0) / 2)  # of the picture, at unit distance
 _STEEPEST = np.radians(89.9)  # exactly upright has no heading
 _NEAREST_M, _FARTHEST_M = 2e-5, 2.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Camera:
     """Looks at ``target`` from ``offset`` away from it, both (3,), m, z up.
 

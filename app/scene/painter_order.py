@@ -4,7 +4,7 @@ import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
 
-_TOUCHING = 0.05  # of the smaller of two sizes: solids that overlap by less are beside each other
+_TOUCHING = 0.3  # of the smaller of two sizes: solids that overlap by less are beside each other
 
 
 def painter_order(low: FloatArray, high: FloatArray, eye: FloatArray, veil: BoolArray) -> list[int]:

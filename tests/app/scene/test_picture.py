@@ -46,7 +46,7 @@ def test_a_known_point_is_at_its_pixel():
     (middle, right, above) = pixels(
         camera().seen(np.array([[0, 0, 0], [0.1, 0, 0], [0, 0, 0.1]])), WIDTH, HEIGHT
     )
-    per_metre = HEIGHT / 2 / np.tan(np.radians(36))  # an angle of 72° from top to bottom
+    per_metre = HEIGHT / 2 / np.tan(np.radians(31))  # an angle of 62° from top to bottom
     assert middle == pytest.approx([400, 300])
     assert right == pytest.approx([400 + 0.1 * per_metre, 300])
     assert above == pytest.approx([400, 300 - 0.1 * per_metre])

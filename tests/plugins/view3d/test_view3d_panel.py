@@ -108,9 +108,9 @@ def test_a_moved_axis_moves_pixels_and_a_standing_one_draws_nothing(qtbot, windo
     canvas, scene = panel.canvas, panel.robot_scene
     window.workbench.shown.disconnect(panel.refresh)
     state = window.workbench.session.snapshot()
-    canvas.follow()
-    before = canvas.grab().toImage()
-    painted = canvas.painted
+    panel.refresh(state)
+    qtbot.wait(60)
+    before, painted = canvas.grab().toImage(), canvas.painted
     panel.refresh(state)
     qtbot.wait(60)
     assert canvas.painted == painted
