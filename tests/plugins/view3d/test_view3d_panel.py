@@ -2,6 +2,7 @@
 
 import threading
 import time
+from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -104,19 +105,20 @@ def test_the_mouse_turns_shifts_zooms_and_resets(qtbot, panel):
     qtbot.mouseRelease(canvas, LEFT)
 
 
-def test_a_moved_axis_moves_pixels_and_a_standing_one_draws_nothing(qtbot, window, panel):
-    canvas, scene = panel.canvas, panel.robot_scene
+def test_a_moved_axis_moves_pixels_and_a_standing_one_draws_nothing(window, panel, monkeypatch):
+    canvas, asked = panel.canvas, []
     window.workbench.shown.disconnect(panel.refresh)
     state = window.workbench.session.snapshot()
     panel.refresh(state)
-    qtbot.wait(60)
-    before, painted = canvas.grab().toImage(), canvas.painted
+    before = canvas.grab().toImage()
+    monkeypatch.setattr(canvas, "redraw", lambda: asked.append(1))
     panel.refresh(state)
-    qtbot.wait(60)
-    assert canvas.painted == painted
-    scene.show(type(scene._reading)(state.measured | {"x": state.measured["x"] + 1e-3}, {}))
-    canvas.follow()
-    qtbot.waitUntil(lambda: canvas.painted > painted, timeout=LONG_MS)
+    nanometre = state.measured | {"x": state.measured["x"] + 1e-9}
+    panel.refresh(replace(state, measured=nanometre))
+    assert asked == []
+    millimetre = state.measured | {"x": state.measured["x"] + 1e-3}
+    panel.refresh(replace(state, measured=millimetre))
+    assert asked == [1]
     assert canvas.grab().toImage() != before
 
 
