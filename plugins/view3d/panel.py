@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QGuiApplication
@@ -26,6 +27,9 @@ from rotemina.plugins.view3d.canvas import Canvas
 from rotemina.plugins.view3d.serving import Serving
 from rotemina.sim.kinematics.chain import ChainError
 from rotemina.sim.robot.model import Robot
+
+if TYPE_CHECKING:
+    from rotemina.app.scene.server import ViewServer
 
 VIEWS = {
     View.BELOW: (marked("view3d", "From below"), marked("view3d", "View of the objective")),
@@ -98,10 +102,9 @@ class View3dPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.robot_scene, self._unfit = scene_of(workbench.robot, workbench.theme)
-        self.serving = self.canvas = None
-        if self.robot_scene is not None:
-            self.serving = Serving(self.robot_scene.scene)
-            self.canvas = Canvas(self.robot_scene.scene, workbench.theme)
+        scene = None if self.robot_scene is None else self.robot_scene.scene
+        self.serving = None if scene is None else Serving(scene)
+        self.canvas = None if scene is None else Canvas(scene, workbench.theme)
         self.busy = False
         self._make_widgets()
         self._lay_out()
@@ -138,7 +141,7 @@ class View3dPanel(Panel):
 
     def refresh(self, state: SessionState) -> None:
         """Hand the newest positions on, unless nobody sees them."""
-        scene, canvas, server = self.robot_scene, self.canvas, self.serving and self.serving.server
+        scene, canvas, server = self.robot_scene, self.canvas, self._server
         if scene is None or canvas is None:
             return
         watched = server is not None and server.watching > 0
@@ -153,10 +156,14 @@ class View3dPanel(Panel):
             scene.alive(time.monotonic())
             server.changed()
 
+    @property
+    def _server(self) -> "ViewServer | None":
+        return None if self.serving is None else self.serving.server
+
     # --- inside -----------------------------------------------------------------------------------
 
     def _browse(self) -> None:
-        server = self.serving and self.serving.server
+        server = self._server
         if server is None:
             return
         if not QDesktopServices.openUrl(QUrl(server.url)):
@@ -173,8 +180,8 @@ class View3dPanel(Panel):
             return
         change(self.robot_scene)
         self.canvas.follow()
-        if self.serving is not None and self.serving.server is not None:
-            self.serving.server.changed()
+        if self._server is not None:
+            self._server.changed()
 
     def _set_busy(self, busy: bool) -> None:
         self.busy = busy
