@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import metadata
-from importlib.util import find_spec
 from pathlib import Path
 
 from packaging.requirements import Requirement
@@ -76,7 +75,6 @@ def examine(environment: Mapping[str, str]) -> Iterator[Finding]:
     yield dependencies(metadata.requires("rotemina") or ())
     yield qt_libraries(platform)
     yield from qt(platform)
-    yield web_engine()
     yield serial_ports([port.device for port in comports()])
     yield joysticks(HidSource())
     folders = {
@@ -188,20 +186,6 @@ def _rendering(renderer: str) -> Finding:
         "engine", "Plots need no GPU; the 3-D view is slower. A graphics driver speeds it up."
     )
     return Finding("rendering", State.LIMITED, seen, advice)
-
-
-def web_engine() -> Finding:
-    """Look for Qt WebEngine, which shows the 3-D view inside the window."""
-    try:
-        there = find_spec("PySide6.QtWebEngineWidgets") is not None
-    except ModuleNotFoundError:
-        there = False
-    if there:
-        return Finding("Qt WebEngine", State.GOOD, message("engine", "installed"))
-    advice = message(
-        "engine", "pip install 'rotemina[view3d]', or open the 3-D view in the browser."
-    )
-    return Finding("Qt WebEngine", State.LIMITED, message("engine", "not installed"), advice)
 
 
 def serial_ports(devices: Sequence[str], may: Callable[[str], bool] | None = None) -> Finding:

@@ -1,1 +1,1 @@
-"""The robot as a scene in three dimensions, and the server that shows it to a browser."""
+"""The robot as a scene in three dimensions, its picture, and its server for browsers."""

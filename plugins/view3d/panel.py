@@ -1,8 +1,8 @@
-"""The robot in three dimensions, inside the window or in a browser."""
+"""The robot in three dimensions, inside the window and in browsers."""
 
-import os
 import time
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QGuiApplication
@@ -11,9 +11,7 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QStackedWidget,
     QVBoxLayout,
-    QWidget,
 )
 
 from rotemina.app.motion.state import SessionState
@@ -25,11 +23,13 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
-from rotemina.plugins.view3d import embedding
-from rotemina.plugins.view3d.embedding import WebProcess
+from rotemina.plugins.view3d.canvas import Canvas
 from rotemina.plugins.view3d.serving import Serving
 from rotemina.sim.kinematics.chain import ChainError
 from rotemina.sim.robot.model import Robot
+
+if TYPE_CHECKING:
+    from rotemina.app.scene.server import ViewServer
 
 VIEWS = {
     View.BELOW: (marked("view3d", "From below"), marked("view3d", "View of the objective")),
@@ -47,18 +47,7 @@ GHOSTS = {
     marked("view3d", "Real"): (Ghost.REAL,),
 }
 FACTORS = (1, 10, 50, 100, 200)
-INTRODUCTION = marked(
-    "view3d",
-    "The whole robot in three dimensions, as the model predicts it and as the "
-    "sensors read it. This program draws it; nothing leaves this computer.",
-)
 STARTING = marked("view3d", "Starting the 3-D view …")
-OWN_WINDOW = marked("view3d", "On this display the view opens in a window of its own.")
-LOST = marked(
-    "view3d",
-    "The view has ended ({why}); the rest of the program continues. Show the "
-    "view again, or use the browser.",
-)
 NO_BROWSER = marked(
     "view3d",
     "No browser could be opened. The address is on the clipboard: paste it into a browser on this "
@@ -103,7 +92,7 @@ def colours_of(theme: Theme) -> Colours:
 
 
 class View3dPanel(Panel):
-    """Asks first where to show the view: nothing is started before."""
+    """Draws the robot, and serves it to browsers from the first that is asked for."""
 
     title = marked("panels", "3-D view")
     area = Area.BOTTOM
@@ -113,9 +102,9 @@ class View3dPanel(Panel):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
         self.robot_scene, self._unfit = scene_of(workbench.robot, workbench.theme)
-        self.serving = None if self.robot_scene is None else Serving(self.robot_scene.scene)
-        self._view: WebProcess | None = None
-        self.own_window = False
+        scene = None if self.robot_scene is None else self.robot_scene.scene
+        self.serving = None if scene is None else Serving(scene)
+        self.canvas = None if scene is None else Canvas(scene, workbench.theme)
         self.busy = False
         self._make_widgets()
         self._lay_out()
@@ -124,29 +113,27 @@ class View3dPanel(Panel):
         workbench.theme_changed.connect(self._use_theme)
         workbench.closing.connect(self._close)
 
-    @property
-    def in_sight(self) -> bool:
-        """Whether any of the panel can be seen; a dock behind another one counts as visible."""
-        return self.isVisible() and not self.visibleRegion().isEmpty()
-
     # --- what is asked for ------------------------------------------------------------------------
-
-    def open_here(self) -> None:
-        """Show the view inside the window."""
-        self._serve(self._embed)
 
     def open_in_browser(self) -> None:
         """Show the view in the browser of the desktop; several may look at once."""
-        self._serve(self._browse)
+        if self.serving is None or self.busy:
+            return
+        if self.serving.server is not None:
+            self._browse()
+            return
+        self._set_busy(True)
 
-    def close_view(self, wait: bool = False) -> None:
-        """Take the view out of the window; browsers go on."""
-        view, self._view = self._view, None
-        self.stack.setCurrentIndex(0)
-        if view is not None:
-            view.release(wait)
-        self.busy = self.own_window = False
-        self.show_state()
+        def done(_: None) -> None:
+            self._set_busy(False)
+            self._browse()
+
+        def failed() -> None:
+            self._set_busy(False)
+
+        self.workbench.work(
+            "view3d", translate("view3d", STARTING), self.serving.start, done, failed
+        )
 
     def look(self, view: View) -> None:
         """Look from there, in every viewer."""
@@ -154,76 +141,29 @@ class View3dPanel(Panel):
 
     def refresh(self, state: SessionState) -> None:
         """Hand the newest positions on, unless nobody sees them."""
-        scene, server = self.robot_scene, self.serving and self.serving.server
-        if scene is None or server is None:
+        scene, canvas, server = self.robot_scene, self.canvas, self._server
+        if scene is None or canvas is None:
             return
-        hidden = self._view is not None and not self.own_window and not self.in_sight
-        out_of_sight = 1 if hidden else 0
-        if server.watching <= out_of_sight:
+        watched = server is not None and server.watching > 0
+        if not watched and not canvas.in_sight:
             return
         bench = self.workbench
         live = bench.source is bench.session
         scene.bound(bench.session.bounds.keep_out if live else None)
         scene.show(Reading(state.measured, state.model, state.age_s))
-        scene.alive(time.monotonic())
-        server.changed()
+        canvas.follow()
+        if server is not None and watched:
+            scene.alive(time.monotonic())
+            server.changed()
 
-    # --- opening ----------------------------------------------------------------------------------
+    @property
+    def _server(self) -> "ViewServer | None":
+        return None if self.serving is None else self.serving.server
 
-    def _serve(self, then: Callable[[], None]) -> None:
-        """Start the server in the background, if there is none yet, and go on."""
-        if self.serving is None or self.busy:
-            return
-        if self.serving.server is not None:
-            then()
-            return
-        self.busy = True
-        self.show_state()
-
-        def done(_: None) -> None:
-            self.busy = False
-            then()
-            self.show_state()
-
-        def failed() -> None:
-            self.busy = False
-            self.show_state()
-
-        self.workbench.work(
-            "view3d", translate("view3d", STARTING), self.serving.start, done, failed
-        )
-
-    def _embed(self) -> None:
-        server = self.serving and self.serving.server
-        if server is None or self._view is not None:
-            return
-        self.busy = True
-        self._view = view = WebProcess(self)
-        view.made.connect(self._adopt)
-        view.loaded.connect(self._came)
-        view.ended.connect(self._ended)
-        view.stop_asked.connect(self.workbench.stop)
-        view.latch_asked.connect(self.workbench.emergency_stop)
-        view.start(server.url)
-        self.show_state()
-
-    def _adopt(self, widget: QWidget | None) -> None:
-        if widget is not None:
-            widget.setAccessibleName(translate("view3d", "The robot in three dimensions"))
-            self.stack.addWidget(widget)
-            self.stack.setCurrentWidget(widget)
-        self.own_window = widget is None
-
-    def _came(self) -> None:
-        self.busy = False
-        self.show_state()
-
-    def _ended(self, why: str) -> None:
-        self.close_view()
-        self.show_state(translate("view3d", LOST).format(why=why))
+    # --- inside -----------------------------------------------------------------------------------
 
     def _browse(self) -> None:
-        server = self.serving and self.serving.server
+        server = self._server
         if server is None:
             return
         if not QDesktopServices.openUrl(QUrl(server.url)):
@@ -232,55 +172,35 @@ class View3dPanel(Panel):
             self.workbench.notify(Level.WARNING, translate("view3d", NO_BROWSER), about=self)
 
     def _close(self) -> None:
-        self.close_view(wait=True)
         if self.serving is not None:
             self.serving.close()
 
-    # --- inside -----------------------------------------------------------------------------------
-
     def _change(self, change: Callable[[RobotScene], None]) -> None:
-        if self.robot_scene is None:
+        if self.robot_scene is None or self.canvas is None:
             return
         change(self.robot_scene)
-        if self.serving is not None and self.serving.server is not None:
-            self.serving.server.changed()
+        self.canvas.follow()
+        if self._server is not None:
+            self._server.changed()
 
-    def show_state(self, trouble: str = "") -> None:
+    def _set_busy(self, busy: bool) -> None:
+        self.busy = busy
+        self.show_state()
+
+    def show_state(self) -> None:
         """Show what can be done now, and why not."""
-        unfit = embedding.why_not(os.environ, embedding.user_number())
         busy = translate("view3d", "the view is being opened") if self.busy else None
-        served = self.serving is not None and self.serving.server is not None
-        lines = [self._unfit or translate("view3d", INTRODUCTION)]
-        if self.busy:
-            lines.append(translate("view3d", STARTING))
-        elif self.own_window:
-            lines.append(translate("view3d", OWN_WINDOW))
-        elif self._unfit is None:
-            lines += [unfit or "", trouble]
-        self.words.setText("\n\n".join(line for line in lines if line))
-        here = translate("view3d", "it is already open here") if self._view else None
-        allow(
-            self.here,
-            self._unfit or unfit or busy or here,
-            translate("view3d", "Show the view in this panel"),
-        )
         allow(
             self.browser,
             self._unfit or busy,
             translate("view3d", "Show the view in the browser of this desktop"),
         )
-        allow(
-            self.end,
-            None if self._view else translate("view3d", "it is not open here"),
-            translate("view3d", "Close the view"),
-        )
-        closed = None if served else translate("view3d", "open the view first")
         for view, button in self.views.items():
-            allow(button, closed, translate("view3d", VIEWS[view][1]))
-        allow(self.ghosts, closed, translate("view3d", "Robots to draw"))
+            allow(button, self._unfit, translate("view3d", VIEWS[view][1]))
+        allow(self.ghosts, self._unfit, translate("view3d", "Robots to draw"))
         allow(
             self.factor,
-            closed,
+            self._unfit,
             translate("view3d", "Enlarge the motion of thx, thy and zn about mid-range"),
         )
 
@@ -305,16 +225,8 @@ class View3dPanel(Panel):
         self.factor.currentIndexChanged.connect(
             lambda at: self._change(lambda scene: scene.exaggerate(float(FACTORS[at])))
         )
-        self.here = QPushButton(translate("view3d", "Show here"))
-        self.here.clicked.connect(self.open_here)
         self.browser = QPushButton(translate("view3d", "Open in the browser"))
         self.browser.clicked.connect(self.open_in_browser)
-        self.end = QPushButton(translate("view3d", "Close"))
-        self.end.clicked.connect(self.close_view)
-        self.words = QLabel()
-        self.words.setTextFormat(Qt.TextFormat.PlainText)
-        self.words.setWordWrap(True)
-        self.words.setAlignment(Qt.AlignmentFlag.AlignCenter)
 
     def _lay_out(self) -> None:
         above, below = QHBoxLayout(), QHBoxLayout()  # one row would widen a small window
@@ -324,22 +236,23 @@ class View3dPanel(Panel):
         for widget in (self.ghosts, self.factor):
             below.addWidget(widget)
         below.addStretch(1)
-        for button in (self.here, self.browser, self.end):
-            below.addWidget(button)
-        self.stack = QStackedWidget()
-        start = QWidget()
-        column = QVBoxLayout(start)
-        column.addStretch(1)
-        column.addWidget(self.words)
-        column.addStretch(1)
-        self.stack.addWidget(start)
+        below.addWidget(self.browser)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(10, 6, 10, 6)
         outer.addLayout(above)
         outer.addLayout(below)
-        outer.addWidget(self.stack, 1)
+        outer.addWidget(self.canvas or self._reason(), 1)
+
+    def _reason(self) -> QLabel:
+        words = QLabel(self._unfit)
+        words.setTextFormat(Qt.TextFormat.PlainText)
+        words.setWordWrap(True)
+        words.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        return words
 
     def _use_theme(self, theme: Theme) -> None:
+        if self.canvas is not None:
+            self.canvas.set_theme(theme)
         self._change(lambda scene: scene.paint(colours_of(theme)))
 
 

@@ -4951,10 +4951,6 @@
         <translation>Diagramme brauchen keine GPU; die 3-D-Ansicht ist langsamer. Ein Grafiktreiber beschleunigt sie.</translation>
     </message>
     <message>
-        <source>pip install &apos;rotemina[view3d]&apos;, or open the 3-D view in the browser.</source>
-        <translation>pip install &apos;rotemina[view3d]&apos;, oder die 3-D-Ansicht im Browser öffnen.</translation>
-    </message>
-    <message>
         <source>the clock stands still</source>
         <translation>die Uhr steht still</translation>
     </message>
@@ -4969,10 +4965,6 @@
     <message>
         <source>Commands work anyway. Start the window from a desktop.</source>
         <translation>Befehle funktionieren trotzdem. Das Fenster von einem Desktop aus starten.</translation>
-    </message>
-    <message>
-        <source>not installed</source>
-        <translation>nicht installiert</translation>
     </message>
     <message>
         <source>See &apos;When a joystick is missing&apos; in docs/inputs.md.</source>
@@ -4997,10 +4989,6 @@
     <message>
         <source>by software ({renderer})</source>
         <translation>durch Software ({renderer})</translation>
-    </message>
-    <message>
-        <source>installed</source>
-        <translation>installiert</translation>
     </message>
     <message>
         <source>none connected</source>

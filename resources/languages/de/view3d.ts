@@ -11,60 +11,24 @@
 <context>
     <name>view3d</name>
     <message>
-        <source>Qt WebEngine does not run for the user root. Use the browser.</source>
-        <translation>Qt WebEngine läuft nicht für den Benutzer root. Den Browser benutzen.</translation>
-    </message>
-    <message>
-        <source>RoTeMiNa 3-D view</source>
-        <translation>RoTeMiNa 3-D-Ansicht</translation>
-    </message>
-    <message>
-        <source>the page was not loaded</source>
-        <translation>die Seite wurde nicht geladen</translation>
-    </message>
-    <message>
-        <source>exit status {code}</source>
-        <translation>Exit-Status {code}</translation>
-    </message>
-    <message>
         <source>The robot in three dimensions</source>
         <translation>Der Roboter in drei Dimensionen</translation>
+    </message>
+    <message>
+        <source>Drag to rotate, drag with the right button to shift, use the wheel to zoom, double-click to reset.</source>
+        <translation>Ziehen dreht, Ziehen mit der rechten Taste verschiebt, das Rad zoomt, Doppelklick setzt zurück.</translation>
     </message>
     <message>
         <source>the view is being opened</source>
         <translation>die Ansicht wird geöffnet</translation>
     </message>
     <message>
-        <source>Show the view in this panel</source>
-        <translation>Ansicht hier im Fenster zeigen</translation>
-    </message>
-    <message>
         <source>Show the view in the browser of this desktop</source>
         <translation>Ansicht im Browser zeigen</translation>
     </message>
     <message>
-        <source>it is not open here</source>
-        <translation>sie ist hier nicht offen</translation>
-    </message>
-    <message>
-        <source>Close the view</source>
-        <translation>Die Ansicht schließen</translation>
-    </message>
-    <message>
-        <source>open the view first</source>
-        <translation>zuerst die Ansicht öffnen</translation>
-    </message>
-    <message>
-        <source>Show here</source>
-        <translation>Hier zeigen</translation>
-    </message>
-    <message>
         <source>Open in the browser</source>
         <translation>Im Browser</translation>
-    </message>
-    <message>
-        <source>Close</source>
-        <translation>Schließen</translation>
     </message>
     <message>
         <source>There is nothing to draw. {error}</source>
@@ -151,18 +115,6 @@
         <translation>Keine Nachricht vom Programm: die Zeichnung ist veraltet.</translation>
     </message>
     <message>
-        <source>The whole robot in three dimensions, as the model predicts it and as the sensors read it. This program draws it; nothing leaves this computer.</source>
-        <translation>Der ganze Roboter in drei Dimensionen, nach dem Modell und nach den Messwerten. Dieses Programm zeichnet ihn; nichts verlässt diesen Rechner.</translation>
-    </message>
-    <message>
-        <source>On this display the view opens in a window of its own.</source>
-        <translation>Auf diesem Bildschirm öffnet sich die Ansicht in einem eigenen Fenster.</translation>
-    </message>
-    <message>
-        <source>The view has ended ({why}); the rest of the program continues. Show the view again, or use the browser.</source>
-        <translation>Die Ansicht ist beendet ({why}); der Rest des Programms läuft weiter. Erneut zeigen oder den Browser benutzen.</translation>
-    </message>
-    <message>
         <source>View of the objective</source>
         <translation>Blick des Objektivs</translation>
     </message>
@@ -179,10 +131,6 @@
         <translation>thx, thy, zn {factor:g}-fach um die Bereichsmitte vergrößert; die Spitze ist nicht am rechten Ort gezeichnet</translation>
     </message>
     <message>
-        <source>it is already open here</source>
-        <translation>sie ist hier schon offen</translation>
-    </message>
-    <message>
         <source>Robots to draw</source>
         <translation>Gezeichnete Roboter</translation>
     </message>
@@ -193,10 +141,6 @@
     <message>
         <source>Magnification of nano motion</source>
         <translation>Vergrößerung der Nanobewegung</translation>
-    </message>
-    <message>
-        <source>Qt WebEngine, which displays the view inside the window, is not installed. Install it with  pip install &apos;rotemina[view3d]&apos;  or use the browser.</source>
-        <translation>Qt WebEngine, das die Ansicht im Fenster zeigt, ist nicht installiert. Installieren mit  pip install &apos;rotemina[view3d]&apos;  oder den Browser benutzen.</translation>
     </message>
 </context>
 </TS>

@@ -1,65 +1,29 @@
-"""The 3-D panel: nothing is started unasked, what is shown follows, and what it says."""
+"""The 3-D panel: it draws when seen, follows what is shown and the mouse; browsers are extra."""
 
 import threading
+import time
+from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QDesktopServices, QGuiApplication
-from PySide6.QtWidgets import QLabel
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QDesktopServices, QGuiApplication, QWheelEvent
 
 from rotemina.app.scene.views import View
 from rotemina.app.shell.theme import DARK, LIGHT
-from rotemina.plugins.view3d import embedding
-from rotemina.plugins.view3d import panel as panel_module
 from rotemina.plugins.view3d.panel import scene_of
 from rotemina.sim.robot.file import load_robot
 
 PANELS = ("comparison",)
 
 LONG_MS = 30_000
-
-
-class FakeProcess(QObject):
-    """Stands for the process that draws the view in the window."""
-
-    made = Signal(object)
-    loaded = Signal()
-    ended = Signal(str)
-    stop_asked = Signal()
-    latch_asked = Signal()
-    last = None
-
-    def __init__(self, parent):
-        super().__init__(parent)
-        FakeProcess.last = self
-        self.url = None
-        self.released = False
-
-    def start(self, url):
-        self.url = url
-
-    def release(self, wait=False):
-        self.released = True
+LEFT, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton
 
 
 @pytest.fixture
-def panel(window, monkeypatch):
-    monkeypatch.setattr(panel_module, "WebProcess", FakeProcess)
-    monkeypatch.setattr(embedding, "why_not", lambda environment, user: None)
+def panel(qtbot, window):
     panel = window.panels["view3d"]
     window.docks["view3d"].raise_()
-    panel.show_state()
-    return panel
-
-
-@pytest.fixture
-def opened(qtbot, panel):
-    panel.here.click()
-    assert "Starting" in panel.words.text()
-    qtbot.waitUntil(lambda: panel._view is not None, timeout=LONG_MS)
-    view = FakeProcess.last
-    view.made.emit(QLabel("drawn"))
-    view.loaded.emit()
+    qtbot.waitUntil(lambda: panel.canvas.painted > 0, timeout=LONG_MS)
     return panel
 
 
@@ -76,32 +40,36 @@ def serving_threads():
     return [thread for thread in threading.enumerate() if thread.name == "3-D view"]
 
 
-def test_it_is_opened_shown_steered_lost_and_opened_again(qtbot, window, opened, monkeypatch):
-    panel, view = opened, FakeProcess.last
-    server = panel.serving.server
-    assert view.url == server.url
-    assert panel.stack.currentWidget().text() == "drawn"
-    assert panel.browser.isEnabled()
+def drag(qtbot, canvas, button=LEFT):
+    middle = canvas.rect().center()
+    qtbot.mousePress(canvas, button, pos=middle)
+    qtbot.mouseMove(canvas, middle + QPoint(40, 0))
+    qtbot.mouseRelease(canvas, button, pos=middle + QPoint(40, 0))
 
-    # Nobody has connected, so nothing is computed; with a viewer it follows, unless out of sight.
-    assert newest(panel, "alive") == []
-    monkeypatch.setattr(type(server), "watching", 1)
+
+def test_it_follows_what_is_shown_and_its_controls_unless_out_of_sight(qtbot, window, panel):
+    canvas = panel.canvas
     qtbot.waitUntil(lambda: len(newest(panel, "set_transform")) == 10, timeout=LONG_MS)
     window.workbench.session.go_to({"x": 0.0285})
     for ghost in ("real", "model"):
         path = f"/robot/{ghost}/x"
         qtbot.waitUntil(lambda p=path: abs(pose(panel, p)[12] - 0.0285) < 1e-6, timeout=LONG_MS)
+    assert newest(panel, "alive") == []  # for browsers alone
+
     window.docks["comparison"].raise_()
-    qtbot.waitUntil(lambda: not panel.in_sight, timeout=LONG_MS)
-    revision = panel.robot_scene.scene.changes().revision
+    qtbot.waitUntil(lambda: not canvas.in_sight, timeout=LONG_MS)
+    revision, painted = panel.robot_scene.scene.changes().revision, canvas.painted
     panel.refresh(window.workbench.session.snapshot())
     assert panel.robot_scene.scene.changes().revision == revision
+    panel.factor.setCurrentIndex(1)
+    qtbot.wait(60)
+    assert canvas.painted == painted
     window.docks["view3d"].raise_()
-    qtbot.waitUntil(lambda: panel.in_sight, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: canvas.in_sight, timeout=LONG_MS)
 
-    # What the controls do.
     panel.views[View.BELOW].click()
     assert newest(panel, "view")[0]["eye"][2] < 0
+    qtbot.waitUntil(lambda: canvas.picture.camera.offset[2] < 0, timeout=LONG_MS)
     panel.factor.setCurrentIndex(2)
     assert "50 ×" in newest(panel, "note")[0]["warnings"][0]
     panel.ghosts.setCurrentText("Model")
@@ -114,46 +82,82 @@ def test_it_is_opened_shown_steered_lost_and_opened_again(qtbot, window, opened,
         lambda: any(c["path"] == path for c in newest(panel, "set_object")), timeout=LONG_MS
     )
 
-    # Esc in the view stops; one that has ended takes nothing with it.
-    view.latch_asked.emit()
-    assert window.workbench.session.snapshot().latched is not None
-    view.ended.emit("exit status -6")
-    assert view.released
-    assert "exit status -6" in panel.words.text()
-    assert panel.stack.currentIndex() == 0
-    panel.here.click()
-    assert FakeProcess.last is not view
-    assert FakeProcess.last.url == server.url
-    assert len(serving_threads()) == 1
-    window.workbench.close()
-    assert FakeProcess.last.released
-    assert serving_threads() == []
+
+def test_the_mouse_turns_shifts_zooms_and_resets(qtbot, panel):
+    canvas = panel.canvas
+    home = canvas.picture.camera
+    drag(qtbot, canvas)
+    turned = canvas.picture.camera
+    assert turned.offset[:2].tolist() != pytest.approx(home.offset[:2].tolist())
+    assert turned.offset[2] == pytest.approx(home.offset[2])
+    drag(qtbot, canvas, RIGHT)
+    shifted = canvas.picture.camera
+    assert shifted.target.tolist() != pytest.approx(home.target.tolist())
+    middle = QPointF(canvas.rect().center())
+    wheel = QWheelEvent(
+        middle, canvas.mapToGlobal(middle), QPoint(), QPoint(0, 120), Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QGuiApplication.sendEvent(canvas, wheel)
+    assert abs(canvas.picture.camera.offset).max() < abs(shifted.offset).max()
+    qtbot.mouseDClick(canvas, LEFT, pos=canvas.rect().center())
+    assert canvas.picture.camera is home
+    qtbot.mouseRelease(canvas, LEFT)
 
 
-def test_nothing_is_started_unasked_and_the_browser_gets_the_address(
+def test_a_moved_axis_moves_pixels_and_a_standing_one_draws_nothing(window, panel, monkeypatch):
+    canvas, asked = panel.canvas, []
+    window.workbench.shown.disconnect(panel.refresh)
+    state = window.workbench.session.snapshot()
+    panel.refresh(state)
+    before = canvas.grab().toImage()
+    monkeypatch.setattr(canvas, "redraw", lambda: asked.append(1))
+    panel.refresh(state)
+    nanometre = state.measured | {"x": state.measured["x"] + 1e-9}
+    panel.refresh(replace(state, measured=nanometre))
+    assert asked == []
+    millimetre = state.measured | {"x": state.measured["x"] + 1e-3}
+    panel.refresh(replace(state, measured=millimetre))
+    assert asked == [1]
+    assert canvas.grab().toImage() != before
+
+
+def test_many_changes_are_drawn_at_most_25_times_a_second(qtbot, panel):
+    canvas = panel.canvas
+    painted, began_s = canvas.painted, time.monotonic()
+    while time.monotonic() - began_s < 0.2:
+        canvas.redraw()
+        QGuiApplication.processEvents()
+    assert 1 <= canvas.painted - painted <= 1 + 25 * (time.monotonic() - began_s)
+
+
+def test_nothing_is_served_unasked_and_the_browser_gets_the_address(
     qtbot, window, panel, monkeypatch, caplog
 ):
     assert panel.serving.server is None
     assert serving_threads() == []
-    assert not panel.views[View.TOP].isEnabled()
-    assert "open the view first" in panel.views[View.TOP].toolTip()
-    reason = "Qt WebEngine is not installed; use the browser."
-    monkeypatch.setattr(embedding, "why_not", lambda environment, user: reason)
-    panel.show_state()
-    assert not panel.here.isEnabled()
-    assert reason in panel.words.text()
     opened = []
     monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: bool(opened.append(url)))
     panel.browser.click()
+    assert "opened" in panel.browser.toolTip()
     qtbot.waitUntil(lambda: opened != [], timeout=LONG_MS)
-    assert opened[0].toString() == panel.serving.server.url
+    server = panel.serving.server
+    assert opened[0].toString() == server.url
     # None could be opened: the address is a secret, and stays out of notices and the log.
-    assert QGuiApplication.clipboard().text() == panel.serving.server.url
+    assert QGuiApplication.clipboard().text() == server.url
     notices = " ".join(notice.text for notice in window.notices.notices())
     assert "clipboard" in notices
     for text in (notices, caplog.text):
-        assert panel.serving.server.url not in text
-    assert panel.views[View.TOP].isEnabled()
+        assert server.url not in text
+    # Browsers are told also while the panel is out of sight.
+    window.docks["comparison"].raise_()
+    qtbot.waitUntil(lambda: not panel.canvas.in_sight, timeout=LONG_MS)
+    monkeypatch.setattr(type(server), "watching", 1)
+    panel.refresh(window.workbench.session.snapshot())
+    assert newest(panel, "alive") != []
+    assert len(serving_threads()) == 1
+    window.workbench.close()
+    assert serving_threads() == []
 
 
 def test_a_robot_without_the_chain_gets_a_reason():
