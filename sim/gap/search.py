@@ -21,6 +21,7 @@ from rotemina.sim.gap.selection import (
     Selection,
     select,
 )
+from rotemina.sim.gap.wander import wander
 from rotemina.sim.robot.model import AxisEffect
 
 _GAP = 1.5  # mean square over the floor from which there is something to explain
@@ -141,9 +142,11 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
 
     What is left where the machine does most else may decide for causes that only bend to it. Even
     rows may show others in their place, but not more: cut down to the median, the gap makes small
-    causes look large.
+    causes look large. A sensor that wanders leaves uneven rows by nature.
     """
     evidence, aside, tried, best = first
+    if wander(evidence, best.fit.residual) is not None:
+        return first
     even = huber_weighted(evidence, [one.held_out for one in (best, *tried.tried)])
     if even is None:
         return first
