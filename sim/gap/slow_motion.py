@@ -42,12 +42,13 @@ class SlowMotion:
         command = _block_means(asked, rows)
         if np.var(command) <= _SLOW_SHARE * np.var(asked):
             return None
-        means = {
+        others = {
             other: _block_means(record.signal(other, Tap.CMD), rows)
             for other in record.axes
-            if other != axis and record.has(other, Tap.CMD)
+            if other != axis
+            and record.has(other, Tap.CMD)
+            and np.ptp(record.signal(other, Tap.CMD)) > 0.0
         }
-        others = {name: mean for name, mean in means.items() if np.any(mean)}
         return cls(command, others, rows)
 
     def read(self, signal: FloatArray) -> FloatArray:

@@ -39,7 +39,7 @@ def test_there_is_none_where_all_is_fast_or_little_is_recorded():
 
 
 def test_only_other_axes_that_move_are_listed():
-    found = slow(1e-6 * TIME_S, x=1e-6 * TIME_S**2, y=np.zeros_like(TIME_S))
+    found = slow(1e-6 * TIME_S, x=1e-6 * TIME_S**2, y=np.full_like(TIME_S, 0.01))
     assert set(found.others) == {"x"}
 
 
