@@ -12,7 +12,7 @@ from rotemina.app.microscope.settled_frame import Newest, SettledFrameGrabber
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.gate import Permit
 from rotemina.sim.errors import InputError
-from rotemina.sim.vision.focus import Autofocus, FocusPeak, sharpness
+from rotemina.sim.vision.autofocus import Autofocus, FocusPeak, sharpness
 
 
 class Search(StrEnum):

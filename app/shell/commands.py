@@ -5,10 +5,10 @@ from typing import NamedTuple, Protocol
 
 from rotemina.app.motion.state import Connection
 from rotemina.app.shell.about import show_about
-from rotemina.app.shell.arrangement import Arrangement
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.layouts import BUILT_IN
 from rotemina.app.shell.theme import THEMES
+from rotemina.app.shell.window_layout import Arrangement
 from rotemina.app.shell.workbench import Workbench
 
 _THEME_TEXTS = {

@@ -30,7 +30,7 @@ PAGES = {
     "rotemina.app.motion.state.CommandRefused": _LIMITS,
     "rotemina.app.motion.state.Faulted": _FAULTS,
     "rotemina.app.motion.teleoperation": "teleoperation.md",
-    "rotemina.app.motion.teleoperation.calibration": "input-mapping.md#calibration-files",
+    "rotemina.app.motion.teleoperation.axis_calibration": "input-mapping.md#calibration-files",
     "rotemina.app.motion.teleoperation.profile": "input-mapping.md#profiles-by-hand",
     "rotemina.app.plugin_kit": "plugins.md",
     "rotemina.app.records": "recording.md#the-library",

@@ -20,7 +20,6 @@ from PySide6.QtWidgets import (
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell import commands, key_help, layout_menu, layouts
-from rotemina.app.shell.arrangement import ArrangedWindow, Arrangement
 from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.entries import Entry, command_entries, panel_entries
 from rotemina.app.shell.file_dialog import ask_file, ask_where
@@ -49,6 +48,7 @@ from rotemina.app.shell.replay_bar import ReplayBar
 from rotemina.app.shell.status import StatusText
 from rotemina.app.shell.stops import StopWatch
 from rotemina.app.shell.support_page import SupportPage
+from rotemina.app.shell.window_layout import ArrangedWindow, Arrangement
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.sim.records.record import Record
 

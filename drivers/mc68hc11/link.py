@@ -25,7 +25,7 @@ from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.messages import message_of
 from rotemina.drivers.mc68hc11.port import Port
 from rotemina.drivers.mc68hc11.requests import Poll
-from rotemina.drivers.mc68hc11.setpoints import SetpointWindow
+from rotemina.drivers.mc68hc11.segment_window import SetpointWindow
 
 _EARLY_S = 3e-4  # before the line is free: what a frame may wait for it
 _IN_THE_WAY = 3 * MAX_FRAME  # bytes: telemetry, captured samples and the answer itself

@@ -14,8 +14,8 @@ from rotemina.drivers.mc68hc11.connection import Connected
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.orders import constant
 from rotemina.drivers.mc68hc11.parameters import CODES, PER_AXIS
-from rotemina.drivers.mc68hc11.player import Player
 from rotemina.drivers.mc68hc11.requests import Home, MoveTo, MoveVelocity, SetVoltage
+from rotemina.drivers.mc68hc11.segment_player import Player
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message

@@ -15,11 +15,11 @@ from rotemina.drivers.mc68hc11.link import Link
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.opening import Opening
 from rotemina.drivers.mc68hc11.parameter_check import Trust
-from rotemina.drivers.mc68hc11.player import Player
 from rotemina.drivers.mc68hc11.port import OpenPort
 from rotemina.drivers.mc68hc11.reports import Captured, Telemetry
 from rotemina.drivers.mc68hc11.requests import Poll, SetTelemetry, Watch
 from rotemina.drivers.mc68hc11.sampling import Row, Sampling
+from rotemina.drivers.mc68hc11.segment_player import Player
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message

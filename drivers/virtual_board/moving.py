@@ -9,7 +9,7 @@ from rotemina.drivers.mc68hc11 import requests
 from rotemina.drivers.mc68hc11.codes import SEGMENTS, Fault, Refusal
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.parameters import CODES
-from rotemina.drivers.mc68hc11.setpoints import ROUNDING
+from rotemina.drivers.mc68hc11.segment_window import ROUNDING
 from rotemina.drivers.virtual_board.firmware import Firmware
 from rotemina.drivers.virtual_board.homing import HomingAxis
 from rotemina.drivers.virtual_board.refusal import (

@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from pydantic import ValidationError
 
-from rotemina.app.motion.teleoperation.calibration import (
+from rotemina.app.motion.teleoperation.axis_calibration import (
     AxisCalibration,
     Calibration,
     CalibrationError,

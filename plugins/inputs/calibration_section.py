@@ -2,7 +2,7 @@
 
 from PySide6.QtWidgets import QCheckBox, QFormLayout, QWidget
 
-from rotemina.app.motion.teleoperation.calibration import AxisCalibration
+from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.shell.language import translate

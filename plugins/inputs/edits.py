@@ -6,10 +6,9 @@ Whether what comes of it can be used is for whoever uses it: two owners are refu
 from collections.abc import Callable
 from dataclasses import replace
 
-from rotemina.app.motion.teleoperation.calibration import Calibration
+from rotemina.app.motion.teleoperation.axis_calibration import Calibration
 from rotemina.app.motion.teleoperation.detection import Detected, Kind
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.mapping import PluggedDevice, assigned
 from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
@@ -18,6 +17,7 @@ from rotemina.app.motion.teleoperation.profile import (
     Profile,
     ProfileError,
 )
+from rotemina.app.motion.teleoperation.profile_check import PluggedDevice, assigned
 from rotemina.app.shell.language import translate
 
 AT = 0.5  # from where on a detected axis counts as pressed, of its deflection

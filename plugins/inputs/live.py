@@ -3,7 +3,7 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QVBoxLayout
 
-from rotemina.app.motion.teleoperation.calibration import Calibration
+from rotemina.app.motion.teleoperation.axis_calibration import Calibration
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.shell.engine_words import spoken

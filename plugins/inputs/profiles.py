@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rotemina.app.motion.teleoperation.input_devices import InputDevices
-from rotemina.app.motion.teleoperation.mapping import check_profile
 from rotemina.app.motion.teleoperation.profile import ListedProfile, Profile, ProfileError
+from rotemina.app.motion.teleoperation.profile_check import check_profile
 from rotemina.app.settings import Settings
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import translate

@@ -8,8 +8,8 @@ from rotemina.app.display import label
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM
 from rotemina.app.motion.teleoperation.profile import OperatorRole
+from rotemina.app.motion.teleoperation.profile_check import DEGREES_OF_FREEDOM
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.inputs.device import InputIdentity

@@ -15,7 +15,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.motion.teleoperation.calibration import DEAD_ZONE
+from rotemina.app.motion.teleoperation.axis_calibration import DEAD_ZONE
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip

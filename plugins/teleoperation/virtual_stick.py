@@ -2,7 +2,7 @@
 
 from enum import StrEnum
 
-from rotemina.app.motion.teleoperation.calibration import uncalibrated
+from rotemina.app.motion.teleoperation.axis_calibration import uncalibrated
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.drivers.inputs.pad import Pad
 

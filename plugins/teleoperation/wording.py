@@ -12,9 +12,9 @@ from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.linear_position import LinearPosition
 from rotemina.app.motion.teleoperation.linear_rate import LinearRate
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
-from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.app.motion.teleoperation.modes import ALL_AXES, TIP_MODES
 from rotemina.app.motion.teleoperation.profile import OperatorRole
+from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
 from rotemina.app.shell.engine_words import spoken

@@ -13,8 +13,8 @@ from rotemina.sim.gap.attribution import attributed, without_own
 from rotemina.sim.gap.baseline import is_own, is_whole_own
 from rotemina.sim.gap.catalogue import catalogue, is_of, kinship_of, with_parameter
 from rotemina.sim.gap.closing import closed
-from rotemina.sim.gap.compare.decision import stands
-from rotemina.sim.gap.compare.score import held_out_powers
+from rotemina.sim.gap.compare.held_out_power import held_out_powers
+from rotemina.sim.gap.compare.verdict import stands
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import (

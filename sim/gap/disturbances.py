@@ -22,7 +22,7 @@ from rotemina.sim.gap.evidence import Evidence, Observation, Signals
 from rotemina.sim.gap.excursions import excursions
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.jumps import jumps as jumps_in
-from rotemina.sim.gap.noise_level import common_level, noise_level
+from rotemina.sim.gap.spectral_noise import common_level, noise_level
 from rotemina.sim.gap.tones import tone_signals, tones
 from rotemina.sim.messages import Listed, Message, message
 from rotemina.sim.quantities import Number, exact, rounded

@@ -16,8 +16,8 @@ from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.blocks import block_numbers
 from rotemina.sim.gap.cells import beyond
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.floors import floors
 from rotemina.sim.gap.history import other_starts, start
+from rotemina.sim.gap.noise_floors import floors
 from rotemina.sim.messages import message
 from rotemina.sim.plant.fine_rows import respond
 from rotemina.sim.plant.plant import Plant

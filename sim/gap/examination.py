@@ -13,8 +13,8 @@ from rotemina.sim.gap.baseline import is_whole_own
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.coarse_reading import steps_of
 from rotemina.sim.gap.companions import accompanied
-from rotemina.sim.gap.compare.decision import Closing, decide, is_sure
 from rotemina.sim.gap.compare.retained import with_retained
+from rotemina.sim.gap.compare.verdict import Closing, decide, is_sure
 from rotemina.sim.gap.contest import Ranking, contested, rivals_of
 from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap

@@ -9,7 +9,8 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.baseline import baseline
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import Fit, fit, held_out
+from rotemina.sim.gap.fit import Fit, fit
+from rotemina.sim.gap.held_out import held_out
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 

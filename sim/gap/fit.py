@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import scipy
 
-from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
+from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.gap.baseline import is_whole_own
@@ -32,10 +31,6 @@ LOST = 1e6  # floors by which a model that cannot be simulated is off
 _FINITE = 1e100  # floors beyond which a model diverges
 _SMALL_SHARE = 0.01  # of its scale, as the size of a parameter whose preset is zero
 _UNBOUNDED = 1e6  # sizes up to which a parameter without a bound may go
-_DOUBT = 0.02  # of all that is known, which a fit to some records may keep of the others
-_SHARES = (1.0, 0.5, 0.25, 0.1)  # of a step, that are tried
-_PIECES = 4  # of a single record
-_ASTRAY = 1.02  # times what was left of the rows that were fitted
 _BLIND = 1e-10  # of the greatest eigenvalue, below which the records say nothing
 _BLIND_SHARE = 1e-3  # of a parameter in such directions, from which it is unknown
 _AT_BOUND = 1e-6  # sizes from a bound that are none
@@ -218,90 +213,6 @@ def _unfitted(effects: Sequence[AxisEffect], residual: FloatArray) -> Fit:
 def _fitted(effects: Sequence[AxisEffect], free: tuple[Free, ...], found: Descent) -> Fit:
     own = with_values(effects, free, found.x)
     return Fit(own, free, found.x, found.residual, found.jacobian, found.fresh)
-
-
-def held_out(evidence: Evidence, fitted: Fit, shown: Evidence | None = None) -> FloatArray:
-    """Return the remainder (rows,) of each record after a fit to all the others.
-
-    Each fit is one Gauss-Newton step away from the fit to all. Directions in which the other
-    records say hardly anything stay where they are. A single record is left out by quarters.
-    What is left counts as in the evidence that was fitted to, or as in what is ``shown`` instead.
-    """
-    shown = shown or evidence
-    if not fitted.free:
-        return fitted.residual if shown is evidence else residual_of(shown, fitted.effects)
-    low, high, _ = bounds(fitted.free)
-    left = fitted.residual.copy()
-    hessian = fitted.jacobian.T @ fitted.jacobian
-    slope = fitted.jacobian.T @ fitted.residual
-    for rows in folds(evidence):
-        jacobian, residual = fitted.jacobian[rows], fitted.residual[rows]
-        # What the others know, and a little of all: it keeps blind directions in place.
-        known = (1.0 + _DOUBT) * hessian - jacobian.T @ jacobian
-        try:
-            x = _bounded_minimum(known, slope - jacobian.T @ residual, fitted.x, low, high)
-        except NUMERICAL as error:
-            return lost(evidence, fitted.effects, error).residual
-        x, then = _kept_down(evidence, fitted, x, rows)
-        if shown is not evidence:
-            then = residual_of(shown, fitted.effects, fitted.free, x)
-        left[rows] = then[rows]
-    return left
-
-
-def _kept_down(
-    evidence: Evidence, fitted: Fit, x: FloatArray, out: BoolArray
-) -> tuple[FloatArray, FloatArray]:
-    """Return ``x`` and the residual (rows,) there, or nearer the fit where ``x`` went astray.
-
-    A step is one towards a better fit of the rows that are not ``out``, which it must not make
-    much worse: what is far from linear does not lie where its tangent points.
-    """
-    known = float(np.sum(fitted.residual[~out] ** 2))
-    for share in _SHARES:
-        there = fitted.x + share * (x - fitted.x)
-        then = residual_of(evidence, fitted.effects, fitted.free, there)
-        if float(np.sum(then[~out] ** 2)) <= _ASTRAY * known:
-            return there, then
-    return fitted.x, fitted.residual
-
-
-def _bounded_minimum(
-    hessian: FloatArray, slope: FloatArray, x: FloatArray, low: FloatArray, high: FloatArray
-) -> FloatArray:
-    """Return where the quadratic about ``x`` with this slope is least, within bounds."""
-    scale = np.sqrt(np.maximum(np.diag(hessian), 1e-300))
-    values, vectors = np.linalg.eigh(hessian / np.outer(scale, scale))
-    if values.max() <= 0.0:
-        return np.asarray(np.clip(x, low, high))  # no row speaks of any parameter
-    roots = np.sqrt(np.maximum(values, 1e-12 * values.max()))
-    rows = roots[:, None] * vectors.T  # rowsᵀ rows is the scaled hessian
-    target = -(vectors.T @ (slope / scale)) / roots
-    lows, highs = (low - x) * scale, (high - x) * scale
-    step = scipy.optimize.lsq_linear(
-        rows, target, (np.minimum(lows, 0.0) - 1e-9, np.maximum(highs, 0.0) + 1e-9)
-    )
-    return np.asarray(np.clip(x + step.x / scale, low, high))
-
-
-def folds(evidence: Evidence) -> list[BoolArray]:
-    """Return which rows (rows,) are left out together: each record, or quarters of a single one."""
-    parts = evidence.parts
-    rows = parts[-1].rows.stop
-    several = len(evidence.observations) > 1
-    found = []
-    for number in range(len(evidence.observations)):
-        for piece in range(1 if several else _PIECES):
-            out = np.zeros(rows, dtype=np.bool_)
-            for part in parts:
-                if part.record == number:
-                    begin, size = part.rows.start, part.rows.stop - part.rows.start
-                    pieces = 1 if several else _PIECES
-                    out[begin + size * piece // pieces : begin + size * (piece + 1) // pieces] = (
-                        True
-                    )
-            found.append(out)
-    return found
 
 
 def residual_of(

@@ -5,7 +5,7 @@ Where the gap lies (:mod:`~rotemina.sim.gap.location`), which effects may cause 
 that their fit did not see (:mod:`~rotemina.sim.gap.fit`, :mod:`~rotemina.sim.gap.selection`), what
 can be told apart (:mod:`~rotemina.sim.gap.rivals`, :mod:`~rotemina.sim.gap.contest`), by which
 further experiment (:mod:`~rotemina.sim.gap.experiment`), and what can be said
-(:mod:`~rotemina.sim.gap.compare.decision`), axis by axis: what one axis does may show on another
+(:mod:`~rotemina.sim.gap.compare.verdict`), axis by axis: what one axis does may show on another
 (:mod:`~rotemina.sim.gap.order`).
 """
 

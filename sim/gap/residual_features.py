@@ -14,7 +14,7 @@ from scipy.signal import lfilter
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import folds
+from rotemina.sim.gap.held_out import folds
 from rotemina.sim.records.record import Record, Tap
 
 _SETTLING_S = (0.003, 0.03, 0.3, 3.0)  # time constants of what follows a command late

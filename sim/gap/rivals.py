@@ -12,7 +12,7 @@ from rotemina.sim.gap.baseline import is_whole_own
 from rotemina.sim.gap.blocks import Blocks
 from rotemina.sim.gap.catalogue import is_of, kinship_of, with_parameter
 from rotemina.sim.gap.closing import closed
-from rotemina.sim.gap.compare.score import held_out_powers
+from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.explanations import Explanation

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.compare.score import BLOCKS
+from rotemina.sim.gap.compare.held_out_power import BLOCKS
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.records.record import Tap
 

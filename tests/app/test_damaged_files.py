@@ -22,7 +22,7 @@ from rotemina.app.motion.recording.merging import recover
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.recording.writer import RecordingWriter
 from rotemina.app.motion.saved_positions import FOLDER, SavedPositions
-from rotemina.app.motion.teleoperation.calibration import CalibrationFolder
+from rotemina.app.motion.teleoperation.axis_calibration import CalibrationFolder
 from rotemina.app.motion.teleoperation.profile import load_profile
 from rotemina.app.motion.teleoperation.scales import Scales
 from rotemina.app.recorded_events import timeline_events

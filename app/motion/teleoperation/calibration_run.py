@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
 
-from rotemina.app.motion.teleoperation.calibration import AxisCalibration, CalibrationError
+from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration, CalibrationError
 from rotemina.drivers.inputs.device import InputReading
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import fixed, rounded

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM, PluggedDevice
 from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
@@ -11,6 +10,7 @@ from rotemina.app.motion.teleoperation.profile import (
     Profile,
     ProfileError,
 )
+from rotemina.app.motion.teleoperation.profile_check import DEGREES_OF_FREEDOM, PluggedDevice
 from rotemina.sim.messages import message
 
 #: What may be the third axis, best first: a twist or the second stick of a gamepad comes back to

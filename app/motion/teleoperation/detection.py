@@ -7,7 +7,7 @@ from enum import StrEnum
 from itertools import pairwise
 from math import isfinite
 
-from rotemina.app.motion.teleoperation.mapping import PluggedDevice
+from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.drivers.inputs.device import InputReading
 from rotemina.sim.messages import message
 

@@ -8,21 +8,21 @@ from dataclasses import dataclass, replace
 from itertools import compress
 from types import MappingProxyType
 
-from rotemina.app.motion.teleoperation.calibration import Calibration, CalibrationError
+from rotemina.app.motion.teleoperation.axis_calibration import Calibration, CalibrationError
 from rotemina.app.motion.teleoperation.intent import Action, Intent
 from rotemina.app.motion.teleoperation.mapped_device import STOPS, AxisView, MappedDevice
-from rotemina.app.motion.teleoperation.mapping import (
-    PluggedDevice,
-    assigned,
-    check_controls,
-    check_profile,
-    missing,
-)
 from rotemina.app.motion.teleoperation.profile import (
     DeviceMapping,
     OperatorRole,
     Profile,
     ProfileError,
+)
+from rotemina.app.motion.teleoperation.profile_check import (
+    PluggedDevice,
+    assigned,
+    check_controls,
+    check_profile,
+    missing,
 )
 from rotemina.app.motion.teleoperation.takeover import RoleState, Takeover
 from rotemina.drivers.inputs.device import InputReading

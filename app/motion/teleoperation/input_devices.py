@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
-from rotemina.app.motion.teleoperation.calibration import Calibration, CalibrationFolder
+from rotemina.app.motion.teleoperation.axis_calibration import Calibration, CalibrationFolder
 from rotemina.app.motion.teleoperation.default_profile import default_profile
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
 from rotemina.app.motion.teleoperation.intent import Intent
-from rotemina.app.motion.teleoperation.mapping import PluggedDevice, assigned
 from rotemina.app.motion.teleoperation.profile import (
     DeviceMapping,
     ListedProfile,
@@ -23,6 +22,7 @@ from rotemina.app.motion.teleoperation.profile import (
     listed_profiles,
     save_profile,
 )
+from rotemina.app.motion.teleoperation.profile_check import PluggedDevice, assigned
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputDevice, InputReading, Rumbler
 from rotemina.drivers.inputs.hub import Changes, InputHub

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from rotemina.app.motion.teleoperation.frames import Coordinate, Frame
-from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM
+from rotemina.app.motion.teleoperation.profile_check import DEGREES_OF_FREEDOM
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
 

@@ -13,8 +13,8 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.following import Following, Lag
 from rotemina.app.motion.teleoperation.frames import AxesFrame, Coordinate, Frame
 from rotemina.app.motion.teleoperation.intent import Action, Intent
-from rotemina.app.motion.teleoperation.mapping import DEGREES_OF_FREEDOM
 from rotemina.app.motion.teleoperation.modes import Modes
+from rotemina.app.motion.teleoperation.profile_check import DEGREES_OF_FREEDOM
 from rotemina.app.motion.teleoperation.scales import LawKind, Scales
 from rotemina.app.motion.teleoperation.scaling import COARSE, FINE, ScalingLaw, next_preset
 from rotemina.app.motion.teleoperation.steering import Steering

@@ -7,7 +7,7 @@ that trust when its numbers cannot come from a hand.
 from collections import deque
 from math import isfinite, isnan
 
-from rotemina.app.motion.teleoperation.calibration import AxisCalibration
+from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 

@@ -11,7 +11,7 @@ from itertools import combinations
 import numpy as np
 
 from rotemina.sim.gap.baseline import is_own
-from rotemina.sim.gap.compare.score import held_out_powers
+from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import MOST_STEPS, Explanation, explanation

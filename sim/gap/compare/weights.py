@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.compare.score import Power
+from rotemina.sim.gap.compare.held_out_power import Power
 
 EFFECT = 0.07  # times as likely, for each effect that a hypothesis holds
 SLACK = 0.05  # of the power that is left, by which hypotheses differ by chance

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.drivers.errors import DriverError, LimitError, StateError
-from rotemina.drivers.mc68hc11 import player
+from rotemina.drivers.mc68hc11 import segment_player
 from rotemina.drivers.mc68hc11.codes import Fault
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
@@ -169,7 +169,7 @@ def test_rows_of_which_two_would_act_at_once_are_refused_before_anything_moves(b
 
 
 def test_set_points_that_no_segment_can_tell_are_refused_before_anything_moves(bench, monkeypatch):
-    monkeypatch.setattr(player, "MOST_WAY", 100)
+    monkeypatch.setattr(segment_player, "MOST_WAY", 100)
     with pytest.raises(LimitError, match=r"axis x: .* beyond the limit 10 µm in 5 ms"):
         bench.driver.play(there_and_back("x", 0.0277, 4e-4, 0.005))
     monkeypatch.undo()

@@ -17,7 +17,7 @@ from rotemina.drivers.mc68hc11.link import Link
 from rotemina.drivers.mc68hc11.messages import message_of
 from rotemina.drivers.mc68hc11.reports import Done, Inputs, Refused, Telemetry
 from rotemina.drivers.mc68hc11.requests import MoveTo, Poll, SetPoint, Stop, Watch
-from rotemina.drivers.mc68hc11.setpoints import SetpointWindow
+from rotemina.drivers.mc68hc11.segment_window import SetpointWindow
 from rotemina.drivers.mc68hc11.total_quality import total_quality
 
 TURN = 1 << 32

@@ -11,7 +11,7 @@ from rotemina.drivers.mc68hc11.framing import MAX_PAYLOAD, STOP_TYPE
 from rotemina.drivers.mc68hc11.messages import MESSAGES, message_of
 from rotemina.drivers.mc68hc11.reports import Captured, Inputs, Telemetry
 from rotemina.drivers.mc68hc11.requests import MoveVelocity, SetPoint, Stop
-from rotemina.drivers.mc68hc11.setpoints import MOST_WAY
+from rotemina.drivers.mc68hc11.segment_window import MOST_WAY
 
 BOUNDS = {
     "B": (0, 2**8),

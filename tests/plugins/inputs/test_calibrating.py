@@ -2,7 +2,7 @@
 
 import pytest
 
-from rotemina.app.motion.teleoperation.calibration import AxisCalibration, CalibrationError
+from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration, CalibrationError
 from rotemina.plugins.inputs.calibrating import REST_S, Calibrating, Step, summary
 
 

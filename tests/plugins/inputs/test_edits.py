@@ -2,10 +2,9 @@
 
 import pytest
 
-from rotemina.app.motion.teleoperation.calibration import AxisCalibration, Calibration
+from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration, Calibration
 from rotemina.app.motion.teleoperation.detection import Detected, Kind
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.mapping import PluggedDevice, check_profile
 from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
@@ -14,6 +13,7 @@ from rotemina.app.motion.teleoperation.profile import (
     Profile,
     ProfileError,
 )
+from rotemina.app.motion.teleoperation.profile_check import PluggedDevice, check_profile
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.plugins.inputs.edits import Edited, exchanged, threshold, turned
 

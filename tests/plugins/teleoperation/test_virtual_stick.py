@@ -3,7 +3,7 @@
 import pytest
 
 from rotemina.app.motion.operation import PAD_BUTTONS, PAD_LEASE_S
-from rotemina.app.motion.teleoperation.calibration import UNCALIBRATED
+from rotemina.app.motion.teleoperation.axis_calibration import UNCALIBRATED
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.inputs.pad import Pad

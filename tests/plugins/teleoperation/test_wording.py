@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import pytest
 
-from rotemina.app.motion.teleoperation.calibration import Calibration
+from rotemina.app.motion.teleoperation.axis_calibration import Calibration
 from rotemina.app.motion.teleoperation.devices_view import DevicesView
 from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
-from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.app.motion.teleoperation.profile import OperatorRole
+from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.app.motion.teleoperation.reference import Bounds
 from rotemina.app.motion.teleoperation.scales import LawKind, Scale
 from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState

@@ -5,7 +5,8 @@ import pytest
 
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence, block_rows
-from rotemina.sim.gap.fit import _bounded_minimum, fit, folds, held_out
+from rotemina.sim.gap.fit import fit
+from rotemina.sim.gap.held_out import held_out
 from rotemina.sim.gap.screening import screen
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -48,26 +49,6 @@ def test_the_true_effect_explains_all_and_its_parameters_come_back(truth):
     assert found.cost == pytest.approx(1.0, abs=0.15)
     for name, value in truth.parameters.items():
         assert found.effects[0].parameters[name] == pytest.approx(value, rel=0.02)
-
-
-def test_what_is_held_out_is_predicted_from_the_other_records():
-    truth = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 5e-6, "shape": 1.6})
-    evidence = Evidence.of(ROBOT, "zn", measured([truth], "zn", (0.3, 0.15)))
-    found = fit(evidence, [AxisEffect(axis="zn", id="hysteresis")])
-    left = held_out(evidence, found)
-    assert float(np.mean(left**2)) == pytest.approx(1.0, abs=0.1)
-    # What explains one record alone is of no help with the other: the tone of the first.
-    shaken = measured([AxisEffect(axis="zn", id="vibration")], "zn", (0.3,))
-    mixed = Evidence.of(ROBOT, "zn", shaken + measured([], "zn", (0.15,), seed=1))
-    tone = fit(mixed, [AxisEffect(axis="zn", id="vibration")])
-    assert float(np.mean(held_out(mixed, tone) ** 2)) > 1.3 * tone.cost
-
-
-def test_a_single_record_is_held_out_in_quarters():
-    evidence = Evidence.of(ROBOT, "zn", measured([], "zn", (0.3,)))
-    out = folds(evidence)
-    assert len(out) == 4
-    assert np.sum(out, axis=0).tolist() == [1] * len(out[0])
 
 
 def test_deviations_cover_the_truth_and_blind_parameters_are_told():
@@ -137,14 +118,8 @@ def test_a_descent_whose_equations_are_singular_is_lost_and_said_so(caplog, monk
     truth = AxisEffect(axis="x", id="delay", parameters={"delay": 3.7e-3})
     evidence = Evidence.of(ROBOT, "x", measured([truth], "x", (0.002, 0.001)))
     found = fit(evidence, [AxisEffect(axis="x", id="delay")])
-    monkeypatch.setattr("rotemina.sim.gap.fit._bounded_minimum", singular)
+    monkeypatch.setattr("rotemina.sim.gap.held_out._bounded_minimum", singular)
     assert np.all(held_out(evidence, found) >= 1e6)
     monkeypatch.setattr("rotemina.sim.gap.fit.descend", singular)
     assert fit(evidence, [AxisEffect(axis="x", id="delay")]).cost > 1e9
     assert "axis x: delay is left out of the diagnosis" in caplog.text
-
-
-def test_a_fit_of_which_no_row_speaks_stays_where_it_is():
-    nothing = np.zeros((2, 2))
-    where = _bounded_minimum(nothing, np.zeros(2), np.array([0.3, 4.0]), np.zeros(2), np.ones(2))
-    assert where.tolist() == [0.3, 1.0]

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from rotemina.sim.microscope.cell import Cell
+from rotemina.sim.vision.autofocus import Autofocus, fit_peak, sharpness
 from rotemina.sim.vision.cell import CellOutline, find_cell, membrane_ahead
 from rotemina.sim.vision.errors import VisionError
-from rotemina.sim.vision.focus import Autofocus, fit_peak, sharpness
 
 AWAY = (5e-3, 0.0, 0.0)
 CELL = Cell((5e-6, -4e-6, 0.0), radii_m=(22e-6, 18e-6, 12e-6))

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from rotemina.app.motion.teleoperation.calibration import AxisCalibration, CalibrationError
+from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration, CalibrationError
 from rotemina.app.motion.teleoperation.calibration_run import CalibrationRun
 from rotemina.drivers.inputs.device import InputReading
 

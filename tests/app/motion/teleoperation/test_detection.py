@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.teleoperation.detection import Detected, Detection, Kind
-from rotemina.app.motion.teleoperation.mapping import PluggedDevice
+from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.drivers.inputs.device import InputIdentity, InputReading
 
 STICK = PluggedDevice(InputIdentity("a", "Stick", "hid"), ("X", "Y"), ("1", "2"))

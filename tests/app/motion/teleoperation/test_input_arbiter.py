@@ -6,14 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotemina.app.motion.teleoperation.calibration import (
+from rotemina.app.motion.teleoperation.axis_calibration import (
     AxisCalibration,
     Calibration,
     CalibrationError,
 )
 from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
@@ -22,6 +21,7 @@ from rotemina.app.motion.teleoperation.profile import (
     Profile,
     ProfileError,
 )
+from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.drivers.inputs.device import InputIdentity, InputReading
 
 ROBOT = ("x", "y", "z", "thx", "thy", "zn")

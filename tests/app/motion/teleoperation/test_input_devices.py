@@ -6,7 +6,6 @@ import pytest
 
 from rotemina.app.motion.teleoperation.input_devices import InputDevices, automatic_profile
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.mapping import PluggedDevice
 from rotemina.app.motion.teleoperation.profile import (
     AxisMapping,
     DeviceMapping,
@@ -14,6 +13,7 @@ from rotemina.app.motion.teleoperation.profile import (
     Profile,
     ProfileError,
 )
+from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.drivers.inputs.hub import InputHub

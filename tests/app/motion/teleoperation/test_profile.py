@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.mapping import check_profile
 from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
@@ -18,6 +17,7 @@ from rotemina.app.motion.teleoperation.profile import (
     load_profile,
     save_profile,
 )
+from rotemina.app.motion.teleoperation.profile_check import check_profile
 from rotemina.sim.whole_files import FileWriteError
 
 TEXT = st.text(st.characters(codec="utf-8", exclude_categories=("Cs",)), min_size=1, max_size=20)

@@ -2,7 +2,7 @@ from math import nan, pi, sin
 
 import pytest
 
-from rotemina.app.motion.teleoperation.calibration import AxisCalibration
+from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration
 from rotemina.app.motion.teleoperation.trust import AxisTrust
 
 STICK = AxisCalibration()

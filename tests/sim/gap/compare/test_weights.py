@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.compare.score import Power
+from rotemina.sim.gap.compare.held_out_power import Power
 from rotemina.sim.gap.compare.weights import weigh
 
 

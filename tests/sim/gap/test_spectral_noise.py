@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.noise_level import common_level, noise_level
+from rotemina.sim.gap.spectral_noise import common_level, noise_level
 
 RATE_HZ = 1000.0
 

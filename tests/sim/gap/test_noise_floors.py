@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.floors import floors, unforetold
+from rotemina.sim.gap.noise_floors import floors, unforetold
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.gap.closing import closed
-from rotemina.sim.gap.compare.score import held_out_powers
+from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.evidence import Evidence

@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from rotemina.app.motion.teleoperation.calibration import (
+from rotemina.app.motion.teleoperation.axis_calibration import (
     SMALLEST_WAY,
     AxisCalibration,
     Calibration,

@@ -19,7 +19,7 @@ from rotemina.drivers.mc68hc11.dialogue import Request
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.orders import constant
 from rotemina.drivers.mc68hc11.requests import BeginStream, MoveTo, SetPoint
-from rotemina.drivers.mc68hc11.setpoints import MOST_WAY, ROUNDING, SetpointWindow
+from rotemina.drivers.mc68hc11.segment_window import MOST_WAY, ROUNDING, SetpointWindow
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact, rounded

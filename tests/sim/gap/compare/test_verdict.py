@@ -2,7 +2,7 @@
 
 import pytest
 
-from rotemina.sim.gap.compare.decision import Closing, decide, stands
+from rotemina.sim.gap.compare.verdict import Closing, decide, stands
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Verdict
 from rotemina.sim.robot.file import load_robot
 

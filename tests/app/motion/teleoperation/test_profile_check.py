@@ -2,13 +2,6 @@ import pytest
 
 from rotemina.app.motion.teleoperation.default_profile import default_profile
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.mapping import (
-    PluggedDevice,
-    assigned,
-    check_controls,
-    check_profile,
-    missing,
-)
 from rotemina.app.motion.teleoperation.profile import (
     ActionMapping,
     AxisMapping,
@@ -16,6 +9,13 @@ from rotemina.app.motion.teleoperation.profile import (
     OperatorRole,
     Profile,
     ProfileError,
+)
+from rotemina.app.motion.teleoperation.profile_check import (
+    PluggedDevice,
+    assigned,
+    check_controls,
+    check_profile,
+    missing,
 )
 from rotemina.drivers.inputs.device import InputIdentity
 
