@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from tests.sim.gap.test_fit import measured
 
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.held_out import _bounded_minimum, folds, held_out
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
-from tests.sim.gap.test_fit import measured
 
 ROBOT = load_robot("rotemina")
 
