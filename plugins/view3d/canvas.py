@@ -90,10 +90,12 @@ class Canvas(QWidget):
 
     def redraw(self) -> None:
         """Draw soon: now, or when the least interval is over."""
+        if self._soon.isActive():
+            return
         wait_s = self._painted_s + _INTERVAL_S - time.monotonic()
         if wait_s <= 0:
             self.update()
-        elif not self._soon.isActive():
+        else:
             self._soon.start(round(1e3 * wait_s) + 1)
 
     def _newest(self) -> list[Drawn]:
