@@ -49,7 +49,7 @@ class Canvas(QWidget):
         self._grabbed: QPointF | None = None
         self._painted_s = 0.0
         self._brushes: dict[tuple[str, int, float], QBrush] = {}
-        self._soon = QTimer(self, singleShot=True)
+        self._soon = QTimer(self, singleShot=True, timerType=Qt.TimerType.PreciseTimer)
         self._soon.timeout.connect(self.update)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(200, 120)
