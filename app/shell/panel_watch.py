@@ -15,7 +15,7 @@ import sys
 import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType, TracebackType
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -176,9 +176,20 @@ class PanelWatch(QObject):
         return True
 
     def _owner(self, frame: FrameType) -> str | None:
-        """Return the panel that a frame's code is of."""
+        """Return the panel that a frame's code is of; several may share a module."""
         above = _upwards(str(frame.f_globals.get("__name__", "")))
-        return next((self._modules[module] for module in above if module in self._modules), None)
+        name = next((self._modules[module] for module in above if module in self._modules), None)
+        return name and (self._holding(frame.f_locals.get("self")) or name)
+
+    def _holding(self, widget: object) -> str | None:
+        """Return the panel that is this widget or holds it."""
+        with suppress(RuntimeError):  # of a widget that Qt has deleted
+            while isinstance(widget, QWidget):
+                for name, panel in self._panels.items():
+                    if panel is widget:
+                        return name
+                widget = widget.parentWidget()
+        return None
 
     def _take_out(self, panel: Panel, dock: QDockWidget | None) -> None:
         """Take a panel out of the window and end it, with its timers and what it listens to."""

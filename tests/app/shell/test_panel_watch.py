@@ -52,11 +52,12 @@ def make(qtbot):
     """Make a window with two panels, one in a dock and one in a tab, that is watched."""
     made = []
 
-    def make(package="others_panels"):
+    def make(package="others_panels", *, one_module=False):
         window = QMainWindow()
         qtbot.addWidget(window)
         kind = module_of(f"{package}.panel").Fragile
-        docked, tabbed = kind("docked"), module_of("second_panels").Fragile("tabbed")
+        second = kind if one_module else module_of("second_panels").Fragile
+        docked, tabbed = kind("docked"), second("tabbed")
         dock, tabs = QDockWidget("docked"), QTabWidget()
         dock.setWidget(docked)
         tabs.addTab(QLabel("ours"), "ours")
@@ -96,6 +97,16 @@ def test_one_that_cannot_paint_is_left_out_at_once(make):
     assert docks == {}
     assert list(panels) == ["tabbed"]
     assert window.findChildren(QDockWidget) == []
+
+
+def test_of_two_in_one_module_the_one_that_fails_is_left_out(make):
+    _, panels, _, told = make(one_module=True)
+    panels["tabbed"].paints_badly = True
+    panels["tabbed"].parentWidget().parentWidget().setCurrentIndex(1)
+    panels["tabbed"].repaint()
+    settle()
+    assert "'tabbed' is left out" in told[0][1]
+    assert list(panels) == ["docked"]
 
 
 def test_one_that_fails_in_slots_and_timers_has_a_few_chances(make):
