@@ -124,10 +124,10 @@ to_beat = 1.45e-3                    # what a plain fit leaves of the test recor
 
 {table}
 
-*Sets*: each cause with what it cannot be told from. *Closed*: share of the gap's power above the
-noise floor, on the test records. *Left*: rms of what the corrected model leaves of the test
-records, or the relative error; of positions the mean and what the axis remembers from before are
-taken off. *To beat*: the same of a plain output-error or least-squares fit. *Time*: of the
+*Sets*: each cause with the effects not distinguishable from it. *Closed*: share of the gap's
+power above the noise floor, on the test records. *Left*: rms remainder of the corrected model on
+the test records, or the relative error; positions without their mean and the memory of earlier
+motion. *To beat*: the same figure of a plain output-error or least-squares fit. *Time*: of the
 diagnosis.
 
 ## What is not reached
