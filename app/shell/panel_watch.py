@@ -15,7 +15,7 @@ import sys
 import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from types import FrameType, TracebackType
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -71,6 +71,7 @@ class PanelWatch(QObject):
         self._remedy = remedy
         # By module and the packages above it: whose code it is, also after a panel has gone.
         self._modules: dict[str, str] = {}
+        self._classes: dict[tuple[str, str], str] = {}
         if kinds is None:
             kinds = {name: type(panel) for name, panel in panels.items()}
         self._faults: Counter[str] = Counter()
@@ -84,6 +85,7 @@ class PanelWatch(QObject):
         """Watch a panel of this class from now on, whatever one of its name did before."""
         self._faults.pop(name, None)
         if not kind.__module__.startswith(_OWN):
+            self._classes[kind.__module__, kind.__qualname__] = name
             for module in _upwards(kind.__module__):
                 self._modules.setdefault(module, name)
 
@@ -176,20 +178,13 @@ class PanelWatch(QObject):
         return True
 
     def _owner(self, frame: FrameType) -> str | None:
-        """Return the panel that a frame's code is of; several may share a module."""
-        above = _upwards(str(frame.f_globals.get("__name__", "")))
-        name = next((self._modules[module] for module in above if module in self._modules), None)
-        return name and (self._holding(frame.f_locals.get("self")) or name)
-
-    def _holding(self, widget: object) -> str | None:
-        """Return the panel that is this widget or holds it."""
-        with suppress(RuntimeError):  # of a widget that Qt has deleted
-            while isinstance(widget, QWidget):
-                for name, panel in self._panels.items():
-                    if panel is widget:
-                        return name
-                widget = widget.parentWidget()
-        return None
+        """Return the panel whose code a frame runs; several classes may share a module."""
+        module = str(frame.f_globals.get("__name__", ""))
+        name = self._classes.get((module, frame.f_code.co_qualname.partition(".")[0]))
+        if name is not None:
+            return name
+        above = _upwards(module)
+        return next((self._modules[one] for one in above if one in self._modules), None)
 
     def _take_out(self, panel: Panel, dock: QDockWidget | None) -> None:
         """Take a panel out of the window and end it, with its timers and what it listens to."""

@@ -37,6 +37,14 @@ class Fragile(QLabel):
 
     def tick(self):
         QTimer.singleShot(0, self, self.click)
+
+
+class Other(QLabel):
+    paints_badly = False
+
+    def paintEvent(self, event):
+        if self.paints_badly:
+            raise ValueError("no colour")
 """
 
 
@@ -55,9 +63,9 @@ def make(qtbot):
     def make(package="others_panels", *, one_module=False):
         window = QMainWindow()
         qtbot.addWidget(window)
-        kind = module_of(f"{package}.panel").Fragile
-        second = kind if one_module else module_of("second_panels").Fragile
-        docked, tabbed = kind("docked"), second("tabbed")
+        module = module_of(f"{package}.panel")
+        second = module.Other if one_module else module_of("second_panels").Fragile
+        docked, tabbed = module.Fragile("docked"), second("tabbed")
         dock, tabs = QDockWidget("docked"), QTabWidget()
         dock.setWidget(docked)
         tabs.addTab(QLabel("ours"), "ours")
