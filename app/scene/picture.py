@@ -82,12 +82,6 @@ class Picture:
         elif kind == "set_property" and command["property"] == "top_color":
             self.background = command["value"]
 
-    def points(self) -> dict[str, FloatArray]:
-        """Return the corners (n, 3), m, of every visible solid in the room, by path."""
-        batch = self._visible()
-        placed, _ = batch.placed(self._pose)
-        return dict(zip(batch.paths, np.split(placed, batch.starts[1:]), strict=True))
-
     def drawn(self, width: float, height: float) -> list[Drawn]:
         """Return the visible solids in the order of painting, in a picture of this size, px."""
         camera, batch = self.camera, self._visible()

@@ -62,7 +62,7 @@ class ProofView(QStackedWidget):
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(left)
         split.addWidget(self.traces)
-        split.setSizes([520, 420])
+        split.setSizes([580, 400])
         self.addWidget(hint(translate("gap", NO_PROOF)))
         self.addWidget(split)
 

@@ -84,7 +84,7 @@ class AxisPlot(QWidget):
         self._view: Shown | None = None
         self._read: tuple[FloatArray, FloatArray] = (_NOTHING, _NOTHING)
         self._title, self._unit = QLabel(label(name)), QLabel()
-        self.figures = ElidedLabel()
+        self.figures = ElidedLabel(Qt.TextElideMode.ElideMiddle)  # the figure comes last
         self._title.setProperty("heading", True)
         self._title.setTextFormat(Qt.TextFormat.PlainText)
         for quiet in (self._unit, self.figures):
