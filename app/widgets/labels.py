@@ -17,9 +17,9 @@ class ElidedLabel(QLabel):
     It keeps its text by itself: Qt's label would have all of the window laid out anew at each one.
     """
 
-    def __init__(self, cut: Qt.TextElideMode = Qt.TextElideMode.ElideRight) -> None:
+    def __init__(self) -> None:
         super().__init__()
-        self._text, self._cut = "", cut
+        self._text = self._short = ""
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
 
@@ -33,13 +33,14 @@ class ElidedLabel(QLabel):
             super().setText(" " if text else "")  # for its height
         if self.accessibleName() == self._text:
             self.setAccessibleName(text)
-        self._text = text
+        self._text, self._short = text, ""
         self.update()
 
-    def show_text(self, text: str) -> None:
-        """Show another text."""
+    def show_text(self, text: str, short: str = "") -> None:
+        """Show another text, or its short form where there is no room for all of it."""
         if text != self._text:
             self.setText(text)
+            self._short = short
             self.setToolTip(plain_tip(text) if text else "")
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
@@ -54,7 +55,10 @@ class ElidedLabel(QLabel):
         """Draw as much of the text as there is room for."""
         painter = QPainter(self)
         painter.setPen(self.palette().color(self.foregroundRole()))
-        cut = self.fontMetrics().elidedText(self._text, self._cut, self.contentsRect().width())
+        metrics, room = self.fontMetrics(), self.contentsRect().width()
+        fits = not self._short or metrics.horizontalAdvance(self._text) <= room
+        text = self._text if fits else self._short
+        cut = metrics.elidedText(text, Qt.TextElideMode.ElideRight, room)
         painter.drawText(self.contentsRect(), int(Qt.AlignmentFlag.AlignVCenter), cut)
         painter.end()
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from rotemina.app.display import axis_scale, label
 from rotemina.app.motion.history import LiveWindow
-from rotemina.app.shell.gap_words import live_gap, run_gap, small_print
+from rotemina.app.shell.gap_words import live_gap, run_gap, size, small_print
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
@@ -84,7 +84,7 @@ class AxisPlot(QWidget):
         self._view: Shown | None = None
         self._read: tuple[FloatArray, FloatArray] = (_NOTHING, _NOTHING)
         self._title, self._unit = QLabel(label(name)), QLabel()
-        self.figures = ElidedLabel(Qt.TextElideMode.ElideMiddle)  # the figure comes last
+        self.figures = ElidedLabel()
         self._title.setProperty("heading", True)
         self._title.setTextFormat(Qt.TextFormat.PlainText)
         for quiet in (self._unit, self.figures):
@@ -184,7 +184,8 @@ class AxisPlot(QWidget):
         lines = [(live_gap(live, unit), small_print(live, unit))]
         if run is not None:
             lines.append((run_gap(run, unit), small_print(run, unit)))
-        self.figures.show_text("  ·  ".join(text for text, _ in lines))
+        # Where the plot is narrow the figure stays, and its name is in the tooltip.
+        self.figures.show_text("  ·  ".join(text for text, _ in lines), size(live, unit))
         self.figures.setToolTip(plain_tip(*(f"{text} ({small})" for text, small in lines)))
 
     def read_cursors(self) -> None:

@@ -114,6 +114,23 @@ def test_a_cut_label_asks_for_no_width_and_tells_all_of_it(qtbot):
     assert label.toolTip() == plain_tip("position <unknown> " * 20)
 
 
+def test_a_narrow_label_draws_its_short_form_whole(qtbot):
+    label, short = ElidedLabel(), ElidedLabel()
+    for one in (label, short):
+        qtbot.addWidget(one)
+    label.show_text("Gap, last 10 s 12.4 nm", "12.4 nm")
+    short.show_text("12.4 nm")
+    room = label.fontMetrics().horizontalAdvance("Gap, last 10 s")
+
+    def drawn(one, width):
+        one.resize(width, 20)
+        return one.grab().toImage()
+
+    assert drawn(label, room) == drawn(short, room)
+    assert drawn(label, 3 * room) != drawn(short, 3 * room)
+    assert label.text() == "Gap, last 10 s 12.4 nm"
+
+
 def test_a_legend_has_names_in_their_colours():
     text = legend(DARK, [("a<b", "real"), ("c", "model")])
     assert text == (
