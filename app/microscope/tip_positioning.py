@@ -8,6 +8,7 @@ from rotemina.app.microscope.click_to_move import ClickToMove, PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.runs import Runs
+from rotemina.app.microscope.settled_frame import SETTLE_S
 from rotemina.app.microscope.status import Activity
 from rotemina.app.microscope.targets import TargetSequence
 from rotemina.app.microscope.tip_tracker import TipTracker
@@ -121,12 +122,23 @@ class TipPositioning:
             ) from error
 
     def _thought(self, pixel: FloatArray, stage: str | None) -> PlannedMove:
-        tip = self._tracker.tip
-        at = None if tip is None else tip.pixel
-        frame = self._camera.newest
         return self._clicks().plan(
-            np.asarray(pixel, dtype=np.float64), stage=stage, tip_px=at, frame=frame
+            np.asarray(pixel, dtype=np.float64),
+            stage=stage,
+            tip_px=self._seen_at_rest(),
+            frame=self._camera.newest,
         )
+
+    def _seen_at_rest(self) -> FloatArray | None:
+        """Return the tip's pixel (2,), unless its picture may be older than the latest motion.
+
+        The targets of a move begin at the present command, so the picture must show that place.
+        """
+        tip, frame = self._tracker.tip, self._tracker.tracked.frame
+        moved_s = self._session.snapshot().moved_s
+        if tip is None or frame is None or frame.host_time_s < moved_s + SETTLE_S:
+            return None
+        return tip.pixel
 
     def _visit(self, move: PlannedMove, *, confirmed: bool) -> ClickRun:
         tip, frame = self._tracker.tip, self._tracker.tracked.frame

@@ -58,6 +58,8 @@ class SessionState:
         Host time at which it was received.
     age_s : float or None
         How long ago that was when the snapshot was taken (host time).
+    moved_s : float
+        Host time of the latest report of a motion.
     progress : float
         0 to 1, of the present or latest playback.
     queued : int
@@ -104,6 +106,7 @@ class SessionState:
     device_time_s: float | None = None
     sample_host_time_s: float | None = None
     age_s: float | None = None
+    moved_s: float = float("-inf")
     progress: float = 0.0
     queued: int = 0
     position_known: bool = False

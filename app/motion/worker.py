@@ -350,6 +350,8 @@ class Worker:
         state = with_samples(state, driver.axes, samples, answers, unsettled, received_s)
         known = status.position_known and state.sample_host_time_s is not None
         state = replace(state, position_known=known)
+        if state.activity is not DeviceState.IDLE:
+            state = replace(state, moved_s=self._clock())
         return replace(state, locked=lock_reason(state, self._trust.reason))
 
     def _link(self) -> LinkQuality | None:

@@ -99,6 +99,24 @@ def test_a_click_lands_and_one_run_is_allowed_at_a_time(work):
         work.microscope.go()
 
 
+def test_a_click_is_planned_from_where_the_tip_is_and_not_from_an_old_picture(work):
+    work.tracking()
+    at = work.session.snapshot().command
+    work.session.go_to({"x": at["x"] + 20e-6, "y": at["y"] - 15e-6})
+    for _ in range(40):  # the camera's pictures are late: none is looked at
+        work.clock.advance(0.05)
+        work.session.run_once()
+    assert not work.session.snapshot().queued
+    seen = work.microscope.status.tip.pixel
+    assert np.linalg.norm(work.true_pixel() - seen) > 50.0
+    goal = work.true_pixel() + np.array([30.0, 20.0])
+    work.microscope.plan(goal)
+    work.microscope.go()
+    status = work.until(lambda status: status.activity is Activity.NONE)
+    assert status.visiting.visit is Visit.ARRIVED, status.visiting.reason
+    assert work.true_pixel() == pytest.approx(goal, abs=0.5)
+
+
 def test_a_click_wants_the_tip_tracked_and_a_far_one_confirmed(work):
     work.microscope.plan(work.true_pixel() + 20.0)
     with pytest.raises(MicroscopeError, match="not tracked"):
