@@ -1,15 +1,16 @@
 """Which of the model's own parameters, re-tuned along with the causes, is a cause itself."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from rotemina.sim.effects.kinship import Family
 from rotemina.sim.gap.baseline import baseline, is_whole_own
 from rotemina.sim.gap.catalogue import brought_along, is_of
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.explanations import Explanation, explanation, mean_squares
+from rotemina.sim.gap.explanations import Explanation, closing, explanation, mean_squares
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.selection import LEAST_POWER, LEAST_SHARE
+from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 _REFITTED = 5
@@ -37,7 +38,8 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
     for one in own:
         least = max([LEAST_SHARE, *(brought_along(one.id, cause) for cause in named)])
         never = least >= 1.0 or (heavier and is_of(Family.GAIN, one.id))
-        if not never and _closes(bare, without[one.id], explained, least):
+        closes = closing(evidence, without[one.id], explained)
+        if not never and _counts(bare, closes, least):
             found.append(_fitted(explained, one.id))
     if not found and own:
         # Either would do: the one without which most is left.
@@ -75,10 +77,9 @@ def without_own(
     ]
 
 
-def _closes(bare: Explanation, before: Explanation, after: Explanation, least: float) -> bool:
+def _counts(bare: Explanation, closes: Mapping[Tap, float], least: float) -> bool:
     return any(
-        before.by_tap[tap] - left >= max(least * (bare.by_tap[tap] - 1.0), LEAST_POWER)
-        for tap, left in after.by_tap.items()
+        power >= max(least * (bare.by_tap[tap] - 1.0), LEAST_POWER) for tap, power in closes.items()
     )
 
 

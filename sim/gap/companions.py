@@ -16,7 +16,7 @@ from rotemina.sim.gap.catalogue import catalogue, kinship_of
 from rotemina.sim.gap.closing import closed
 from rotemina.sim.gap.contest import Ranking
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.explanations import Explanation
+from rotemina.sim.gap.explanations import Explanation, named_as
 from rotemina.sim.gap.progress import Account
 from rotemina.sim.gap.rivals import Key, rivals
 from rotemina.sim.gap.selection import LEAST_SHARE, NOTICED, possible_causes
@@ -83,11 +83,7 @@ def _with_one_more(
     others = [one for one in possible_causes(evidence) if (one.id, one.from_axis) not in known]
     chosen = [*own, *looked(scouts(evidence, others))[:_FITTED]]
     attempts = [[*causes, one] for one in chosen]
-    return [_named(one, best) for one in fitted(evidence, attempts, account, jobs, begun)]
-
-
-def _named(one: Explanation, best: Explanation) -> Explanation:
-    """Return an explanation with the model's own parameters as causes that were so before."""
-    ids = {*best.ids, *one.ids}
-    causes = [own for own in one.fit.effects if (own.id, own.from_axis) in ids]
-    return replace(one, causes=tuple(causes))
+    return [
+        named_as(one, {*best.ids, *one.ids})  # with own parameters as causes that were so before
+        for one in fitted(evidence, attempts, account, jobs, begun)
+    ]

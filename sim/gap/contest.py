@@ -21,6 +21,7 @@ from rotemina.sim.gap.explanations import (
     MOST_STEPS,
     Explanation,
     beside,
+    closing,
     explain,
     explanation,
 )
@@ -144,8 +145,8 @@ def _doubt(
     without = _without(evidence, selection, best, key)
     weight = _weight_of_its_kind(evidence, best, without, ranked, key)
     standing = any(
-        stands(without.by_tap[tap] - left, remains[tap], weight)
-        for tap, left in best.by_tap.items()
+        stands(closes, remains[tap], weight)
+        for tap, closes in closing(evidence, without, best).items()
     )
     return None if standing else weight
 

@@ -24,6 +24,7 @@ from rotemina.sim.gap.explanations import (
     counted_in,
     explain,
     mean_squares,
+    named_as,
     untouched,
 )
 from rotemina.sim.gap.many_modes import many_modes
@@ -114,7 +115,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     closing = _closing(bare, shown(best), black_box, disturbances, drift)
     verdict = decide(closing, list(alike.values()), poor=poor, sure=sure)
     if verdict in CORRECTING and drift is None:
-        best = with_retained(evidence, best, *_fullest(selection, best))
+        best = with_retained(evidence, best, _fullest(selection, best), account, jobs=jobs)
     steps = _stepped(whole, best, disturbances) if verdict in CORRECTING else ()
     best = shown(best)
     return Examination(
@@ -193,9 +194,7 @@ def _fullest(selection: Selection, best: Explanation) -> Sequence[Explanation]:
     ]
     if not fuller:
         return ()
-    one = min(fuller, key=lambda one: one.score)
-    causes = [own for own in one.fit.effects if (own.id, own.from_axis) in named]
-    return (replace(one, causes=tuple(causes)),)
+    return (named_as(min(fuller, key=lambda one: one.score), named),)
 
 
 def _of_modes(evidence: Evidence, modal: Explanation) -> Examination:

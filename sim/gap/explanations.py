@@ -1,6 +1,6 @@
 """Explanations of an axis' gap: causes, fitted together with the model's own parameters."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -74,6 +74,13 @@ def counted_in(shown: Evidence, evidence: Evidence, one: Explanation) -> Explana
     return replace(one, held_out=left, by_tap=mean_squares(shown, left))
 
 
+def named_as(one: Explanation, ids: Collection[tuple[str, str | None]]) -> Explanation:
+    """Return an explanation with those of its effects as causes, the others as corrections."""
+    return replace(
+        one, causes=tuple(own for own in one.fit.effects if (own.id, own.from_axis) in ids)
+    )
+
+
 def untouched(evidence: Evidence) -> Explanation:
     """Return the original model, with the possible changes of its own parameters."""
     bare = fit(evidence, beside(evidence, ()), most_steps=0)
@@ -88,6 +95,19 @@ def mean_squares(evidence: Evidence, left: FloatArray) -> dict[Tap, float]:
     return {
         tap: float(np.mean(np.concatenate([left[one] for one in own]) ** 2))
         for tap, own in rows.items()
+    }
+
+
+def closing(evidence: Evidence, before: Explanation, after: Explanation) -> dict[Tap, float]:
+    """Return the power over the floor that ``after`` closes more than ``before``, tap by tap.
+
+    It counts as far as unseen and seen data both show it. Where few rows show a parameter, a fit
+    without them may go astray; what that loses on these rows tells nothing of a cause.
+    """
+    seen, still = (mean_squares(evidence, one.fit.residual) for one in (before, after))
+    return {
+        tap: min(before.by_tap[tap] - left, seen[tap] - still[tap])
+        for tap, left in after.by_tap.items()
     }
 
 

@@ -5,30 +5,83 @@ effects that are too uncertain to be named. On another motion they can do harm, 
 if unseen data require it.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 
+from rotemina.sim.effects.formulation import Trait
+from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.gap.attempts import fitted, screened_beside
 from rotemina.sim.gap.baseline import is_own
+from rotemina.sim.gap.candidates import scouts
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.explanations import MOST_STEPS, Explanation, explanation
+from rotemina.sim.gap.explanations import MOST_STEPS, Explanation, explanation, named_as
 from rotemina.sim.gap.fit import fit
+from rotemina.sim.gap.progress import Account
+from rotemina.sim.gap.selection import NOTICED, possible_causes
+
+_FITTED = 3  # effects that are compared in full
+_NOT_FORETOLD = {Trait.RANDOM, Trait.LOCKED_TO_TIME}
 
 
-def with_retained(evidence: Evidence, best: Explanation, *fuller: Explanation) -> Explanation:
+def with_retained(
+    evidence: Evidence,
+    best: Explanation,
+    fuller: Sequence[Explanation],
+    account: Account,
+    *,
+    jobs: int,
+) -> Explanation:
     """Return the explanation with the same causes and the likeliest additional elements.
 
-    The ``fuller`` ones have the causes of ``best`` and additional, unnamed elements.
+    The ``fuller`` ones have the causes of ``best`` and additional, unnamed elements. One more
+    effect is looked for beside the likeliest of them.
     """
     if not best.causes:
         return best
-    tried = [other for one in (best, *fuller) for other in _with_fewer(evidence, one)]
+    kept = _kept(evidence, (best, *fuller))
+    more = _with_one_more(evidence, kept, account, jobs)
+    likeliest = _likeliest(evidence, (kept, *more))
+    return kept if likeliest is kept else _kept(evidence, (likeliest,))
+
+
+def _kept(evidence: Evidence, tried: Sequence[Explanation]) -> Explanation:
+    """Return the likeliest explanation, without the re-tunings that unseen data do not require."""
+    return _likeliest(evidence, [other for one in tried for other in _with_fewer(evidence, one)])
+
+
+def _likeliest(evidence: Evidence, tried: Sequence[Explanation]) -> Explanation:
     numbers = [len(one.fit.effects) for one in tried]
     weights = weigh(held_out_powers(evidence, [one.held_out for one in tried]), numbers)
     return tried[int(np.argmax(weights))]
+
+
+def _with_one_more(
+    evidence: Evidence, best: Explanation, account: Account, jobs: int
+) -> list[Explanation]:
+    """Return the explanation with each of the few effects that lower its remainder most.
+
+    What acts by time alone foretells nothing of another motion.
+    """
+    if best.score < NOTICED:
+        return []
+    held = [one for one in best.fit.effects if not is_own(evidence, one)]
+    begun = replace(best, causes=tuple(held))
+    free = [
+        one
+        for one in possible_causes(evidence)
+        if (one.id, one.from_axis) not in begun.ids
+        and not effect_named(one.id).formulations[0].traits & _NOT_FORETOLD
+    ]
+    looks = screened_beside(evidence, begun, scouts(evidence, free), account, jobs, briefly=True)
+    chosen = sorted(looks, key=lambda one: one.cost)[:_FITTED]
+    attempts = [[*held, one.effect] for one in chosen]
+    found = fitted(evidence, attempts, account, jobs, begun) if attempts else []
+    return [named_as(one, best.ids) for one in found]
 
 
 def _with_fewer(evidence: Evidence, best: Explanation) -> Iterator[Explanation]:
@@ -39,5 +92,5 @@ def _with_fewer(evidence: Evidence, best: Explanation) -> Iterator[Explanation]:
     others = [one for one in held if one not in causes and one not in own]
     for count in range(len(own)):
         for kept in combinations(own, count):
-            fitted = fit(evidence, [*causes, *others, *kept], most_steps=MOST_STEPS)
-            yield explanation(evidence, len(causes), fitted)
+            refitted = fit(evidence, [*causes, *others, *kept], most_steps=MOST_STEPS)
+            yield explanation(evidence, len(causes), refitted)
