@@ -33,7 +33,7 @@ CLOCKS = (4, 2)  # MHz, E of the chip
 LOOK_S = 5e-5
 ROUND_S = 2e-3
 REST_S = 0.05  # without motion parts the approach from the thrust
-START, PLACES = 64e-6, 4  # of zn above the cells, and how many of these
+START, PLACES = 64e-6, 8  # of zn above the cells, and how many of these
 AWAY = 31e-6  # of zn from mid-range
 QUICK = {"PLACES": 1, "AWAY": 2e-6}
 
