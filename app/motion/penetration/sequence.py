@@ -321,13 +321,13 @@ class PenetrationSequence:
             part.complete for part in attempt.captured
         ):
             return False
-        before = slow.time_s <= attempt.triggered_s
-        time_s = np.concatenate([slow.time_s[before], *(c.device_time_s for c in attempt.captured)])
+        fast_s = np.concatenate([np.zeros(0), *(c.device_time_s for c in attempt.captured)])
+        # A capture begins before the thrust: from there on its samples are all that count.
+        before = slow.time_s < (fast_s[0] if len(fast_s) else np.inf)
+        time_s = np.concatenate([slow.time_s[before], fast_s])
         measured = np.concatenate(
             [slow.measured[before], *(c.measured[:, 0] for c in attempt.captured)]
         )
-        if not attempt.captured:
-            time_s, measured = slow.time_s, slow.measured
         begin_s = attempt.triggered_s
         attempt.thrust = thrust_response(attempt.plan, time_s, measured, begin_s)
         trace = thrust_trace(attempt.plan, time_s, measured, begin_s, attempt.thrust.delay_s)

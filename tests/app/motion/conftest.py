@@ -20,6 +20,7 @@ STARVED = (
     "a set-point came too late",
     "the host was silent",
     "has not answered for",
+    "the device does not answer",
     "samples are missing",
 )
 

@@ -1,5 +1,7 @@
 """Whole runs on the simulator: success, every way to end one early, and what must never be."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -101,6 +103,29 @@ def test_the_thrust_can_be_drawn_beside_its_profile(bench):
     assert np.abs(trace.way - wanted).max() < 0.04 * 50e-6
     assert bench.run().trace is trace
     assert not trace.way.flags.writeable
+
+
+def test_a_capture_that_begins_before_the_thrust_leaves_no_time_twice(bench, monkeypatch):
+    """Boards' captures do; their samples and telemetry are of the same instants."""
+    captures = bench.session.captures
+    collected = captures.collected
+
+    def with_earlier():
+        parts = collected()
+        if not parts or bench.penetration._attempt.captured:
+            return parts
+        time_s, measured = parts[0].device_time_s, parts[0].measured
+        earlier = replace(
+            parts[0],
+            device_time_s=np.concatenate([time_s[0] - 1e-3 * np.arange(20, 0, -1), time_s]),
+            measured=np.concatenate([np.repeat(measured[:1], 20, axis=0), measured]),
+        )
+        return (earlier, *parts[1:])
+
+    monkeypatch.setattr(captures, "collected", with_earlier)
+    bench.ready([cell(58e-6, 0.05)]).arm(drift=0.02).press()
+    trace = bench.until(Phase.HOLD).trace
+    assert (np.diff(trace.time_s) > 0.0).all()
 
 
 @pytest.mark.parametrize("held", [False, True])
