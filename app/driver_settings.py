@@ -71,10 +71,10 @@ def assigned(kind: type[Driver], assignments: Iterable[str]) -> dict[str, Settin
                 )
             )
         if name not in defaults:
-            known = ", ".join(defaults) or "none at all"
+            known = ", ".join(defaults) or "none"
             raise SettingError(
                 message(
-                    "engine", "driver {driver} has no setting {setting}; it knows {known}"
+                    "engine", "driver {driver} has no setting {setting}; available: {known}"
                 ).fill(driver=repr(kind.name), setting=repr(name), known=known)
             )
         values[name] = typed(name, defaults[name], value)

@@ -86,7 +86,7 @@ class Settings:
             values = parse_json(text, str(self._path), InputError)
             if not isinstance(values, dict):
                 raise InputError(
-                    message("engine", "{path}: it holds no table of preferences").fill(
+                    message("engine", "{path} contains no table of preferences").fill(
                         path=self._path
                     )
                 )

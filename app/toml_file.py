@@ -79,7 +79,7 @@ class Format(Generic[T]):
         except OSError as error:
             raise FileWriteError(
                 message(
-                    "engine", "{parent}: the folder cannot be made ({strerror}); choose another"
+                    "engine", "{parent}: the folder cannot be created ({strerror}); choose another"
                 ).fill(parent=path.parent, strerror=str(error.strerror))
             ) from error
         write_text(path, self.text(value))

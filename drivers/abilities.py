@@ -61,7 +61,7 @@ class VelocityMover(Driver, ABC):
             raise LimitError(
                 message(
                     "engine",
-                    "{name}: a lease of {lease} s: must be more than 0 s, at most {longest} s",
+                    "{name}: lease {lease} s: must be more than 0 s and at most {longest} s",
                 ).fill(name=self.name, lease=lease_s, longest=rounded(LONGEST_LEASE_S, 6))
             )
         for axis, speed in velocities.items():
@@ -76,12 +76,12 @@ class VelocityMover(Driver, ABC):
                 bound = (
                     marked("engine", "a finite number")
                     if most is None
-                    else message("engine", "{most} at most").fill(most=most)
+                    else message("engine", "at most {most}").fill(most=most)
                 )
                 raise LimitError(
                     message(
                         "engine",
-                        "{name}: axis {axis}: a speed of {speed} {unit}/s: must be {bound}",
+                        "{name}: axis {axis}: speed {speed} {unit}/s: must be {bound}",
                     ).fill(
                         name=self.name,
                         axis=AxisName(axis),
@@ -166,12 +166,12 @@ class VoltageOutput(Driver, ABC):
             As :meth:`Driver.move_to`.
         """
         permit = self._permitted(permit)
-        state = self._require_sound("put out a voltage")
+        state = self._require_sound("set a voltage")
         if state is not DeviceState.IDLE:
             raise StateError(
                 message(
                     "engine",
-                    "{name}: cannot put out a voltage while it is {state}; stop it or wait",
+                    "{name}: cannot set a voltage while it is {state}; stop it or wait",
                 ).fill(name=self.name, state=state)
             )
         bounds = getattr(self.robot.axes.get(axis), "voltage_range", None)
@@ -230,7 +230,7 @@ class Capturer(Driver, ABC):
                 )
         if not 1 <= len(axes) <= rates.axes:
             raise LimitError(
-                message("engine", "{name}: a capture of {axes} axes: 1 to {most}").fill(
+                message("engine", "{name}: capture of {axes} axes: must be 1 to {most}").fill(
                     name=self.name, axes=len(axes), most=rates.axes
                 )
             )
@@ -238,7 +238,8 @@ class Capturer(Driver, ABC):
         if not 0.0 < rate_hz <= most:
             raise LimitError(
                 message(
-                    "engine", "{name}: a capture of {axes} axes at {rate_hz} Hz: {most} Hz at most"
+                    "engine",
+                    "{name}: capture of {axes} axes at {rate_hz} Hz: must be at most {most} Hz",
                 ).fill(
                     name=self.name,
                     axes=len(axes),
@@ -248,7 +249,7 @@ class Capturer(Driver, ABC):
             )
         if not 1 <= count <= rates.samples:
             raise LimitError(
-                message("engine", "{name}: a capture of {count} samples: 1 to {most}").fill(
+                message("engine", "{name}: capture of {count} samples: must be 1 to {most}").fill(
                     name=self.name, count=count, most=rates.samples
                 )
             )
@@ -281,7 +282,7 @@ class ProfileRunner(Driver, ABC):
         state = self._require_sound("take a profile")
         if state is not DeviceState.IDLE:
             raise StateError(
-                message("engine", "{name}: cannot take a profile while it is {state}").fill(
+                message("engine", "{name}: cannot accept a profile while it is {state}").fill(
                     name=self.name, state=state
                 )
             )
@@ -352,7 +353,7 @@ class Display(Driver, ABC):
         self._require_open("show a text")
         if not 0 <= row < DISPLAY_ROWS:
             raise LimitError(
-                message("engine", "{name}: row {row} of the display: 0 or {last}").fill(
+                message("engine", "{name}: row {row} of the display: must be 0 or {last}").fill(
                     name=self.name, row=row, last=DISPLAY_ROWS - 1
                 )
             )
@@ -462,9 +463,9 @@ class TrajectoryPlayer(Driver, ABC):
         state = self._require_sound("play")
         if state is not DeviceState.IDLE:
             raise StateError(
-                message(
-                    "engine", "{name}: it is still {state}; stop it or wait before playing"
-                ).fill(name=self.name, state=state)
+                message("engine", "{name} is still {state}; stop it or wait before playing").fill(
+                    name=self.name, state=state
+                )
             )
         self._play(self.accept(trajectory).commands, permit)
 

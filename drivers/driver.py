@@ -100,7 +100,7 @@ class Driver(ABC):
         """
         if self._is_open:
             raise StateError(
-                message("engine", "{name}: it is open already; close it first").fill(name=self.name)
+                message("engine", "{name} is already open; close it first").fill(name=self.name)
             )
         self._last_time_s = float("-inf")
         self._open()
@@ -221,8 +221,8 @@ class Driver(ABC):
                 raise ProtocolError(
                     message(
                         "engine",
-                        "{name}: device time went from {last_time_s} s back to "
-                        "{device_time_s} s; was the device reset?",
+                        "{name}: the device time went back from {last_time_s} s to "
+                        "{device_time_s} s; check whether the device was reset",
                     ).fill(
                         name=self.name,
                         last_time_s=rounded(self._last_time_s, 9),
@@ -253,15 +253,15 @@ class Driver(ABC):
             raise StateError(
                 message(
                     "engine",
-                    "{name}: cannot {action}: the device has said nothing for {silent} "
-                    "s; wait until it answers",
+                    "{name}: cannot {action}: the device has been silent for {silent} s; "
+                    "wait until it answers",
                 ).fill(name=self.name, action=action, silent=rounded(status.silent_s, 2))
             )
         if status.state is DeviceState.FAULT:
             raise StateError(
-                message("engine", "{name}: cannot {action} in a fault ({fault}); clear it").fill(
-                    name=self.name, action=action, fault=status.fault or ""
-                )
+                message(
+                    "engine", "{name}: cannot {action} during a fault ({fault}); clear it"
+                ).fill(name=self.name, action=action, fault=status.fault or "")
             )
         if not status.position_known:
             unknown = message(

@@ -111,7 +111,7 @@ class Gate:
     def _compare(self, permit: "Permit", *, begins: bool) -> None:
         """Refuse a permit that does not pass now; the lock is held."""
         if permit.epoch.connections != self._epoch.connections:
-            raise OvertakenError(message("engine", "the connection is another one now; ask again"))
+            raise OvertakenError(message("engine", "the connection has changed; try again"))
         if permit.purpose is Purpose.ENQUIRY:
             return
         if self._latched is not None:
@@ -119,11 +119,11 @@ class Gate:
                 message("engine", "{stop} is active; release it first").fill(stop=self._latched)
             )
         if permit.epoch != self._epoch:
-            raise OvertakenError(
-                message("engine", "a stop came after this was asked for; ask again")
-            )
+            raise OvertakenError(message("engine", "a stop came after this request; try again"))
         if self.clock() > permit.until_s:
-            raise OvertakenError(message("engine", "its lease has run out; ask again"))
+            raise OvertakenError(
+                message("engine", "the lease of the request has expired; try again")
+            )
         why = self.locks(permit) if begins else None
         if why is not None:
             raise GateError(message("engine", "motion is locked: {locked}").fill(locked=why))

@@ -106,7 +106,7 @@ class Compensator(Driver, ABC):
             )
         if model is not None and model.axis != axis:
             raise LimitError(
-                message("engine", "{name}: an inverse of axis {axis} is none of {other}").fill(
+                message("engine", "{name}: the inverse is for axis {axis}, not for {other}").fill(
                     name=self.name, axis=model.axis, other=axis
                 )
             )
@@ -167,7 +167,7 @@ class Regulator(Driver, ABC):
         if regulation is not None:
             if regulation.axis != axis:
                 raise LimitError(
-                    message("engine", "{name}: a loop of axis {axis} is none of {other}").fill(
+                    message("engine", "{name}: the loop is for axis {axis}, not for {other}").fill(
                         name=self.name, axis=regulation.axis, other=axis
                     )
                 )

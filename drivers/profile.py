@@ -91,7 +91,7 @@ class Profile:
         if not 1 <= len(self.segments) <= MOST_SEGMENTS:
             raise InputError(
                 message(
-                    "engine", "profile of {axis}: {segments} segments: 1 to {most_segments}"
+                    "engine", "profile of {axis}: {segments} segments: must be 1 to {most_segments}"
                 ).fill(axis=self.axis, segments=len(self.segments), most_segments=MOST_SEGMENTS)
             )
         axis, unit = robot.axes[self.axis], robot.unit(self.axis) or ""
@@ -116,7 +116,7 @@ class Profile:
             if axis.max_speed is not None and speed > axis.max_speed * _SLACK:
                 most = exact(axis.max_speed, f"{unit}/s")
                 raise InputError(
-                    message("engine", "{where}: {speed}: at most {most}").fill(
+                    message("engine", "{where}: {speed}: must be at most {most}").fill(
                         where=where, speed=exact(speed, f"{unit}/s"), most=most
                     )
                 )
@@ -124,7 +124,7 @@ class Profile:
             if axis.max_acceleration is not None and acceleration > axis.max_acceleration * _SLACK:
                 most = exact(axis.max_acceleration, f"{unit}/s²")
                 raise InputError(
-                    message("engine", "{where}: {acceleration}: at most {most}").fill(
+                    message("engine", "{where}: {acceleration}: must be at most {most}").fill(
                         where=where, acceleration=exact(acceleration, f"{unit}/s²"), most=most
                     )
                 )

@@ -95,7 +95,7 @@ def _model(record: Record, axis: str) -> list[Figure]:
     model = identify_oe(signals, Orders(2, 2, _LAG_ROWS))
     if model.fit_percent < _GOOD_FIT:
         raise IdentificationError(
-            message("engine", "a model of second order fits {fit_percent} % alone").fill(
+            message("engine", "a second-order model fits only {fit_percent} %").fill(
                 fit_percent=fixed(model.fit_percent, 0)
             )
         )
@@ -121,7 +121,7 @@ def _holds(record: Record, axis: str) -> list[Figure]:
     holds = find_holds(record.time_s, command)
     if not len(holds):
         raise IdentificationError(
-            message("engine", "{axis}.cmd rests nowhere after a move").fill(axis=axis)
+            message("engine", "{axis}.cmd never rests after a move").fill(axis=axis)
         )
     unit = record.units[axis]
     ends: dict[tuple[float, bool], list[float]] = {}

@@ -90,9 +90,9 @@ class HealthBook:
                 file.write(line + "\n")
         except OSError as error:
             raise FileWriteError(
-                message("engine", "{path}: the card cannot be kept ({strerror}); make room").fill(
-                    path=path, strerror=str(error.strerror)
-                )
+                message(
+                    "engine", "{path}: the card cannot be stored ({strerror}); free disk space"
+                ).fill(path=path, strerror=str(error.strerror))
             ) from error
 
 

@@ -83,15 +83,15 @@ class CalibrationStore:
             raise CalibrationError(
                 message(
                     "engine",
-                    "{path}: it is of axis {axis} of robot {robot}, not of {name}; calibrate this "
-                    "one",
+                    "{path}: the calibration belongs to axis {axis} of robot {robot}, not of "
+                    "{name}; calibrate this one",
                 ).fill(
                     path=path, axis=found.axis, robot=repr(found.robot), name=repr(self._robot.name)
                 )
             )
         if found.unit != (self._robot.unit(found.axis) or "m"):
             raise CalibrationError(
-                message("engine", "{path}: unit = {unit}: axis {axis} has another").fill(
+                message("engine", "{path}: unit = {unit}: axis {axis} has another unit").fill(
                     path=path, unit=repr(found.unit), axis=found.axis
                 )
             )

@@ -244,8 +244,8 @@ class CameraFeed:
             state = FeedState.FROZEN
             reason = message(
                 "engine",
-                "every picture has been the same for more than {seconds} s; open it "
-                "again, and do not trust what it shows",
+                "every picture has been the same for more than {seconds} s; do not trust it, "
+                "and open the camera again",
             ).fill(seconds=rounded(FROZEN_S, 6))
         if picture_state is PictureState.BLACK:
             state = FeedState.BLACK

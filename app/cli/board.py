@@ -127,15 +127,15 @@ def _count_of_ports(options: argparse.Namespace, boards: int) -> Literal[1, 2]:
     asked = len(options.port) + len(options.tcp)
     if asked > _MOST_PORTS:
         raise InputError(
-            message("cli", "{asked} ports: two boards have {most_ports} at most").fill(
+            message("cli", "{asked} ports: two boards have at most {most_ports}").fill(
                 asked=asked, most_ports=_MOST_PORTS
             )
         )
     if options.bus and asked == _MOST_PORTS:
-        raise InputError(message("cli", "--bus: it is one line; name one port only"))
+        raise InputError(message("cli", "--bus is one line; name only one port"))
     if options.bus and boards == 1:
         raise InputError(
-            message("cli", "--bus: the robot's axes take one board, which shares no line")
+            message("cli", "--bus: the robot's axes need only one board, which shares no line")
         )
     one = options.bus or asked == 1 or (not asked and boards == 1)
     return 1 if one else 2

@@ -217,7 +217,7 @@ def _loopback(address: str) -> tuple[str, int]:
         raise InputError(
             message(
                 "cli",
-                "--tcp {address}: {value} is not this machine's own loop; anybody who reaches a "
+                "--tcp {address}: {value} is not a loopback address; anyone who reaches a "
                 "board can move it: use 127.0.0.1:PORT",
             ).fill(address=address, value=repr(host or "no host"))
         )
@@ -241,13 +241,12 @@ def _make_link(link: Path, device: str) -> None:
         raise InputError(
             message(
                 "cli",
-                "--port {link}: there is something of this name already; remove it, or take "
-                "another",
+                "--port {link} already exists; remove it, or choose another name",
             ).fill(link=link)
         ) from error
     except OSError as error:
         raise InputError(
-            message("cli", "--port {link}: cannot make a link there: {error}").fill(
+            message("cli", "--port {link}: cannot create a link there: {error}").fill(
                 link=link, error=str(error)
             )
         ) from error

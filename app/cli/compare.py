@@ -75,7 +75,9 @@ def _compared(
         return comparison, comparison.as_json(), table(comparison, options.wording)
     if options.fit:
         raise InputError(
-            message("cli", "--fit: it re-fits the model, which --with leaves out; use one of them")
+            message(
+                "cli", "--fit re-fits the model, which --with does not use; use only one of them"
+            )
         )
     other = read_record(options.other, columns=options.columns, robot=robot)
     runs = compare_runs(robot, record, other)

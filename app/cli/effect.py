@@ -122,7 +122,7 @@ def _check(options: argparse.Namespace) -> int:
     for effect_id in options.ids:
         if effect_id not in known:
             raise EffectError(
-                message("cli", "there is no effect {effect_id}; there are {names}").fill(
+                message("cli", "there is no effect {effect_id}; available: {names}").fill(
                     effect_id=repr(effect_id), names=", ".join(known)
                 )
             )

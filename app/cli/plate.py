@@ -144,7 +144,7 @@ def _target(options: argparse.Namespace, ranges: np.ndarray) -> np.ndarray:
         raise PlateError(
             message(
                 "cli",
-                "the pin's bottom cannot go that far: --zn, --thx, --thy must be within ± "
+                "the pin's bottom cannot move that far: --zn, --thx, --thy must be within ± "
                 "{farthest} µm or µrad",
             ).fill(farthest=1000000.0 * _FARTHEST)
         )

@@ -114,9 +114,9 @@ def check(options: argparse.Namespace) -> int:
     if not points:
         wanted = options.kind or "plugin"
         raise InputError(
-            message(
-                "cli", "there is no {wanted} {name}; `rotemina plugin list` tells which there are"
-            ).fill(wanted=wanted, name=repr(options.name))
+            message("cli", "there is no {wanted} {name}; `rotemina plugin list` lists all").fill(
+                wanted=wanted, name=repr(options.name)
+            )
         )
     said = {Verdict.PASSED: "ok", Verdict.FAILED: "FAILED", Verdict.SKIPPED: "-"}
     robot = robot_of(options)

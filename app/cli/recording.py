@@ -194,7 +194,5 @@ def report(options: argparse.Namespace) -> int:
 def _require_other(output: Path, read: Path) -> None:
     if output.exists() and output.samefile(read):
         raise InputError(
-            message("cli", "{output}: it is the file that is read; name another by -o").fill(
-                output=output
-            )
+            message("cli", "{output} is the input file; name another by -o").fill(output=output)
         )

@@ -105,9 +105,9 @@ def _check_files(options: argparse.Namespace) -> None:
             output.exists() and any(s.exists() and output.samefile(s) for s in sources)
         ):
             raise InputError(
-                message(
-                    "cli", "{output}: it is named twice; give each file a name of its own"
-                ).fill(output=output)
+                message("cli", "{output} is named twice; give each file its own name").fill(
+                    output=output
+                )
             )
         sources.append(output)
 

@@ -226,7 +226,7 @@ class CalibrationRun:
         except InputError as error:
             self._end(
                 Phase.FAILED,
-                message("engine", "{reason}; it could not go back: {error}").fill(
+                message("engine", "{reason}; the return failed: {error}").fill(
                     reason=reason or "calibrated", error=str(error)
                 ),
             )
@@ -302,9 +302,9 @@ class CalibrationRun:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the picture drifted by {drift} px during the calibration, must be "
-                    "at most {most} px; let stage and camera settle, see to backlash, "
-                    "and begin again",
+                    "the picture drifted by {drift} px during the calibration; at most "
+                    "{most} px are permitted: let stage and camera settle, reduce backlash, "
+                    "and start again",
                 ).fill(drift=fixed(drift, 1), most=rounded(_MOST_DRIFT_PX, 6))
             )
         first, tip = self._first

@@ -106,7 +106,7 @@ class CameraInUse:
         if found is None:
             known = ", ".join(one.key for one in self.cameras) or "none"
             raise MicroscopeError(
-                message("engine", "there is no camera {key}; there is: {known}").fill(
+                message("engine", "there is no camera {key}; available: {known}").fill(
                     key=repr(key), known=known
                 )
             )
@@ -251,8 +251,8 @@ class CameraInUse:
         else:
             self._refused = message(
                 "engine",
-                "{camera} ({key}), the camera used last, is not there; plug it in, "
-                "or choose another",
+                "{camera} ({key}), the camera used last, is not connected; plug it in, or "
+                "choose another",
             ).fill(camera=last.identity.name, key=last.identity.key)
 
     def _remember(self) -> None:

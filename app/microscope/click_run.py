@@ -144,8 +144,8 @@ class ClickRun:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the tip is still {distance} px off after {n} corrections, must be "
-                    "at most {most} px; the stage resolves no finer, or drifts",
+                    "the tip is still {distance} px off after {n} corrections; at most "
+                    "{most} px are permitted: the stage drifts, or its resolution is too coarse",
                 ).fill(
                     distance=fixed(distance, 2),
                     n=self._corrections,
@@ -179,8 +179,8 @@ class ClickRun:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the tip is not seen near {column}, {row} px, where it should be; "
-                    "nothing more is moved: look at the picture",
+                    "the tip is not visible near {column}, {row} px, where it should be; "
+                    "motion has ended: check the picture",
                 ).fill(column=fixed(self._ghost[0], 0), row=fixed(self._ghost[1], 0))
             )
         return np.asarray(fit.pixel + low)

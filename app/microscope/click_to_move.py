@@ -151,7 +151,7 @@ class ClickToMove:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the tip would go {distance}, more than {confirm_m}; confirm the move first",
+                    "the tip would move {distance}, more than {confirm_m}; confirm the move first",
                 ).fill(distance=exact(move.distance, "m"), confirm_m=exact(self.confirm_m, "m"))
             )
 

@@ -157,7 +157,7 @@ class OpticalSetup:
         name = name.strip()
         if not name:
             raise MicroscopeError(
-                message("engine", 'objective: the name is empty; give one, such as "20x"')
+                message("engine", 'objective: the name is empty; enter one, such as "20x"')
             )
         with self._lock:
             if name != self.objective:

@@ -33,8 +33,8 @@ def nominal_pixel_m(robot: Robot, objective: str = "") -> float:
         raise MicroscopeError(
             message(
                 "engine",
-                "robot {name}: [microscope] pixel_size and magnification are missing; the tip's "
-                "shape cannot be known without them",
+                "robot {name}: [microscope] pixel_size and magnification are missing; they "
+                "determine the tip's shape in the picture",
             ).fill(name=repr(robot.name))
         )
     return given.pixel_size / (magnification_of(objective) or given.magnification)

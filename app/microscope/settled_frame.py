@@ -113,8 +113,8 @@ class SettledFrameGrabber:
                 raise MicroscopeError(
                     message(
                         "engine",
-                        "the machine did not come to rest within {rest_patience_s} s; look what "
-                        "drives it, and begin again",
+                        "the machine did not come to rest within {rest_patience_s} s; check "
+                        "what drives it, and start again",
                     ).fill(rest_patience_s=REST_PATIENCE_S)
                 )
             return None
@@ -126,15 +126,13 @@ class SettledFrameGrabber:
         waited_s = now_s - self._rested_s
         if waited_s > self._settle_s + PATIENCE_S:
             what = (
-                marked("engine", "frozen: it gives the same picture again")
-                if self._same
-                else "stalled"
+                marked("engine", "frozen: it repeats the same picture") if self._same else "stalled"
             )
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the camera is {what}; {count} of {pictures} new pictures came within "
-                    "{waited_s} s. Nothing is moved: see to the camera and begin again",
+                    "the camera is {what}; {count} of {pictures} new pictures arrived within "
+                    "{waited_s} s. Nothing moves: check the camera, and start again",
                 ).fill(
                     what=what,
                     count=len(self._images),
@@ -178,8 +176,8 @@ class SettledFrameGrabber:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the camera shows {size} now, and {before} when this began; keep its settings "
-                    "and begin again",
+                    "the camera shows {size}, but showed {before} at the start; keep its "
+                    "settings, and start again",
                 ).fill(size=_size(frame.region), before=_size(self._region))
             )
         self._region = frame.region
@@ -187,7 +185,7 @@ class SettledFrameGrabber:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the picture is black; look at lamp, shutter and exposure. Nothing is moved",
+                    "the picture is black; check lamp, shutter and exposure. Nothing moves",
                 )
             )
         self._same = before is not None and np.array_equal(before.pixels, frame.pixels)
@@ -211,15 +209,11 @@ class SettledFrameGrabber:
 
     def _refuse_if_broken(self, state: SessionState) -> None:
         if not self.permit.valid:
-            raise MicroscopeError(
-                message("engine", "somebody stopped the machine; it stays where it is")
-            )
+            raise MicroscopeError(message("engine", "the machine was stopped; it stays in place"))
         if state.connection is not Connection.CONNECTED or state.fault is not None:
             reason = state.fault or state.locked or message("engine", "it is not connected")
             raise MicroscopeError(
-                message("engine", "the machine does not move any more: {reason}").fill(
-                    reason=reason
-                )
+                message("engine", "the machine no longer moves: {reason}").fill(reason=reason)
             )
         if state.locked is not None:
             raise MicroscopeError(

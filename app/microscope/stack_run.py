@@ -50,16 +50,16 @@ def places_of(first: float, last: float, step: float) -> tuple[float, ...]:
     length = abs(last - first)
     if not (isfinite(length) and isfinite(step) and step > 0.0):
         raise MicroscopeError(
-            message("engine", "z-stack: a step of {step}: must be above 0 µm").fill(
+            message("engine", "z-stack: step {step}: must be above 0 µm").fill(
                 step=exact(step, "m")
             )
         )
     count = floor(length / step + _WHOLE) + 1
     if count > MOST_PAGES:
         raise MicroscopeError(
-            message("engine", "z-stack: {count} pictures: at most {most}; take a larger step").fill(
-                count=count, most=MOST_PAGES
-            )
+            message(
+                "engine", "z-stack: {count} pictures: must be at most {most}; use a larger step"
+            ).fill(count=count, most=MOST_PAGES)
         )
     away = np.copysign(step, last - first)
     return tuple((first + away * np.arange(count)).tolist())
@@ -157,8 +157,8 @@ class StackRun:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "z-stack: {count} pictures of {each} MB: at most {most} MB together; take a "
-                    "larger step, or a part of the sensor",
+                    "z-stack: {count} pictures of {each} MB: must be at most {most} MB "
+                    "together; use a larger step, or a part of the sensor",
                 ).fill(
                     count=count,
                     each=f"{frame.pixels.nbytes / 1e6:.1f}",

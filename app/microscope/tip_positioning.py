@@ -134,7 +134,7 @@ class TipPositioning:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the tip is not tracked; switch tracking on, so that the move can be looked at",
+                    "the tip is not tracked; turn on tracking, so that the move can be checked",
                 )
             )
         ground = self._tracker.ground_about(move.pixel)

@@ -58,7 +58,10 @@ class Admission:
             )
         if state.activity is DeviceState.HOMING:
             raise RefusedError(
-                message("engine", "the machine looks for its switches; wait, or stop it first")
+                message(
+                    "engine",
+                    "the machine is searching for its limit switches; wait, or stop it first",
+                )
             )
         if state.activity is DeviceState.PLAYING or self._link.mailbox.holds_play():
             raise RefusedError(

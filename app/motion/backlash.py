@@ -76,7 +76,7 @@ class Backlash:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "axis {axis}: a width of {width}: must be above 0 and at most {most}, a "
+                    "axis {axis}: width {width}: must be above 0 and at most {most}, a "
                     "hundredth of the range",
                 ).fill(
                     axis=AxisName(axis),
@@ -85,7 +85,7 @@ class Backlash:
                 )
             )
         with self._admission.lock:
-            self._admission.refuse_unless_at_rest("changing how an axis comes to its targets")
+            self._admission.refuse_unless_at_rest("changing the approach of an axis")
             kept = {name: one for name, one in self.applied.items() if name != axis}
             if approach is not None:
                 kept[axis] = approach
@@ -149,7 +149,7 @@ class Backlash:
         raise OutOfLimitsError(
             message(
                 "engine",
-                "axis {axis}: the one-sided approach to {target} begins at {begin}, outside of "
+                "axis {axis}: the one-sided approach to {target} begins at {begin}, outside "
                 "{low} to {high}; stay {width} away from that end, or switch the approach off",
             ).fill(
                 axis=AxisName(axis),

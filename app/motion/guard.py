@@ -239,8 +239,8 @@ class Guard:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: a profile at {speed} within {height} of its floor: "
-                    "{most} at most; only an armed penetration may be faster there",
+                    "tip: the profile moves at {speed} within {height} of the floor, where "
+                    "{most} is the limit; only an armed penetration may be faster",
                 ).fill(
                     speed=exact(speed, "m/s"),
                     height=exact(SLOW_HEIGHT, "m"),
@@ -251,7 +251,8 @@ class Guard:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: a thrust of {way} within {height} of its floor: {most} at most",
+                    "tip: a thrust of {way} within {height} of the floor exceeds the limit "
+                    "of {most}",
                 ).fill(
                     way=exact(ends[1] - ends[0], "m"),
                     height=exact(SLOW_HEIGHT, "m"),

@@ -141,7 +141,7 @@ class HeldInverses:
             raise StateError(
                 message(
                     "engine",
-                    "axis {axis} is compensated, which sets its voltage; take the inverse off",
+                    "the inverse of axis {axis} sets its voltage; remove the inverse",
                 ).fill(axis=AxisName(axis))
             )
 

@@ -199,7 +199,7 @@ class Mailbox:
                 raise RefusedError(
                     message(
                         "engine",
-                        "{capacity} commands are waiting already and the device does not "
+                        "{capacity} commands are already waiting because the device does not "
                         "keep up; wait, or stop",
                     ).fill(capacity=self.capacity)
                 )

@@ -98,9 +98,9 @@ class Moves:
         driver = self._link.driver
         if not isinstance(driver, VelocityMover):
             raise RefusedError(
-                message("engine", "driver {name} cannot move at a speed; send targets").fill(
-                    name=repr(driver.name)
-                )
+                message(
+                    "engine", "driver {name} cannot move at a set speed; send targets instead"
+                ).fill(name=repr(driver.name))
             )
         driver.check_velocity(velocities, lease_s)
         with self._admission.lock:
@@ -303,7 +303,7 @@ class Moves:
         permit = self._admission.drawn(permit)
         if not isinstance(self._link.driver, VoltageOutput):
             raise RefusedError(
-                message("engine", "driver {name} cannot put out a voltage").fill(
+                message("engine", "driver {name} cannot set a voltage").fill(
                     name=repr(self._link.driver.name)
                 )
             )
@@ -326,14 +326,14 @@ class Moves:
             )
         targets = {axis: voltage * model.gain}
         with self._admission.lock:
-            self._admission.refuse_unless_at_rest("putting out a voltage")
+            self._admission.refuse_unless_at_rest("setting a voltage")
             segments = self._guard.move(self._admission.envelope(), targets)
             if len(segments) > 1 or segments[0].speeds:
                 raise RefusedError(
                     message(
                         "engine",
-                        "axis {axis}: a voltage acts at once, too fast so close above the "
-                        "tip's floor; move it instead",
+                        "axis {axis}: a voltage acts at once, which is too fast this close "
+                        "to the floor of the tip; move the axis instead",
                     ).fill(axis=AxisName(axis))
                 )
             command = SetVoltage(axis, voltage, targets)

@@ -260,9 +260,7 @@ class Operation:
                 way = planned(state.command, period_s)
                 now = {**state.command, **self.session.snapshot().command}
                 if any(now[axis] != state.command[axis] for axis in JOINTS):
-                    raise RefusedError(
-                        message("engine", "the machine has moved in the meantime; try again")
-                    )
+                    raise RefusedError(message("engine", "the machine has moved since; try again"))
                 self.session.play(way.trajectory, permit=permit)
             except InputError as error:
                 self._told(message("engine", "{what}: {error}").fill(what=what, error=str(error)))
@@ -317,7 +315,7 @@ class Operation:
                 self.recordings.mkdir(parents=True, exist_ok=True)
             except OSError as error:
                 raise RecordingError(
-                    message("engine", "{folder}: the folder cannot be made ({reason})").fill(
+                    message("engine", "{folder}: the folder cannot be created ({reason})").fill(
                         folder=self.recordings, reason=str(error.strerror or str(error))
                     )
                 ) from error

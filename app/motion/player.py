@@ -102,7 +102,7 @@ def _compensator(device: TrajectoryPlayer) -> Compensator:
 def _regulator(device: TrajectoryPlayer) -> Regulator:
     if not isinstance(device, Regulator):
         raise InputError(
-            message("engine", "driver {name} closes no loop; use the simulator").fill(
+            message("engine", "driver {name} cannot close a loop; use the simulator").fill(
                 name=repr(device.name)
             )
         )

@@ -31,9 +31,9 @@ def narrower(robot: Robot, axis: str, low: float, high: float) -> Range:
     if not low < high:
         unit = robot.unit(axis) or ""
         raise OutOfLimitsError(
-            message(
-                "engine", "axis {axis}: a range from {low} to {high}: its low end must be lower"
-            ).fill(axis=AxisName(axis), low=exact(low, unit), high=exact(high, unit))
+            message("engine", "axis {axis}: range {low} to {high}: the low end must be lower").fill(
+                axis=AxisName(axis), low=exact(low, unit), high=exact(high, unit)
+            )
         )
     return low, high
 
@@ -54,8 +54,8 @@ def check_within(robot: Robot, ranges: Ranges, targets: Iterable[tuple[str, floa
         raise OutOfLimitsError(
             message(
                 "engine",
-                "axis {axis}: target {target} is outside of {low} to {high}, to which its range "
-                "was narrowed; choose a target inside, or widen it in Control, Axes",
+                "axis {axis}: target {target} is outside {low} to {high}, its narrowed "
+                "range; choose a target inside, or widen the range in Control, Axes",
             ).fill(
                 axis=AxisName(axis),
                 target=exact(target, unit),

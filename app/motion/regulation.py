@@ -61,7 +61,7 @@ class Loops:
             return None
         return message(
             "engine",
-            "driver {name} closes no loop: its samples come too seldom and too late for one; use "
+            "driver {name} cannot close a loop: its samples are too rare and too late; use "
             "feed-forward, or the simulator",
         ).fill(name=repr(driver.name))
 
@@ -142,8 +142,8 @@ def regulation_of(robot: Robot, tuning: "Tuning", name: str) -> NamedRegulation:
         raise FeedbackError(
             message(
                 "engine",
-                "{name}: tuned for outputs that come {delay} intervals late, and a "
-                "device's loop puts them out at once; tune with a delay of 0",
+                "{name}: tuned for outputs that are {delay} intervals late, but a device's "
+                "loop outputs them at once; tune with a delay of 0",
             ).fill(name=name, delay=tuning.delay)
         )
     number = f"{name}, point {tuning.chosen}"

@@ -47,8 +47,8 @@ def check_speed(speed: float) -> float:
         raise InputError(
             message(
                 "engine",
-                "playback: a speed of {speed}: must be {slowest} to {fastest} times "
-                "that of the trajectory",
+                "playback: the speed {speed} must be {slowest} to {fastest} times that of "
+                "the trajectory",
             ).fill(
                 speed=rounded(speed, 6), slowest=rounded(SLOWEST, 6), fastest=rounded(FASTEST, 6)
             )

@@ -170,7 +170,7 @@ class MotionSession:
         """
         if self._thread is not None:
             raise RefusedError(
-                message("engine", "the session was started before; make another one")
+                message("engine", "the session has already been started; create a new one")
             )
         self._link.connect()
         self._thread = threading.Thread(target=self._run, name="motion session", daemon=True)
@@ -209,7 +209,7 @@ class MotionSession:
 
     def disconnect(self) -> None:
         """Stop, and let go of the device; it holds."""
-        self.stop(message("engine", "the device is let go of"))
+        self.stop(message("engine", "the device is being released"))
         self._link.disconnect()
 
     def use(self, driver: Driver) -> None:
@@ -252,7 +252,7 @@ class MotionSession:
         state = self._link.worker.state
         moves = state.activity in _MOVES and not state.stopping
         if moves and self.screen.silent:
-            self.stop(message("engine", "the window does not answer"))
+            self.stop(message("engine", "the window does not respond"))
         self._link.worker.run_once()
 
     def confirm_position(self) -> None:

@@ -54,7 +54,8 @@ class TipBounds:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: a floor {clearance} m below the tip: must be a finite number, 0 or more",
+                    "tip: clearance {clearance} m below the tip: must be a finite number, 0 "
+                    "or more",
                 ).fill(clearance=rounded(clearance, 6))
             )
         with self._admission.lock:

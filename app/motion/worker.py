@@ -165,7 +165,7 @@ class Worker:
         if why is not None:
             raise RefusedError(
                 message(
-                    "engine", "the model is not of this machine: {why}; diagnose this one"
+                    "engine", "the model belongs to another machine: {why}; diagnose this one"
                 ).fill(why=why)
             )
         self.models.use(prepared)

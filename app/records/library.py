@@ -293,8 +293,8 @@ def require_length(recording: Recording) -> None:
         raise LibraryError(
             message(
                 "engine",
-                "{path}: {rows} samples are too many to be taken as one record (at most "
-                "{most}); export a stretch of it in the panel Recorder",
+                "{path}: {rows} samples are too many for one record (at most {most}); export "
+                "a section in the panel Recorder",
             ).fill(path=recording.path, rows=recording.count, most=MOST_ROWS)
         )
 
@@ -344,6 +344,7 @@ def _unlink(path: Path) -> None:
     except OSError as error:
         raise LibraryError(
             message(
-                "engine", "{path}: it cannot be deleted ({reason}); let this user write there"
+                "engine",
+                "{path} cannot be deleted ({reason}); give this user permission to write there",
             ).fill(path=path, reason=str(error.strerror or str(error)))
         ) from error

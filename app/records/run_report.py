@@ -271,7 +271,7 @@ def _said(template: str, **fields: str | float) -> str:
 def _headline(report: RunReport) -> Message:
     worst = report.worst
     if worst is None or worst.figure is None:
-        return message("engine", "No axis has a gap that could be told: none was seen to move.")
+        return message("engine", "No axis has a gap: none was seen to move.")
     gap = gap_text(worst.figure.rms, worst.unit)
     if not worst.floor:
         return message("engine", "Largest gap: {axis}, {gap}").fill(

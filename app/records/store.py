@@ -110,8 +110,9 @@ class RecordStore:
             raise LibraryError(
                 message(
                     "engine",
-                    "{path}: the library of records cannot be used ({reason}); make room, or let "
-                    "this user write there. The records themselves are untouched",
+                    "{path}: the library of records cannot be used ({reason}); free disk "
+                    "space, or give this user permission to write there. The records "
+                    "themselves are untouched",
                 ).fill(path=self.path, reason=str(error))
             ) from error
 
@@ -124,9 +125,9 @@ class RecordStore:
             raise LibraryError(
                 message(
                     "engine",
-                    "{path}: the library of records is of version {version}, this program uses "
-                    "{own}: start the newer program, or move the file away; the records are then "
-                    "listed anew, without the names and notes that were typed",
+                    "{path}: the library of records has version {version}, but this program "
+                    "uses {own}: start the newer program, or move the file away; the records "
+                    "are then listed again, without their names and notes",
                 ).fill(path=self.path, version=version, own=VERSION)
             )
 
@@ -140,8 +141,8 @@ class RecordStore:
         return DamagedLibraryError(
             message(
                 "engine",
-                "{path}: the library of records was damaged; it is kept as {aside}. The records "
-                "are listed anew from their files, without the names and notes that were typed",
+                "{path}: the library of records was damaged; it is kept as {aside}. The "
+                "records are listed again from their files, without their names and notes",
             ).fill(path=self.path, aside=aside.name)
         )
 

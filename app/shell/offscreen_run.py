@@ -54,7 +54,7 @@ def run(session: MotionSession, output: Path) -> int:
         output.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OffscreenError(
-            message("engine", "{output}: the folder cannot be made: {strerror}").fill(
+            message("engine", "{output}: the folder cannot be created: {strerror}").fill(
                 output=output, strerror=str(error.strerror)
             )
         ) from error

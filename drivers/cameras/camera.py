@@ -116,7 +116,7 @@ class Camera(ABC):
         """
         if self._description is None:
             raise StateError(
-                message("engine", "{name}: it is closed; open it first").fill(name=self.name)
+                message("engine", "{name} is closed; open it first").fill(name=self.name)
             )
         return self._description
 
@@ -140,7 +140,7 @@ class Camera(ABC):
         """
         if self._description is not None:
             raise StateError(
-                message("engine", "{name}: it is open already; close it first").fill(name=self.name)
+                message("engine", "{name} is already open; close it first").fill(name=self.name)
             )
         self._count = 0
         self._triggered = False
@@ -183,7 +183,7 @@ class Camera(ABC):
         if self.description and self._settings.trigger is not Trigger.SOFTWARE:
             raise StateError(
                 message(
-                    "engine", "{name}: it runs freely; configure a software trigger first"
+                    "engine", "{name} is free-running; configure a software trigger first"
                 ).fill(name=self.name)
             )
         self._triggered = True

@@ -100,8 +100,8 @@ class CameraHub:
         if source not in self.sources:
             known = ", ".join(self.sources)
             raise CameraRefusedError(
-                message("engine", "there is no source {source} of cameras; there is: {known}").fill(
-                    source=repr(source), known=known
-                )
+                message(
+                    "engine", "there is no source {source} of cameras; available: {known}"
+                ).fill(source=repr(source), known=known)
             )
         return self.camera(self.sources[source].addressed(address))

@@ -92,14 +92,14 @@ def check(name: str, can: CameraDescription, settings: CameraSettings) -> None:
     if settings.pixel_type is not None and settings.pixel_type not in types:
         known = ", ".join(dict.fromkeys(types))
         raise CameraSettingError(
-            message("engine", "{name}: pixel type {pixel_type}: it has {known}").fill(
+            message("engine", "{name} has no pixel type {pixel_type}; available: {known}").fill(
                 name=name, pixel_type=settings.pixel_type, known=known
             )
         )
     if settings.trigger not in can.triggers:
         known = ", ".join(can.triggers)
         raise CameraSettingError(
-            message("engine", "{name}: trigger {trigger}: it has {known}").fill(
+            message("engine", "{name} has no trigger {trigger}; available: {known}").fill(
                 name=name, trigger=settings.trigger, known=known
             )
         )
@@ -114,9 +114,9 @@ def _check_number(
         return
     if bounds is None:
         raise CameraSettingError(
-            message("engine", "{name}: {what} = {value}{unit}: it cannot be set; leave it").fill(
-                name=name, what=what, value=value, unit=unit
-            )
+            message(
+                "engine", "{name}: {what} = {value}{unit}: cannot be set; leave it unchanged"
+            ).fill(name=name, what=what, value=value, unit=unit)
         )
     if not (isfinite(value) and bounds[0] <= value <= bounds[1]):
         raise CameraSettingError(

@@ -50,7 +50,7 @@ class CameraSource(ABC):
             If no camera can be named like this.
         """
         raise CameraRefusedError(
-            message("engine", "{name}: {address}: choose one that is listed").fill(
+            message("engine", "{name}: {address}: choose a listed one").fill(
                 name=self.name, address=repr(address)
             )
         )

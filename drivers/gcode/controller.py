@@ -222,7 +222,7 @@ class Controller:
             return
         if short := way.missed(position):
             self._give_up(
-                message("engine", "it came to rest before its end: {short}").fill(short=short)
+                message("engine", "the move ended before its target: {short}").fill(short=short)
             )
         else:
             self._end_way()
@@ -258,7 +258,7 @@ class Controller:
         if self._reset_s is None and not self._stops and self.fault is None:
             self.known.clear()
             self.fault = marked(
-                "engine", "the controller was reset by somebody else, or lost its supply"
+                "engine", "the controller was reset from outside, or lost its supply"
             )
         self._deaf = False
         self._reset_s = None

@@ -141,8 +141,9 @@ def check_stage(robot: Robot, letters: str) -> None:
             raise InputError(
                 message(
                     "engine",
-                    "robot {robot}: axis {axis} is moved by a {kind}; a G-code controller moves "
-                    "stepping motors: take a robot file that has such axes only, as xyz",
+                    "robot {robot}: axis {axis} is moved by a {kind}, but a G-code "
+                    "controller moves stepping motors; choose a robot file with such axes "
+                    "only, such as xyz",
                 ).fill(robot=repr(robot.name), axis=name, kind=axis.kind)
             )
 

@@ -115,7 +115,7 @@ class Opening:
                 raise DriverTimeoutError(
                     message(
                         "engine",
-                        "{where}: its axes still move {rest_s} s after a feed hold; use the "
+                        "{where}: the axes still move {rest_s} s after a feed hold; use the "
                         "machine's emergency switch",
                     ).fill(where=self._where, rest_s=_REST_S)
                 )
@@ -136,8 +136,8 @@ class Opening:
         raise DriverTimeoutError(
             message(
                 "engine",
-                "{where}: no answer to '?' in {limit_s} s; is it a GRBL controller, is it switched "
-                "on, is the baud rate right?",
+                "{where}: no answer to '?' within {limit_s} s; check that it is a GRBL "
+                "controller, its power and the baud rate",
             ).fill(where=self._where, limit_s=limit_s)
         )
 

@@ -163,8 +163,8 @@ class GcodeStage(Homer, Linked):
             raise DriverError(
                 message(
                     "engine",
-                    "{url}: the controller has {count} axes, robot {robot} {wanted}; take the "
-                    "robot file of this stage",
+                    "{url}: the controller has {count} axes, robot {robot} {wanted}; choose "
+                    "the robot file of this stage",
                 ).fill(url=url, count=count, robot=repr(self.robot.name), wanted=len(self.axes))
             )
         try:
@@ -212,7 +212,7 @@ class GcodeStage(Homer, Linked):
         if self._opened.braking:
             raise StateError(
                 message(
-                    "engine", "{name}: its axes still brake; clear the fault when they rest"
+                    "engine", "{name}: the axes are still braking; clear the fault when they rest"
                 ).fill(name=self.name)
             )
         self._opened.clear_fault(permit)
@@ -228,9 +228,7 @@ class GcodeStage(Homer, Linked):
             )
         if not self._opened.ready:
             raise StateError(
-                message("engine", "{name}: it is still busy with a stop; ask again").fill(
-                    name=self.name
-                )
+                message("engine", "{name} is still handling a stop; try again").fill(name=self.name)
             )
         lines = deque([("$H", self.axes)])
         if self._single:

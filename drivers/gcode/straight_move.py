@@ -99,7 +99,7 @@ class StraightMove:
             at = position[axis.number]
             if abs(at - end) > 2.0 * axis.resolution * axis.scale:
                 return message(
-                    "engine", "axis {name} at {at}, not at {end}, as the controller counts"
+                    "engine", "axis {name} at {at} instead of {end} by the controller's count"
                 ).fill(name=axis.name, at=fixed(at, 3), end=fixed(end, 3))
         return ""
 

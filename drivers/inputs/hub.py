@@ -141,10 +141,10 @@ class InputHub:
         """
         with self._lock:
             found = self._there.get(key)
-            keys = ", ".join(self._there) or marked("engine", "none at all")
+            keys = ", ".join(self._there) or marked("engine", "none")
         if found is None:
             raise InputLostError(
-                message("engine", "input device {key} is not plugged in; there are: {keys}").fill(
+                message("engine", "input device {key} is not plugged in; available: {keys}").fill(
                     key=repr(key), keys=keys
                 )
             )

@@ -137,7 +137,7 @@ class Pad(InputSource):
         with self._lock:
             if not self._there or identity != self.identity:
                 raise InputLostError(
-                    message("engine", "{name} ({key}): it is not there").fill(
+                    message("engine", "{name} ({key}) is not connected").fill(
                         name=identity.name, key=identity.key
                     )
                 )
@@ -157,7 +157,7 @@ class Pad(InputSource):
         with self._lock:
             if device.lost:
                 raise InputLostError(
-                    message("engine", "{name}: it was taken away").fill(name=self.identity.name)
+                    message("engine", "{name} was removed").fill(name=self.identity.name)
                 )
             self._lapse()
             readings = tuple(device.waiting)
@@ -229,9 +229,7 @@ class PadDevice(InputDevice):
         """Return what was set since the last call; see :class:`InputDevice`."""
         if not self._is_open:
             raise StateError(
-                message("engine", "{name}: it was closed; open it again").fill(
-                    name=self.identity.name
-                )
+                message("engine", "{name} was closed; open it again").fill(name=self.identity.name)
             )
         return self._pad.readings(self)
 

@@ -110,8 +110,8 @@ class Simulator(
                 raise SettingError(
                     message(
                         "engine",
-                        "simulator: robot {name} has an axis moved by a force that no controller "
-                        "holds; give it one in the robot file",
+                        "simulator: robot {name} has a force axis without a controller; add "
+                        "one to the robot file",
                     ).fill(name=repr(robot.name))
                 )
         self._position = self._start_position(self._number("start_fraction", 0.0, 1.0))
@@ -297,23 +297,21 @@ class Simulator(
             raise LimitError(
                 message(
                     "engine",
-                    "{name}: axis {axis} runs under a controller, which alone sets its voltage",
+                    "{name}: the controller of axis {axis} sets its voltage",
                 ).fill(name=self.name, axis=axis)
             )
         if axis in self.compensated:
             raise LimitError(
                 message(
                     "engine",
-                    "{name}: axis {axis} is compensated, which sets its voltage; switch the "
-                    "compensation off first",
+                    "{name}: the inverse of axis {axis} sets its voltage; remove the inverse first",
                 ).fill(name=self.name, axis=axis)
             )
         if axis in self.regulated:
             raise LimitError(
                 message(
                     "engine",
-                    "{name}: axis {axis} is under a loop, which sets its voltage; take it off "
-                    "first",
+                    "{name}: the loop of axis {axis} sets its voltage; open the loop first",
                 ).fill(name=self.name, axis=axis)
             )
         try:
@@ -379,8 +377,8 @@ class Simulator(
                 raise LimitError(
                     message(
                         "engine",
-                        "simulator: rows of the trajectory follow at {rate_hz} Hz; it plays "
-                        "{max_rate_hz} Hz at most; resample the trajectory",
+                        "simulator: the trajectory has {rate_hz} rows per second, but at "
+                        "most {max_rate_hz} can be played; resample the trajectory",
                     ).fill(rate_hz=rounded(rate_hz, 6), max_rate_hz=MAX_RATE_HZ)
                 )
         self._catch_up()

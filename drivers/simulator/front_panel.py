@@ -51,8 +51,8 @@ class FrontPanel(Display, AnalogInputs, ABC):
         for reading in readings:
             if not 0.0 <= reading <= 1.0:
                 raise LimitError(
-                    message("engine", "{name}: a potentiometer at {reading}: must be 0 to 1").fill(
-                        name=self.name, reading=reading
-                    )
+                    message(
+                        "engine", "{name}: potentiometer reading {reading}: must be 0 to 1"
+                    ).fill(name=self.name, reading=reading)
                 )
         self._inputs = (tuple(readings), tuple(buttons))

@@ -82,8 +82,8 @@ class Regulating:
             raise FeedbackError(
                 message(
                     "engine",
-                    "{where}: that of axis {axis} runs at {rate_hz} Hz, and all must run at one "
-                    "rate; take the other one off, or tune for its rate",
+                    "{where}: the loop of axis {axis} runs at {rate_hz} Hz, and all loops "
+                    "must run at one rate; open that loop, or tune for its rate",
                 ).fill(where=where, axis=others[0].axis, rate_hz=others[0].rate_hz)
             )
         if not alone and round(ticks) != 1:

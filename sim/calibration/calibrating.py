@@ -86,9 +86,9 @@ class Calibration:
             return None
         return message(
             "engine",
-            "{axis}: at runs that were left out of the fit the reading's error "
-            "is {after} {unit} rms with the calibration and {before} {same} "
-            "without; it is not better and not used",
+            "{axis}: in the runs left out of the fit the reading's error is {after} {unit} "
+            "rms with the calibration and {before} {same} without; the calibration is not "
+            "better and is not used",
         ).fill(
             axis=self.axis,
             after=rounded(self.after_rms, 4),

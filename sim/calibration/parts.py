@@ -130,7 +130,7 @@ def _check(record: Record, axis: str, robot: Robot, name: str) -> None:
     if len(record.time_s) < LEAST_ROWS:
         raise CalibrationError(
             message(
-                "engine", "{name}: {count} rows; a calibration needs {least_rows} at the least"
+                "engine", "{name}: {count} rows; a calibration needs at least {least_rows}"
             ).fill(name=name, count=len(record.time_s), least_rows=LEAST_ROWS)
         )
 
@@ -142,7 +142,7 @@ def _check_travel(travel: float, axis: str, robot: Robot, name: str) -> None:
             message(
                 "engine",
                 "{name}: {axis} travels {travel} by the laser, {share} of its range; a "
-                "calibration needs {least_share}: {least}; move it further",
+                "calibration needs {least_share}: {least}; move it farther",
             ).fill(
                 name=name,
                 axis=axis,

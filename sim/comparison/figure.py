@@ -44,7 +44,7 @@ def format_of(path: Path) -> str:
     """
     if path.suffix.lower() not in FORMATS:
         raise InputError(
-            message("engine", "{path}: a picture's name ends in {names}").fill(
+            message("engine", "{path}: the name of a picture must end in {names}").fill(
                 path=path, names=", ".join(FORMATS)
             )
         )

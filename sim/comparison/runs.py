@@ -56,9 +56,8 @@ def compare_runs(robot: Robot, run: Record, other: Record) -> RunComparison:
             raise InputError(
                 message(
                     "engine",
-                    "axis {axis} is in {unit} in one run and in {other_unit} in the other; these "
-                    "are "
-                    "not of one machine",
+                    "axis {axis} is in {unit} in one run and in {other_unit} in the other; "
+                    "the runs are from different machines",
                 ).fill(axis=axis, unit=run.units[axis], other_unit=other.units[axis])
             )
     kept = [c for c in run.columns if c in common or c.tap is Tap.CMD]

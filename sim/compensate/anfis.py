@@ -100,9 +100,9 @@ def train(
         raise ConvergenceError(
             message(
                 "engine",
-                "ANFIS: the training did not converge: after {count} epochs it leaves {error} rms "
-                "of commands that vary by {spread}; nothing was replaced. Record slower motions "
-                "over the whole range, or take another kind",
+                "ANFIS: the training did not converge: after {count} epochs it leaves "
+                "{error} rms of commands that vary by {spread}; nothing was replaced. Record "
+                "slower motions over the whole range, or use another kind",
             ).fill(count=len(history), error=rounded(error, 3), spread=rounded(spread, 3))
         )
     return Anfis(Premises(plays, grid[0], grid[1]), consequents, history)

@@ -47,8 +47,8 @@ def conditioning(robot: Robot, model: InverseModel, start: float) -> Record:
         raise CompensationError(
             message(
                 "engine",
-                "axis {axis}: a sweep from {start}: it must begin between {low} and {high}, its "
-                "range as far as its inverse saw it",
+                "axis {axis}: a sweep from {start}: must begin between {low} and {high}, the "
+                "training range of its inverse",
             ).fill(
                 axis=model.axis,
                 start=exact(start, model.unit, size=high),

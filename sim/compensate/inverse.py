@@ -89,8 +89,8 @@ class Inverse:
             raise CompensationError(
                 message(
                     "engine",
-                    "inverse of axis {axis}: a state of shape {shape} with finite numbers must "
-                    "have shape {state_shape}; take one of this inverse",
+                    "inverse of axis {axis}: a state of shape {shape} with finite numbers "
+                    "must have shape {state_shape}; use a state of this inverse",
                 ).fill(
                     axis=self.model.axis,
                     shape=str(np.shape(state)),

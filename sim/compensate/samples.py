@@ -114,8 +114,9 @@ def _sample_s(time_s: FloatArray, name: str) -> float:
         raise CompensationError(
             message(
                 "engine",
-                "{name}: row {row} comes {lengths} s after the one before, others {sample_s} s; an "
-                "inverse needs even time: resample the record (rotemina convert)",
+                "{name}: row {row} comes {lengths} s after the previous one, others "
+                "{sample_s} s; an inverse needs evenly spaced rows: resample the record "
+                "(rotemina convert)",
             ).fill(
                 name=name,
                 row=row,

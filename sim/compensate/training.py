@@ -86,8 +86,8 @@ def train(
         raise CompensationError(
             message(
                 "engine",
-                "{name}: axis {axis}: less than {fewest} rows are left to train on, after the "
-                "first swing over the whole range; record longer",
+                "{name}: axis {axis}: fewer than {fewest} rows are left to train on, after "
+                "the first swing over the whole range; record longer",
             ).fill(name=first.name, axis=first.axis, fewest=_FEWEST)
         )
     axis = robot.axes[first.axis]

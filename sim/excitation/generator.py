@@ -99,7 +99,7 @@ def excite(
         If the model predicts a motion beyond the range whatever the amplitude.
     """
     if not plan:
-        raise ExcitationError(message("engine", "excitation: no axis is named; name one at least"))
+        raise ExcitationError(message("engine", "excitation: no axis is named; name at least one"))
     _check_names(robot, plan)
     rate = default_rate(robot, plan) if rate_hz is None else rate_hz
     _check_rate(robot, plan, rate)
@@ -190,7 +190,7 @@ def _check_rate(robot: Robot, plan: Mapping[str, Kind], rate_hz: float) -> None:
             raise ExcitationError(
                 message(
                     "engine",
-                    "axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device would "
-                    "stand between rows and jump, beyond its speed and acceleration",
+                    "axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device "
+                    "would rest between rows and jump, which exceeds its speed and acceleration",
                 ).fill(name=name, rate_hz=rounded(rate_hz, 6), slowest_hz=rounded(_SLOWEST_HZ, 6))
             )

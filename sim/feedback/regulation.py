@@ -54,7 +54,7 @@ class Regulation:
                 raise UnstableError(
                     message(
                         "engine",
-                        "{error} (with gain or resonance off by {spread} %, as they may be)",
+                        "{error} (with gain or resonance off by {spread} %)",
                     ).fill(error=str(error), spread=100.0 * spread)
                 ) from error
         self.robot, self.axis, self.gains, self.rate_hz = robot, axis, gains, rate_hz

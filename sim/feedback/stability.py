@@ -135,8 +135,8 @@ def check_stability(
         raise UnstableError(
             message(
                 "engine",
-                "{where}: peak sensitivity Ms = {peak} at {peak_hz} Hz, "
-                "{most} at most; lower the gains; nothing was applied",
+                "{where}: peak sensitivity Ms = {peak} at {peak_hz} Hz, must be at most "
+                "{most}; lower the gains; nothing was applied",
             ).fill(
                 where=where,
                 peak=rounded(found.peak_sensitivity, 3),

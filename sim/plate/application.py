@@ -111,7 +111,7 @@ def applied(robot: Robot, solutions: UnitSolutions) -> tuple[Robot, tuple[Entry,
     problem = find_problem(made)
     if problem is not None:
         raise PlateError(
-            message("engine", "the plate makes no possible robot: {problem}").fill(
+            message("engine", "the plate gives an impossible robot: {problem}").fill(
                 problem=str(problem)
             )
         )

@@ -144,7 +144,7 @@ def _parse_column(heading: str, where: str, *, first: bool) -> Column:
         raise RecordError(
             message(
                 "engine",
-                "{where}: heading {heading} is no 'axis.channel [unit]'; write such as {example}",
+                "{where}: heading {heading} is not 'axis.channel [unit]'; write it like {example}",
             ).fill(where=where, heading=repr(heading[:40]), example=EXAMPLE)
         )
     name, unit_text = match[1].strip(BLANKS), match[2].strip(BLANKS)
@@ -217,7 +217,7 @@ def _check_unique(columns: Sequence[Column], where: str) -> None:
             )
     if len(columns) < 2:
         raise RecordError(
-            message("engine", "{where}: no column beside time; write such as {example}").fill(
+            message("engine", "{where}: no column beside time; add one, such as {example}").fill(
                 where=where, example=EXAMPLE
             )
         )

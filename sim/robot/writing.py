@@ -124,7 +124,7 @@ def write_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool = Fa
     text = robot_text(robot)
     if not overwrite and Path(name).exists():
         raise FileWriteError(
-            message("engine", "{name}: it exists already; name another file").fill(name=name)
+            message("engine", "{name} already exists; name another file").fill(name=name)
         )
     with replaced(name) as file:
         file.write(text.encode("utf-8"))

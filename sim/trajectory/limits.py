@@ -51,8 +51,8 @@ def check_speeds(targets: Mapping[str, float], speeds: Mapping[str, float]) -> N
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "axis {axis}: a speed of {speed}: must be a finite number above 0, "
-                    "of an axis with a target",
+                    "axis {axis}: speed {speed}: must be a finite number above 0, of an axis "
+                    "with a target",
                 ).fill(axis=AxisName(axis), speed=repr(speed))
             )
 

@@ -164,8 +164,8 @@ def commands_of(robot: Robot, trajectory: Record) -> dict[str, FloatArray]:
         raise TrajectoryError(
             message(
                 "engine",
-                "trajectory: it has no set-point column (axis.cmd); a trajectory "
-                "needs one at least",
+                "trajectory: it has no set-point column (axis.cmd); a trajectory needs at "
+                "least one",
             )
         )
     for name in names:

@@ -123,8 +123,9 @@ def tuning_of(
         raise TuningError(
             message(
                 "engine",
-                "axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} and "
-                "overshoot ≤ {overshoot} %; search longer, take a faster loop, or allow more",
+                "axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} "
+                "and overshoot ≤ {overshoot} %; search longer, use a faster loop, or permit "
+                "more",
             ).fill(
                 axis=problem.axis,
                 done=last.done,

@@ -99,9 +99,8 @@ def find_tip(image: Image, pipette: Pipette, *, turning: bool = True) -> TipFit:
         raise VisionError(
             message(
                 "engine",
-                "tip: nothing looks like it (greatest likeness {likeness}); bring "
-                "the tip into view and near focus, or correct its direction in the "
-                "image",
+                "tip: nothing in the picture matches it (best match {likeness}); bring the "
+                "tip into view and near focus, or correct its direction in the image",
             ).fill(likeness=fixed(likeness, 2))
         )
     return best
@@ -135,8 +134,8 @@ def find_body(image: Image, pipette: Pipette) -> TipFit:
         raise VisionError(
             message(
                 "engine",
-                "tip: nothing in the picture looks like a pipette, in whatever "
-                "direction; bring the tip into view and near focus",
+                "tip: nothing in the picture looks like a pipette in any direction; bring "
+                "the tip into view and near focus",
             )
         ) from refusal
     return min(fits, key=lambda fit: fit.uncertainty_px)

@@ -59,7 +59,10 @@ class CellList:
         """
         if not place:
             raise PenetrationError(
-                message("engine", "cells: nobody knows where the axes are; home them, or reconnect")
+                message(
+                    "engine",
+                    "cells: the positions of the axes are unknown; home them, or reconnect",
+                )
             )
         if len(self.cells) >= MOST_CELLS:
             raise PenetrationError(

@@ -153,8 +153,8 @@ class PenetrationParameters:
             raise PenetrationError(
                 message(
                     "engine",
-                    "table: needed for a thrust of shape 'table', and for no other (shape is "
-                    "{shape}, the table has {count} points)",
+                    "table: permitted only for a thrust of shape 'table', which needs it "
+                    "(shape is {shape}, the table has {count} points)",
                 ).fill(shape=repr(str(self.shape)), count=len(self.table))
             )
 

@@ -121,7 +121,7 @@ class Penetration(PenetrationSequence):
         with self._lock:
             if self._status.phase in UNDER_WAY:
                 self._halt()
-                self._hold_here(marked("engine", "the program let go of it"), self._since_s)
+                self._hold_here(marked("engine", "the program released it"), self._since_s)
             self._release()
             self._end()
         self._write()
@@ -173,7 +173,9 @@ class Penetration(PenetrationSequence):
             self._status = replace(self._status, armed_left_s=self._armed_until_s - now_s)
             return
         self._release()
-        self._enter(Phase.DISARMED, now_s, broken or message("engine", "nobody started it in time"))
+        self._enter(
+            Phase.DISARMED, now_s, broken or message("engine", "it was not started in time")
+        )
 
     def _start(self, attempt: Attempt, now_s: float) -> None:
         state = self._session.snapshot()
@@ -200,7 +202,7 @@ class Penetration(PenetrationSequence):
             )
         if not self._session.reservations.held_by(OWNER):
             raise RefusedError(
-                message("engine", "the axes are not the penetration's any more; move them by hand")
+                message("engine", "the penetration no longer owns the axes; move them manually")
             )
         self._permit = permit
         self._outcome = (

@@ -110,7 +110,7 @@ class PenetrationRun:
             return run
         except (ValueError, TypeError, KeyError) as error:
             raise PenetrationError(
-                message("engine", "no penetration's run: {error}").fill(error=str(error))
+                message("engine", "not the run of a penetration: {error}").fill(error=str(error))
             ) from error
 
 
@@ -149,9 +149,9 @@ class RunLog:
             ) from error
         if written != len(data):
             raise FileWriteError(
-                message("engine", "{path}: the run is not whole there; the disk may be full").fill(
-                    path=self.path
-                )
+                message(
+                    "engine", "{path}: the run was not written completely; the disk may be full"
+                ).fill(path=self.path)
             )
 
     def read(self) -> tuple[tuple[PenetrationRun, ...], tuple[str, ...]]:

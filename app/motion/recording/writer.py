@@ -83,9 +83,7 @@ class RecordingWriter:
     ) -> None:
         if path.exists():
             raise RecordingError(
-                message("engine", "{path}: it is there already; record to another name").fill(
-                    path=path
-                )
+                message("engine", "{path} already exists; record to another name").fill(path=path)
             )
         self.path = path
         self._schema = samples_schema(units)
@@ -215,9 +213,10 @@ class RecordingWriter:
         if self._failure is not None:
             self._tell(
                 RecorderNotice(
-                    message("engine", "{name}: its end could not be written ({failure})").fill(
-                        name=self.path.name, failure=self._failure
-                    ),
+                    message(
+                        "engine",
+                        "{name}: the end of the recording could not be written ({failure})",
+                    ).fill(name=self.path.name, failure=self._failure),
                     problem=True,
                 )
             )

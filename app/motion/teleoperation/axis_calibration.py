@@ -183,7 +183,7 @@ class CalibrationFolder:
         """
         if calibration.device != identity.key:
             raise CalibrationError(
-                message("engine", "a calibration of {device} cannot be kept for {key}").fill(
+                message("engine", "the calibration of {device} cannot be stored for {key}").fill(
                     device=repr(calibration.device), key=repr(identity.key)
                 )
             )

@@ -99,9 +99,10 @@ class Contact:
             raise ScalingError(
                 message(
                     "engine",
-                    "contact: gain {gain} might let the stick's mechanism give more energy than it "
-                    "was given: at most {most} with a damping of {damping} N s/m and readings "
-                    "{delay_s} ms old; lower the gain or raise the damping",
+                    "contact: with gain {gain} the stick's mechanism might release more "
+                    "energy than it received: at most {most} is permitted with a damping of "
+                    "{damping} N s/m and readings {delay_s} ms old; lower the gain or raise "
+                    "the damping",
                 ).fill(
                     gain=rounded(self.gain, 6),
                     most=rounded(most, 6),

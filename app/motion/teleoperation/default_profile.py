@@ -60,7 +60,7 @@ def default_profile(device: PluggedDevice) -> Profile:
     """
     if not device.axes and not device.buttons:
         raise ProfileError(
-            message("engine", "{device} has neither axes nor buttons that could be mapped").fill(
+            message("engine", "{device} has neither axes nor buttons to map").fill(
                 device=str(device)
             )
         )

@@ -100,7 +100,7 @@ class Detection:
         if len(found) > 1:
             names = " and ".join(f"{one.control} ({self._name(one.device)})" for one in found)
             return Findings(
-                None, message("engine", "{names} moved together; move one only").fill(names=names)
+                None, message("engine", "{names} moved together; move only one").fill(names=names)
             )
         if not found:
             what = self._wanted.value if self._wanted is not None else "control"

@@ -132,7 +132,7 @@ class InputArbiter:
             check_controls(mapping, self._plugged[key])
         self._profile = profile
         self._takeover = Takeover()
-        self._lost.append(marked("engine", "another profile is used"))
+        self._lost.append(marked("engine", "another profile is now in use"))
         self._arrange(set(self._plugged))
 
     def calibrate(self, key: str, calibration: Calibration) -> None:
@@ -146,17 +146,17 @@ class InputArbiter:
         if key not in self._plugged:
             raise CalibrationError(
                 message(
-                    "engine", "device {key} is not plugged in; its calibration has no use"
+                    "engine", "device {key} is not plugged in, so no calibration can be applied"
                 ).fill(key=repr(key))
             )
         if calibration.device != key:
             raise CalibrationError(
-                message("engine", "a calibration of {device} is not for {key}").fill(
+                message("engine", "this calibration is for {device}, not for {key}").fill(
                     device=repr(calibration.device), key=repr(key)
                 )
             )
         self._calibrations[key] = calibration
-        self._lose(key, message("engine", "calibrated anew"))
+        self._lose(key, message("engine", "recalibrated"))
         self._arrange({key})
 
     @property
@@ -273,7 +273,7 @@ class InputArbiter:
             self._lost.append(f"{self._plugged[key].identity.name}: {why}")
             for device in self._of(self.driving):
                 device.distrust(
-                    message("engine", "another device is gone ({why}): let go of it").fill(why=why)
+                    message("engine", "another device was lost ({why}): release it").fill(why=why)
                 )
 
     def _drives(self, device: MappedDevice) -> bool:

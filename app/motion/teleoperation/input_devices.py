@@ -234,7 +234,7 @@ class InputDevices:
         """Let go of every device."""
         with self._lock:
             for key in tuple(self._open):
-                self._drop(key, marked("engine", "the program lets go of it"))
+                self._drop(key, marked("engine", "the program releases it"))
                 self.hub.released(key)
 
     # --- inside -----------------------------------------------------------------------------------

@@ -152,8 +152,8 @@ class MappedDevice:
             self._lose(
                 message(
                     "engine",
-                    "a reading of {axes} axes and {buttons} buttons came from a device "
-                    "with {known} and {others}: replug it",
+                    "a reading has {axes} axes and {buttons} buttons, but the device has "
+                    "{known} and {others}: replug it",
                 ).fill(
                     axes=len(reading.axes),
                     buttons=len(reading.buttons),
@@ -188,8 +188,7 @@ class MappedDevice:
             self._lose(
                 message(
                     "engine",
-                    "silent, though it streams: nothing has come from it; replug it, or "
-                    "look at its cable",
+                    "silent: a streaming device has sent nothing; replug it, or check its cable",
                 )
             )
 

@@ -181,8 +181,8 @@ def _check_single_use(profile: Profile, device: DeviceMapping) -> None:
             raise ProfileError(
                 message(
                     "engine",
-                    "profile {name}: control {control} of {key} would do two things, {found} and "
-                    "{use}; leave one out",
+                    "profile {name}: control {control} of {key} would have two functions, "
+                    "{found} and {use}; remove one",
                 ).fill(
                     name=repr(profile.name),
                     control=repr(control[0]),

@@ -184,7 +184,8 @@ def _nano(joints: tuple[str, ...]) -> tuple[str, ...]:
         raise RecentringError(
             message(
                 "engine",
-                "re-centring: {value} is none of thx, thy, zn, which have a middle to come back to",
+                "re-centring: {value} is not one of thx, thy, zn; only these have a middle "
+                "to return to",
             ).fill(value=", ".join(wrong) or marked("engine", "no joint"))
         )
     return joints

@@ -77,8 +77,8 @@ class ScalingLaw(ABC):
             raise ScalingError(
                 message(
                     "engine",
-                    "scaling: step of {dt} s with a reaction of {reaction}: both must be finite, "
-                    "the step not below 0",
+                    "scaling: step of {dt} s with a reaction of {reaction}: both must be "
+                    "finite, the step 0 or more",
                 ).fill(dt=dt, reaction=reaction)
             )
         self._deflection = _deflection(deflection)
@@ -103,7 +103,7 @@ class ScalingLaw(ABC):
         """
         if not isfinite(factor) or factor <= 0.0:
             raise ScalingError(
-                message("engine", "scaling: factor {factor}: it must be finite and above 0").fill(
+                message("engine", "scaling: factor {factor} must be finite and above 0").fill(
                     factor=factor
                 )
             )
@@ -133,7 +133,7 @@ def checked_scale(scale: float, what: str) -> float:
     """
     if not isfinite(scale) or scale == 0.0:
         raise ScalingError(
-            message("engine", "{what}: scale {scale}: it must be finite and not 0").fill(
+            message("engine", "{what}: scale {scale} must be finite and not 0").fill(
                 what=what, scale=scale
             )
         )

@@ -45,7 +45,8 @@ class Takeover:
         if self.driving is OperatorRole.TRAINEE:
             if not trainer.present:
                 reason = message(
-                    "engine", "the trainer's device is not there: the trainee does not drive alone"
+                    "engine",
+                    "the trainer's device is not connected: the trainee cannot drive alone",
                 )
             elif trainer.asks or trainer.most >= MOVED:
                 reason = message("engine", "the trainer has taken over")

@@ -209,13 +209,13 @@ class Teleoperator:
         if state.activity in (DeviceState.PLAYING, DeviceState.HOMING):
             return message("engine", "the machine is {activity}").fill(activity=state.activity)
         if not isinstance(self._session.driver, VelocityMover):
-            return message("engine", "driver {driver} cannot move at a speed").fill(
+            return message("engine", "driver {driver} cannot move at a set speed").fill(
                 driver=repr(self._session.driver.name)
             )
         if not intent.deflections and not self.state.driving:
             return message(
                 "engine",
-                "no stick is active: let go of it, and hold its dead-man switch if it has one",
+                "no stick is active: release it, and hold its dead-man button if it has one",
             )
         others = {owner for owner in state.owners.values() if owner != JOYSTICK}
         if state.activity is DeviceState.MOVING and others and not self.state.driving:

@@ -61,7 +61,9 @@ class AxisTrust:
                 "engine", "reports {raw}, outside −1 to 1: disconnect and check it"
             ).fill(raw=rounded(self._said, 6))
         if self._jitter.found:
-            return message("engine", "jitters from end to end: its potentiometer or cable is bad")
+            return message(
+                "engine", "jitters from end to end: its potentiometer or cable is faulty"
+            )
         if self._why is not None and self._said is not None and self._at_end_only:
             return message(
                 "engine",

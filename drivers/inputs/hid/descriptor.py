@@ -268,7 +268,7 @@ class _Walk:
 
 def _nonsense(item: Item, what: str) -> DescriptorError:
     return DescriptorError(
-        message("engine", "its report descriptor makes no sense at byte {at}: {what}").fill(
+        message("engine", "its report descriptor is invalid at byte {at}: {what}").fill(
             at=item.at, what=what
         )
     )

@@ -55,9 +55,7 @@ class HidDevice(InputDevice):
         """Return a reading for each report that has come in; see :class:`InputDevice`."""
         if self._handle is None:
             raise StateError(
-                message("engine", "{name}: it was closed; open it again").fill(
-                    name=self.identity.name
-                )
+                message("engine", "{name} was closed; open it again").fill(name=self.identity.name)
             )
         readings = []
         for _ in range(_MOST_WAITING):
@@ -91,6 +89,6 @@ class HidDevice(InputDevice):
             raise InputLostError(
                 message(
                     "engine",
-                    "{name}: it was unplugged, or has lost its power or radio link ({error})",
+                    "{name} was unplugged, or lost its power or radio link ({error})",
                 ).fill(name=self.identity.name, error=str(error))
             ) from error

@@ -54,8 +54,8 @@ def items(descriptor: bytes) -> Iterator[Item]:
             raise DescriptorError(
                 message(
                     "engine",
-                    "its report descriptor is cut off: byte {at} of {count} begins an item with "
-                    "{size} bytes of data",
+                    "its report descriptor is truncated: byte {at} of {count} begins an item "
+                    "with {size} bytes of data",
                 ).fill(at=at, count=len(descriptor), size=size)
             )
         yield Item(at, prefix >> 2 & 0b11, prefix >> 4, data)

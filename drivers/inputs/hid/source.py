@@ -141,7 +141,7 @@ class HidSource(InputSource):
         plugged = self._plugged.get(identity.key)
         if plugged is None:
             raise InputLostError(
-                message("engine", "{name} ({key}): it is not plugged in").fill(
+                message("engine", "{name} ({key}) is not plugged in").fill(
                     name=identity.name, key=identity.key
                 )
             )

@@ -23,7 +23,7 @@ def test_a_window_that_hangs_stops_what_moves(stepped, begin):
     assert session.snapshot().activity is not DeviceState.IDLE
     stepped.step(0.02, 7)
     stop = session.snapshot().stop
-    assert (stop.by, stop.why) == (PROGRAM, "the window does not answer")
+    assert (stop.by, stop.why) == (PROGRAM, "the window does not respond")
     stepped.until_idle()
     assert session.snapshot().stop is stop, "stopped once, not in every cycle"
 

@@ -48,7 +48,7 @@ def test_a_bound_is_exceeded_only_where_every_sample_is_beyond_it_for_50_ms(port
     assert judged(error, portions=portions) == ([], [])
     error[100:152] = 1.01 * bound
     (lock, *_), _ = judged(error[:152], portions=portions)
-    assert lock.startswith("axis zn reads 22.9775 µm from where it was sent, 22.75 µm at most")
+    assert lock.startswith("axis zn reads 22.9775 µm away from its command; at most 22.75 µm")
 
 
 def test_outliers_say_nothing_however_large_and_many():

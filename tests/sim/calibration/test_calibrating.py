@@ -150,7 +150,7 @@ def test_what_cannot_be_compared_is_refused(robot, plain):
         compared(plain, "q", robot)
     with pytest.raises(CalibrationError, match="record has zn"):
         compared(plain, "x", robot)
-    with pytest.raises(CalibrationError, match="500 at the least"):
+    with pytest.raises(CalibrationError, match="at least 500"):
         compared(plain.part(slice(0, 400)), "zn", robot)
     seen, read = (3e-5 + 0.05 * plain.signal("zn", tap) for tap in (Tap.REF, Tap.MEAS))
     small = _with(plain, ref=seen, meas=read)

@@ -45,7 +45,7 @@ def test_a_robot_without_bounds_is_not_bounded():
     assert not zone().bounded
     zone().check_sweep(RANGES[:, 0], RANGES[:, 1])
     assert KeepOutZone.of(load_robot("picma")) is None
-    with pytest.raises(ChainError, match="can bound no tip"):
+    with pytest.raises(ChainError, match="needs a tip to limit"):
         KeepOutZone.of(replace(load_robot("picma"), keep_out=KeepOut(floor=0.0)))
 
 

@@ -82,7 +82,7 @@ def test_the_tip_is_brought_into_focus(make_view):
 @pytest.mark.parametrize(
     ("values", "told"),
     [
-        (np.ones(7), "as sharp as the others"),
+        (np.ones(7), "equally sharp"),
         (np.arange(7.0) ** 3, "outside the searched"),
         (np.array([1.0, 2.0, 1.0]), "at least 5"),
     ],

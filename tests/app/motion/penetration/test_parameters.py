@@ -23,7 +23,7 @@ from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParame
         ({"direction": "left"}, "'down', 'up'"),
         ({"axis": ""}, "axis = ''"),
         ({"table": ((0.0, 0.0), (1.0, 1.0))}, "for no other"),
-        ({"shape": "table"}, "needed for a thrust of shape 'table'"),
+        ({"shape": "table"}, "permitted only for a thrust of shape 'table'"),
         ({"shape": "table", "table": [[0, 0], [2, 1]]}, "point 2, time = 2: must be 0 to 1"),
         ({"shape": "table", "table": [[0, 0], [1]]}, "point 2 = "),
         ({"shape": "table", "table": [[0, 0], [1, 0.5]]}, r"from \[0, 0\] to \[1, 1\]"),

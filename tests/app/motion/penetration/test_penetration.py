@@ -250,7 +250,7 @@ def test_a_thrust_that_stays_too_shallow_fails_and_goes_back(bench):
     bench.ready([cell(58e-6, 0.15)]).arm(depth_tolerance=0.1).press()
     status = bench.run()
     assert status.phase is Phase.FAILED
-    assert "must be 50 µm within 10 %" in status.reason
+    assert "instead of 50 µm, more than 10 % off" in status.reason
     assert status.run.thrust.depth == pytest.approx(50e-6 / 1.15, rel=0.02)
 
 

@@ -142,7 +142,7 @@ def test_a_centred_robot_stays():
 
 
 def test_what_cannot_be_is_refused():
-    with pytest.raises(RecentringError, match="z is none of thx, thy, zn"):
+    with pytest.raises(RecentringError, match="z is not one of thx, thy, zn"):
         plan_recentring(CHAIN, CENTRE, 1e-3, ("z",))
     with pytest.raises(RecentringError, match="no joint is none of"):
         plan_recentring(CHAIN, CENTRE, 1e-3, ())
