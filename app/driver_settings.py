@@ -1,4 +1,4 @@
-"""Settings of drivers as people write them: typed by their defaults, and kept between starts."""
+"""Driver settings as users type them: types from the defaults, stored between starts."""
 
 import re
 from collections.abc import Iterable, Mapping

@@ -1,4 +1,4 @@
-"""Files that the program writes: whole or not at all."""
+"""Writing files completely or not at all."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What ``rotemina doctor`` looks at: whether this machine can do what the program asks of it.
+"""The checks of ``rotemina doctor``: whether this computer can run the program.
 
 :mod:`rotemina.app.system_check` is what must be there before an installation; this is the rest.
 Nothing here moves, opens or resets a board: of serial ports only the permission is looked at.

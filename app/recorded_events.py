@@ -1,4 +1,4 @@
-"""What happened in a recording, in the words of operators. Free of Qt."""
+"""Events of a recording in the operator's words. Free of Qt."""
 
 import json
 from collections.abc import Sequence

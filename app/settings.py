@@ -1,4 +1,4 @@
-"""Preferences of the screen, kept between starts. A bad value falls back; start never fails.
+"""Display preferences, stored between starts. A bad value falls back; start never fails.
 
 A file that cannot be read is set aside under a name of its own before anything is written.
 """

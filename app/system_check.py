@@ -1,4 +1,4 @@
-"""What the operating system must provide before the program can start.
+"""Prerequisites of the operating system for starting the program.
 
 Qt aborts when a library of its platform is missing, so the libraries are looked for first. The
 same file runs as a script before any environment exists (``python3 app/system_check.py``): it

@@ -1,4 +1,4 @@
-"""Tables of an operator's files (TOML): strict reading, whole writing.
+"""TOML files of an operator: strict reading, complete writing.
 
 Every error names the file, the key, the value and the bound.
 """

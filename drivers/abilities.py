@@ -1,4 +1,4 @@
-"""What only some devices can do: each ability is a base class to be inherited beside others.
+"""Optional abilities of devices: each is a base class to be inherited beside others.
 
 The rules are those of :class:`rotemina.drivers.driver.Driver`: final methods check, hooks do.
 """

@@ -1,4 +1,4 @@
-"""What an axis is to whoever moves it: kind, role, range, unit and resolution."""
+"""Descriptions of axes: kind, role, range, unit and resolution."""
 
 from dataclasses import dataclass
 from enum import StrEnum

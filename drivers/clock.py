@@ -1,4 +1,4 @@
-"""Clocks of the host, real or set by hand; both give ``host_time_s``."""
+"""Clocks of the host, real or manual; both give ``host_time_s``."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""The driver contract: the base class owns the rules, a driver fills small hooks.
+"""The driver contract: the base class enforces the rules, a driver fills small hooks.
 
 A driver is made without touching its device, opened, used by one thread, and closed. ``stop`` is
 the exception: any thread may call it at any time. What only some devices can do is a small base

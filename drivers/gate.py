@@ -1,4 +1,4 @@
-"""The gate before a device: nothing passes that was asked for before the latest stop.
+"""The gate before a device: it blocks everything requested before the latest stop.
 
 A request draws a :class:`Permit` before its first check. The permit goes with the request to the
 last place before the device, the write of a frame or the change of a simulated target. There it is

@@ -1,4 +1,4 @@
-"""How well a line to a device does."""
+"""The quality of a device's line."""
 
 from dataclasses import dataclass
 

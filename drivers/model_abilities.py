@@ -1,4 +1,4 @@
-"""Abilities by which a device takes a model with it: effects, an inverse, a loop.
+"""Abilities of devices that apply a model: effects, an inverse, a loop.
 
 The rules are those of :class:`rotemina.drivers.driver.Driver`: final methods check, hooks do.
 """

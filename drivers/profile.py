@@ -1,4 +1,4 @@
-"""A short motion that a device runs by itself: cubic segments, one after the other."""
+"""A short motion executed by the device itself: consecutive cubic segments."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Finding drivers and other plugins: installed entry points, the built-in ones among them."""
+"""Discovery of drivers and other plugins among the installed entry points."""
 
 import inspect
 from dataclasses import dataclass

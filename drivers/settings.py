@@ -1,4 +1,4 @@
-"""Settings of a driver: named, typed by their defaults, and refused where unknown."""
+"""Driver settings: named, typed by their defaults, unknown ones refused."""
 
 from collections.abc import Mapping
 from math import isfinite

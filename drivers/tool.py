@@ -1,4 +1,4 @@
-"""A device with a tool on it that is on or off: a pump that injects, a valve, a light."""
+"""A switchable tool on a device: an injection pump, a valve, a light."""
 
 from abc import ABC, abstractmethod
 from typing import final

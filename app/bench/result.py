@@ -1,4 +1,4 @@
-"""What the diagnosis of one machine came to, and which levels it reaches."""
+"""The outcome of one machine's diagnosis, and the levels it reaches."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass

@@ -1,4 +1,4 @@
-"""The bench as the command line runs it: machine by machine, each diagnosis in its own process."""
+"""The bench run by the command line: one machine after another, each diagnosis in a process."""
 
 import json
 import subprocess

@@ -1,4 +1,4 @@
-"""How much of the gap a prediction closes on the record that the diagnosis never saw."""
+"""The share of the gap that a prediction closes on the withheld record."""
 
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A machine with a secret: the blind generator's equations behind the simulator's contract."""
+"""A hidden machine: the blind generator's equations behind the simulator's contract."""
 
 from collections.abc import Collection
 from dataclasses import dataclass

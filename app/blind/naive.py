@@ -1,4 +1,4 @@
-"""Three naive contestants that answer the same cases, to compare the diagnosis with."""
+"""Three naive contestants that answer the same cases, for comparison with the diagnosis."""
 
 from collections.abc import Mapping, Sequence
 from math import log

@@ -1,4 +1,4 @@
-"""The sealed self-test, case by case: one result file each, so that it can go on later."""
+"""The sealed self-test, case by case, with one result file each, so that it can be resumed."""
 
 import secrets
 from collections.abc import Callable, Iterator, Mapping

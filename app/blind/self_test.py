@@ -1,4 +1,4 @@
-"""The sealed self-test as the command line runs it: what is not done yet, then the score."""
+"""The sealed self-test run by the command line: unfinished cases first, then the score."""
 
 import sys
 from argparse import Namespace

@@ -1,4 +1,4 @@
-"""A machine of the blind generator under way, sample by sample, as the simulator wants its plant.
+"""A running machine of the blind generator, stepped sample by sample like a simulator's plant.
 
 The generator runs a machine over whole motions. Some of its parts can go on from where they were:
 forces, whose memory the generator keeps by load, and hysteresis without creep, which remembers

@@ -1,4 +1,4 @@
-"""A sensor's calibration as a file (TOML): strict, dated, and saying where it comes from."""
+"""The TOML file of a sensor's calibration: strict, dated, with its origin."""
 
 import hashlib
 from datetime import datetime

@@ -1,4 +1,4 @@
-"""An axis' health card: the figures that a record tells, beside those of the last time.
+"""An axis' health card: figures from a record, beside those of the previous card.
 
 A figure counts as changed where both 95 % intervals lie apart.
 """

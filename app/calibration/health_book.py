@@ -1,4 +1,4 @@
-"""Health cards over time: a small file for each axis, one line a card, only ever added to."""
+"""Health cards over time: one append-only file per axis, one line per card."""
 
 import json
 import re

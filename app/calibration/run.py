@@ -1,4 +1,4 @@
-"""A calibration's motion played through a session, with sensor and laser recorded."""
+"""Plays a calibration motion through a session and records sensor and laser."""
 
 import threading
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The calibrations of a user's folder: one file for each axis and date, and which are on."""
+"""The calibrations in a user's folder: one file per axis and date, and which are in use."""
 
 import re
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""A calibration in words and numbers, for the command line and the panel."""
+"""Text of a calibration, for the command line and the panel."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""A camera in use: one thread grabs, everybody else has its newest picture without waiting."""
+"""A camera in use: one thread grabs pictures, and readers get the newest one without waiting."""
 
 import logging
 import threading

@@ -1,4 +1,4 @@
-"""Pictures that come but show nothing: the same one again and again, or black ones."""
+"""Detection of useless pictures: frozen or black."""
 
 from enum import StrEnum
 

@@ -1,4 +1,4 @@
-"""A picture kept as a file, with what was known when it was taken."""
+"""A picture saved with its data."""
 
 import json
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""A z-stack as a TIFF of several pages, each with what was known of it."""
+"""A z-stack as a multi-page TIFF, with the data of each page."""
 
 import json
 from collections.abc import Mapping, Sequence

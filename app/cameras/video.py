@@ -1,4 +1,4 @@
-"""Pictures of a camera recorded as a film: a bounded queue, and a thread that writes."""
+"""Recording of a camera's pictures as a video: a bounded queue and a writer thread."""
 
 import logging
 import threading

@@ -1,4 +1,4 @@
-"""``rotemina board``: the boards and the machine without either, for a host to talk to."""
+"""``rotemina board``: virtual boards with a simulated machine, for a host to connect to."""
 
 import argparse
 import gc

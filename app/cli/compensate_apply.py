@@ -1,4 +1,4 @@
-"""``rotemina compensate apply``: a trajectory with the commands that bring it about."""
+"""``rotemina compensate apply``: write a trajectory with compensated commands."""
 
 import argparse
 from pathlib import Path

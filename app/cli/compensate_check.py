@@ -1,4 +1,4 @@
-"""``rotemina compensate check``: inverses on records that they were not trained on."""
+"""``rotemina compensate check``: check inverses on records not used in training."""
 
 import argparse
 import sys

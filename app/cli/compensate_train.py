@@ -1,4 +1,4 @@
-"""``rotemina compensate train``: inverses of an axis from records, or from the simulator."""
+"""``rotemina compensate train``: train the inverses of an axis on records or the simulator."""
 
 import argparse
 import hashlib

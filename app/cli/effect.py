@@ -1,4 +1,4 @@
-"""``rotemina effect``: which effects there are, what they say of themselves, whether it is true."""
+"""``rotemina effect``: list effects, show their descriptions, and check them."""
 
 import argparse
 import time

@@ -1,4 +1,4 @@
-"""The language that the command line answers in: the window's, where nothing else is asked for.
+"""The language of the command line: by default that of the window.
 
 Files, logs and JSON are English; names of axes are those of the files.
 """

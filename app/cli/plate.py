@@ -1,4 +1,4 @@
-"""``rotemina plate``: the plate that holds the pin, computed, and put into a robot file."""
+"""``rotemina plate``: compute the plate that holds the pin, and put it into a robot file."""
 
 import argparse
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""``rotemina play``: play a trajectory on the simulator and write what was recorded."""
+"""``rotemina play``: play a trajectory on the simulator and write the record."""
 
 import argparse
 import sys

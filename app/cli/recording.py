@@ -1,4 +1,4 @@
-"""``rotemina recording``: look at recordings of sessions, recover and export them."""
+"""``rotemina recording``: inspect, recover and export recordings of sessions."""
 
 import argparse
 import webbrowser

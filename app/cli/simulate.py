@@ -1,4 +1,4 @@
-"""``rotemina simulate``: what a machine with its effects would record over given commands."""
+"""``rotemina simulate``: what a machine with its effects would record for given commands."""
 
 import argparse
 import sys

@@ -1,4 +1,4 @@
-"""Being told to end, by Ctrl-C or by the system, without being interrupted."""
+"""Orderly termination on Ctrl-C or a signal of the system, without interrupting work."""
 
 import signal
 from collections.abc import Callable, Iterator

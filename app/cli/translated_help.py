@@ -1,4 +1,4 @@
-"""Help and errors of the options in another language; both come from the catalogue's ``help``."""
+"""Help and error messages of the options, translated from the catalogue ``help``."""
 
 import argparse
 from collections.abc import Callable, Sequence

@@ -1,4 +1,4 @@
-"""``rotemina tune``: gains of a position loop, searched on the simulated axis."""
+"""``rotemina tune``: search the gains of a position loop on the simulated axis."""
 
 import argparse
 import sys

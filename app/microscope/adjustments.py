@@ -1,4 +1,4 @@
-"""Calibration and autofocus: runs whose outcome is kept for camera and objective."""
+"""Calibration and autofocus, whose results are stored for camera and objective."""
 
 from collections.abc import Callable
 from datetime import UTC, datetime

@@ -1,4 +1,4 @@
-"""What is known of a camera behind an objective, kept as a file (TOML) of its own."""
+"""The TOML file of a calibrated camera and objective."""
 
 import re
 from dataclasses import replace

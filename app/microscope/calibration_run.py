@@ -1,4 +1,4 @@
-"""A guided calibration: small moves about the present place, a look after each, a fit, and back.
+"""A guided calibration: small moves around the present position, a picture after each, a fit.
 
 Somebody calls :meth:`CalibrationRun.step`; it has no thread and never waits. Every move goes
 through the session, which knows limits, keep-out and owners; a refusal, a stop, a fault or a

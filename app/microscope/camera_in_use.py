@@ -1,4 +1,4 @@
-"""Which cameras there are, and the one that is in use."""
+"""The available cameras, and the one in use."""
 
 import threading
 from collections.abc import Callable

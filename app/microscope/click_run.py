@@ -1,4 +1,4 @@
-"""A planned move made, looked at, and corrected until the tip is where it was clicked."""
+"""Executes a planned move, and corrects it until the tip is at the clicked point."""
 
 from dataclasses import dataclass, replace
 from enum import StrEnum

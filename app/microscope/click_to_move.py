@@ -1,4 +1,4 @@
-"""A click in the picture made into a move of the tip.
+"""Conversion of a click in the picture into a move of the tip.
 
 A pixel becomes a displacement of the tip through the calibration, and that becomes targets of the
 stage's axes: the tables' x and y, or thx, thy (and zn, which keeps the height) within their range.

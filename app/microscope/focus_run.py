@@ -1,4 +1,4 @@
-"""Autofocus: a search that moves something, looks, and ends at the sharpest place.
+"""Autofocus: moves a drive, evaluates pictures, and ends at the sharpest position.
 
 What moves is the microscope's focus drive or an axis of the machine, such as z through the
 session, which knows its limits.

@@ -1,4 +1,4 @@
-"""Pictures' times and the tip, written into the recording that runs."""
+"""Writes frame times and the tip into the running recording."""
 
 from collections.abc import Callable
 

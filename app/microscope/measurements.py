@@ -1,4 +1,4 @@
-"""What the tracker sees, as numbers for recordings, and as an independent ``ref`` for records.
+"""Tracked positions as numbers for recordings, and as an independent ``ref`` for records.
 
 A tip in the picture gives x and y through the calibration, and the depth through its blur. With
 one axis moving and the others as commanded, the kinematics turn that into the axis' true place:

@@ -1,4 +1,4 @@
-"""The microscope in use: camera, calibration, clicks and vision behind one door."""
+"""The microscope in use: one facade for camera, calibration, clicks and vision."""
 
 import time
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""What is known of the camera and the objective in use: calibration, pipette, scale."""
+"""The camera and objective in use, with calibration, pipette and scale."""
 
 import threading
 from collections.abc import Callable

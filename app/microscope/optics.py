@@ -1,4 +1,4 @@
-"""What the robot file says of microscope and tool, as the finder of the tip takes it."""
+"""Microscope and tool of the robot file, as the tip finder needs them."""
 
 import re
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Looks at pictures that take their time: the outline of a cell, the drift of the background."""
+"""Slow evaluations of pictures: the outline of a cell, the drift of the background."""
 
 import threading
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""A recording with a tip in it made into a record whose ``ref`` the microscope has seen."""
+"""Converts a recording of the tip into a record with the microscope as ``ref``."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What moves something by what a camera shows: one at a time, ended when that cannot be trusted."""
+"""Procedures that move an axis by camera pictures: one at a time, ended when not trustworthy."""
 
 import threading
 from collections.abc import Callable

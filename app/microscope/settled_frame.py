@@ -1,4 +1,4 @@
-"""A look at a machine that rests: pictures taken after it came to rest, and where it stood.
+"""Pictures taken after the machine came to rest, with its position.
 
 Whoever moves by what a camera shows waits here. Anything that makes the picture or the place
 doubtful ends the wait with the reason: then nothing is to move.

@@ -1,4 +1,4 @@
-"""A z-stack: pictures at even places of the focus drive or of an axis, and back to where it began.
+"""A z-stack: pictures at equidistant positions of the focus drive or an axis, and the return.
 
 Each is taken once the machine rests, as for autofocus; a stop ends it where it is.
 """

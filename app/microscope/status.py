@@ -1,4 +1,4 @@
-"""One moment of the microscope, for whoever shows it."""
+"""The state of the microscope at one instant, for views."""
 
 from dataclasses import dataclass, field
 from enum import StrEnum

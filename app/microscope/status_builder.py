@@ -1,4 +1,4 @@
-"""A moment of the microscope put together for a view."""
+"""Assembles the state of the microscope for a view."""
 
 from dataclasses import dataclass
 

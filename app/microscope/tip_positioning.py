@@ -1,4 +1,4 @@
-"""Clicks and marked targets: a move thought through, made, and looked at until the tip is there."""
+"""Moves of the tip to clicks and marked targets: planned, executed, and corrected."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The tip followed in the newest picture, whatever that costs in pictures: never a backlog."""
+"""Tracks the tip in the newest picture, skipping pictures rather than building a backlog."""
 
 import threading
 from collections import deque

@@ -1,4 +1,4 @@
-"""What each request for motion passes on its caller's thread, before it is queued."""
+"""Checks of each motion request on the caller's thread, before it is queued."""
 
 import threading
 from collections.abc import Container, Iterable, Mapping

@@ -1,4 +1,4 @@
-"""Backlash of stepper axes: a target is come to from one side always, so the play is on the other.
+"""One-sided approach of stepper axes, so that backlash is always on the same side.
 
 Where an axis would come from the wrong side, or has not gone far enough to take up the play, it
 first goes beyond its target by ``width``. That way passes every check, as any move does. It is made

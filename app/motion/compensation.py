@@ -1,4 +1,4 @@
-"""Compensation in a session: inverses between desired positions of piezo axes and their commands.
+"""Compensation in a session: inverses that convert desired positions of piezo axes to commands.
 
 A device that is a :class:`~rotemina.drivers.model_abilities.Compensator` sends every set-point
 through the inverse at its own ticks: moves, speeds, profiles and trajectories alike. Other devices

@@ -1,4 +1,4 @@
-"""A watch on the gap between model and machine: too far apart for too long stops the motion."""
+"""Supervision of the gap between model and machine: a large lasting one stops the motion."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

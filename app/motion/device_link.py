@@ -1,4 +1,4 @@
-"""The way to a device: its driver, the gate, the queue, and the worker that talks to it."""
+"""The link to a device: its driver, the gate, the queue, and the worker that talks to it."""
 
 from collections.abc import Callable
 from dataclasses import replace

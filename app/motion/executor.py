@@ -1,4 +1,4 @@
-"""Execution of commands as calls of the driver, on the only thread that talks to it."""
+"""Executes commands as driver calls, on the only thread that talks to the driver."""
 
 from collections import deque
 from collections.abc import Callable, Mapping

@@ -1,4 +1,4 @@
-"""Limits between every request and the machine: ranges, speeds, and the tip's keep-out."""
+"""Limits of every request: ranges, speeds, and the keep-out of the tip."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

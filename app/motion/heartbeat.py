@@ -1,4 +1,4 @@
-"""Signs of life: of the thread that shows a session to an operator, and of the one that steers."""
+"""Heartbeats of the thread that shows a session, and of the one that steers."""
 
 from rotemina.drivers.clock import Clock
 

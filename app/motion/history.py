@@ -1,4 +1,4 @@
-"""The recent past of all axes, written by the session's worker and read by screens."""
+"""The recent past of all axes, written by the session's worker, read by displays."""
 
 import threading
 from dataclasses import dataclass, field

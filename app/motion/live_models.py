@@ -1,4 +1,4 @@
-"""The models that run along with a device: the nominal one, always, and the one in use."""
+"""The models that run beside a device: the nominal one and the one in use."""
 
 from typing import NamedTuple
 

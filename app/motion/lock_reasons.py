@@ -1,4 +1,4 @@
-"""Why nothing moves, in the words that an operator reads, with what to do."""
+"""Reasons why motion is locked, with remedies, in the operator's words."""
 
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.sim.messages import message

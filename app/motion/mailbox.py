@@ -1,4 +1,4 @@
-"""What other threads leave for the worker: a short queue of commands, and a wake event."""
+"""Requests of other threads to the worker: a short command queue and a wake event."""
 
 import threading
 from collections import deque

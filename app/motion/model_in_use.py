@@ -1,4 +1,4 @@
-"""The model that predictions are made with: the nominal one, or one that a diagnosis corrected.
+"""The model used for predictions: the nominal one, or one corrected by a diagnosis.
 
 Nothing that is sent to a machine depends on it, and nothing that protects the machine is loosened
 by it.

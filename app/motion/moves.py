@@ -1,4 +1,4 @@
-"""Requests for motion: single axes, speeds, safe ways, switches, trajectories, voltages."""
+"""Motion requests: single axes, speeds, safe paths, homing, trajectories, voltages."""
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType

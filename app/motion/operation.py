@@ -1,4 +1,4 @@
-"""All actions of an operator in a session, in one periodic loop.
+"""The periodic loop that executes all operator actions of a session.
 
 The loop reads the devices, steers the machine accordingly, steps a penetration, and records all of
 it during a recording. It is independent of Qt: panels of the window show it and request the rest.

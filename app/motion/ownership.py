@@ -1,4 +1,4 @@
-"""Who drives an axis now: one owner each, told to the operator, taken over only on purpose."""
+"""The owner of each axis: one at a time, visible, and changed only deliberately."""
 
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping

@@ -1,4 +1,4 @@
-"""Playing a trajectory by an operator's hand: at a pace, paused, row by row, watched."""
+"""Playback under the operator's control: pace, pause, single steps, supervision."""
 
 import threading
 from collections.abc import Callable, Mapping

@@ -1,4 +1,4 @@
-"""What the record of a playback says beside its motion."""
+"""Notes about a playback that are stored with its record."""
 
 from datetime import datetime
 

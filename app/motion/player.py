@@ -1,4 +1,4 @@
-"""Playing a trajectory as fast as the machine can: the same driver, on a clock set by hand."""
+"""Playback as fast as the machine permits, with the same driver on a manual clock."""
 
 from collections.abc import Callable, Mapping
 

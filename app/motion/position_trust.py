@@ -1,4 +1,4 @@
-"""Whether the device's position may be believed: what made it doubtful, and what ends the doubt."""
+"""Whether the device's position can be trusted: what causes doubt, and what resolves it."""
 
 from collections.abc import Iterable
 

@@ -1,4 +1,4 @@
-"""Ranges of axes that an operator narrowed: inside those of the robot file, never beyond them."""
+"""Axis ranges narrowed by an operator, always inside those of the robot file."""
 
 from collections.abc import Iterable, Mapping
 from math import sqrt

@@ -1,4 +1,4 @@
-"""Cutting the record of a playback out of the samples that a device delivers."""
+"""Extracts the record of a playback from the samples of a device."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Feedback in a session: loops that the device closes around axes, put on and taken off at rest.
+"""Feedback in a session: loops around axes on the device, closed and opened at rest.
 
 Only a device that is a :class:`~rotemina.drivers.model_abilities.Regulator` can: a loop needs its
 samples hundreds of times sooner than a line to a board brings them.

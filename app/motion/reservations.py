@@ -1,4 +1,4 @@
-"""Axes that an owner keeps at rest too, and axes that are taken over."""
+"""Reservation of axes, also at rest, and taking over of axes."""
 
 from collections.abc import Sequence
 

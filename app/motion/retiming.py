@@ -1,4 +1,4 @@
-"""The same path at another pace: a speed factor, and an easy start in the middle of it."""
+"""The same path at another pace: a speed factor, and a smooth start in mid-path."""
 
 from dataclasses import dataclass, replace
 

@@ -1,4 +1,4 @@
-"""The way of single targets: segments that pass the guard, with one-sided approaches in them."""
+"""Routing of single targets: path segments that pass the guard, with one-sided approaches."""
 
 from collections.abc import Mapping, Sequence
 

@@ -1,4 +1,4 @@
-"""What an operator says once of all that is recorded: run, operator, sample."""
+"""Labels that an operator enters once for all records: run, operator, sample."""
 
 from dataclasses import dataclass, fields
 from typing import Self

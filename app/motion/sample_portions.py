@@ -1,4 +1,4 @@
-"""Portions of samples: read in every cycle, worked up as often as a screen could show it."""
+"""Batches of samples: read in every cycle, processed at the display rate."""
 
 from rotemina.drivers.samples import Samples
 

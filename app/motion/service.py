@@ -1,4 +1,4 @@
-"""What is asked of a device that moves nothing: parameters, a display, faults, effects."""
+"""Device requests without motion: parameters, display, faults, effects."""
 
 from collections.abc import Sequence
 

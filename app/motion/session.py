@@ -1,4 +1,4 @@
-"""A motion session: the one place through which a program moves a machine."""
+"""A motion session: the only interface through which a program moves a machine."""
 
 import threading
 import time

@@ -1,4 +1,4 @@
-"""What a motion session shows and tells: its state, and the events on the way."""
+"""The state of a motion session, and its events."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

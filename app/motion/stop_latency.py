@@ -1,4 +1,4 @@
-"""How long a stop takes to be out: measured all the time, not only when somebody stops."""
+"""Latency of stops until they are sent, measured continuously."""
 
 import threading
 from collections import deque

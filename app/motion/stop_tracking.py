@@ -1,4 +1,4 @@
-"""What became of the stops that were asked for."""
+"""The progress of requested stops."""
 
 from collections import deque
 from collections.abc import Callable, Iterator

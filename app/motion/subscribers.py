@@ -1,4 +1,4 @@
-"""Who is told of a session's events and samples."""
+"""Subscribers to a session's events and samples."""
 
 import logging
 import threading

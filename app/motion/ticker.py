@@ -1,4 +1,4 @@
-"""A thread that calls something at a steady rate, by the clock."""
+"""A thread that calls a function at a steady rate."""
 
 import logging
 import threading

@@ -1,4 +1,4 @@
-"""The tip's bounds in a session: what they are, and the floor that is taught at rest."""
+"""The bounds of the tip in a session, and teaching of the floor at rest."""
 
 import numpy as np
 

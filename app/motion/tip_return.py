@@ -1,4 +1,4 @@
-"""A tip that is out of its bounds: what is said of it, and which ways lead back in."""
+"""The way back for a tip outside its bounds: messages, and the permitted directions."""
 
 from rotemina.app.motion.position_envelope import PositionEnvelope
 from rotemina.sim.kinematics.keep_out import Excess, KeepOutZone

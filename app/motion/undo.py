@@ -1,4 +1,4 @@
-"""Back to where the machine was: retract, travel, approach."""
+"""Return to the previous position: retract, travel, approach."""
 
 from collections import deque
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""The worker of a session: the only one that talks to the driver, ``stop`` excepted.
+"""The worker of a session: the only thread that talks to the driver, except for ``stop``.
 
 It is stepped, not timed: :meth:`Worker.run_once` is one cycle, called by the session's thread or,
 without any thread, by a test.

@@ -1,4 +1,4 @@
-"""The check of a source of cameras: whether it and its first camera keep the contract."""
+"""Check of a camera source: whether it and its first camera keep the contract."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

@@ -1,4 +1,4 @@
-"""The check of an installed plugin of any kind: its import, its interface, then its own kit."""
+"""Check of an installed plugin of any kind: its import, its interface, then its own kit."""
 
 import time
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""The bench that a panel is put on: a simulated machine, no window, time set by hand."""
+"""A test bench for panels: a simulated machine, no window, manual time."""
 
 import os
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""A new plugin's package, written from the templates: whole, or not at all."""
+"""Writes the package of a new plugin from templates, completely or not at all."""
 
 import re
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""One record of the library: where it is, what it is of, and what people call it."""
+"""One record of the library: its location, origin, name and note."""
 
 from dataclasses import dataclass
 from datetime import datetime

@@ -1,4 +1,4 @@
-"""What a record's own file tells of it, without all of it in memory."""
+"""Facts from a record's own file, without loading it completely."""
 
 from collections.abc import Mapping
 from dataclasses import replace

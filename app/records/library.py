@@ -1,4 +1,4 @@
-"""One library of records: the program's own folders, and files that were opened from elsewhere."""
+"""The library of records: the program's own folders, and files opened from elsewhere."""
 
 import re
 import threading

@@ -1,4 +1,4 @@
-"""The report of a run: what a record of the library tells, as one page for people."""
+"""The report of a run: one HTML page about a record of the library."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""The library's own file: what is known of each record, and what people called it.
+"""The library's database: facts, names and notes of each record.
 
 SQLite, because two programs may change it at once and a crash must leave the whole state before a
 change or the whole one after it. The journal is the plain one: it works on a shared folder, too.

@@ -1,4 +1,4 @@
-"""The eye of a viewer that draws itself: which pixel a point is at."""
+"""The camera of a viewer that draws by itself: projection of points to pixels."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property

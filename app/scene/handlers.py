@@ -1,4 +1,4 @@
-"""Answers of the view's server; every one is refused without the right host, origin and secret.
+"""Request handlers of the 3-D server; each requires the right host, origin and secret.
 
 Loopback alone keeps nobody out: any web page that the operator opens may send requests there. So
 

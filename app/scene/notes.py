@@ -1,4 +1,4 @@
-"""What is written over the picture: what it does not show, and where it is not to scale."""
+"""Text over the picture: what is not drawn, and what is not to scale."""
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What the robot is drawn of.
+"""The drawn parts of the robot.
 
 Travel, pin length, lever arm of the piezos and the cell come from the robot file and what is made
 of it. Everything else only lets one recognise the machine: plates of 90 mm for the tables, a dish

@@ -1,4 +1,4 @@
-"""A scene as polygons and lines in pixels, for a viewer that draws it itself, without a GPU."""
+"""A scene as polygons and lines in pixels, for a viewer that draws without a GPU."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The scene of one robot: two ghosts of it, model and real, about its dish and cell."""
+"""The scene of one robot: its two ghosts, model and real, around dish and cell."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Who looks at the scene, and how fast each can be told of it."""
+"""The connected viewers of the scene, and the rate of updates to each."""
 
 import asyncio
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Watches the program from outside; run as a file of its own, with the standard library alone.
+"""The watchdog process; it runs as a single file with only the standard library.
 
 It reads one line of JSON for each beat from standard input. The program's end without a farewell,
 or :data:`SILENT_S` without a beat, is told on the terminal, in a log file, and in a window where

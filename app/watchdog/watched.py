@@ -1,4 +1,4 @@
-"""The program's side of its watchdog: the process, and four beats a second to it."""
+"""The program's side of its watchdog: starts the process, and sends it four beats a second."""
 
 import json
 import logging

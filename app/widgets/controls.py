@@ -1,4 +1,4 @@
-"""Small manners of controls: one that cannot act says why, and buttons do one thing."""
+"""Behaviour of controls: disabled ones state the reason, and buttons have one action."""
 
 from collections.abc import Callable
 from html import escape

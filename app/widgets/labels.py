@@ -1,4 +1,4 @@
-"""Texts: one line cut with dots, quiet lines, headings, names in their colours."""
+"""Labels: elided lines, quiet lines, headings, coloured names."""
 
 from collections.abc import Iterable
 from html import escape

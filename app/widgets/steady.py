@@ -1,4 +1,4 @@
-"""Choices, sliders and numbers that the wheel does not change.
+"""Choices, sliders and number fields that ignore the wheel.
 
 A panel is scrolled by the wheel, and what lies under the pointer then must change no machine.
 """

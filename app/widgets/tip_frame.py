@@ -1,4 +1,4 @@
-"""Places of the tip in a drawing: from above or from the side, what is forbidden, a scale bar."""
+"""Positions of the tip in a drawing from above or from the side: forbidden areas, a scale bar."""
 
 from math import floor, log10
 

@@ -1,4 +1,4 @@
-"""The contract of cameras: made by a source, opened, set and grabbed from.
+"""The camera contract: made by a source, opened, configured and read.
 
 A camera is made without touching anything; then it is opened, configured, grabbed from and closed
 by one thread, which may wait. Nobody else waits for it:

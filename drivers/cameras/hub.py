@@ -1,4 +1,4 @@
-"""All cameras there are, of every source, and making one by its key."""
+"""All available cameras of every source, each made by its key."""
 
 import time
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""Cameras of Micro-Manager, of which there are hundreds: through pymmcore-plus, an optional extra.
+"""Cameras of Micro-Manager, through pymmcore-plus, an optional extra.
 
 A camera is named by the configuration file that Micro-Manager's own wizard has written for it.
 """

@@ -1,4 +1,4 @@
-"""Cameras that OpenCV reads: USB cameras (UVC), video files, streams of the network."""
+"""Cameras read by OpenCV: USB cameras (UVC), video files, network streams."""
 
 import os
 import time

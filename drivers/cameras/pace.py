@@ -1,4 +1,4 @@
-"""The beat of a camera that makes its pictures itself."""
+"""The frame rate of a camera that generates its own pictures."""
 
 from rotemina.drivers.cameras.camera import Wait
 from rotemina.drivers.clock import Clock

@@ -1,4 +1,4 @@
-"""Pixels made into another type."""
+"""Conversion of pixels to another type."""
 
 import cv2
 import numpy as np

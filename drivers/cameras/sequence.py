@@ -1,4 +1,4 @@
-"""Pictures in files, one after the other: a folder of TIFF and PNG, or a TIFF of many pages."""
+"""Image sequences: a folder of TIFF and PNG files, or a multi-page TIFF."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a camera is told, what it can do, and whether the one fits the other."""
+"""Camera settings and capabilities, and their check against each other."""
 
 from dataclasses import dataclass
 from enum import StrEnum

@@ -1,4 +1,4 @@
-"""The simulated microscope: a camera that looks at the true tip of a simulated machine."""
+"""The simulated microscope: a camera that sees the true tip of a simulated machine."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence

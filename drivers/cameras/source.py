@@ -1,4 +1,4 @@
-"""Where cameras are found: a source, which is a plugin (``rotemina.cameras``)."""
+"""Camera sources, which are plugins (``rotemina.cameras``)."""
 
 import time
 from abc import ABC, abstractmethod

@@ -1,4 +1,4 @@
-"""A check of the contract, what it finds, and the words in which it fails."""
+"""A check of the contract, its findings, and its failure messages."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What a GRBL controller is doing, as it tells, and what it is told next."""
+"""The state of a GRBL controller, and what to send it next."""
 
 import logging
 from collections import deque

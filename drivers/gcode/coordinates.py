@@ -1,4 +1,4 @@
-"""The axes of a robot as a GRBL controller counts them: letters, mm or degrees, below zero.
+"""A robot's axes in a GRBL controller's coordinates: letters, mm or degrees, below zero.
 
 Machine coordinates of GRBL end at 0 and begin at minus the travel (``$130`` and on), whichever end
 the switch is at; the low end of an axis' range lies there.

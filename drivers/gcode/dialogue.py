@@ -1,4 +1,4 @@
-"""The talk with a controller: one line at a time is answered, single bytes go past all lines."""
+"""The dialogue with a controller: one line at a time, single bytes past all lines."""
 
 from collections.abc import Iterator
 

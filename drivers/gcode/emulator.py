@@ -1,4 +1,4 @@
-"""An emulated GRBL controller with a stage behind it, byte for byte; it lives when it is told to.
+"""An emulated GRBL controller with a stage, byte for byte; its time is advanced explicitly.
 
 It behaves as GRBL 1.1 does, as far as a host can tell: a queue of blocks, feed holds and resets,
 alarms and locks, no reports while it homes. Time is given by the caller, s. Source: GRBL 1.1,

@@ -1,4 +1,4 @@
-"""How a controller is opened: brought to rest, emptied, asked what it is."""
+"""Opening of a controller: bring it to rest, empty its queue, and identify it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""What a GRBL controller says: each line as a message. Source: GRBL 1.1, interface.md."""
+"""Reports of a GRBL controller: each line as a message. Source: GRBL 1.1, interface.md."""
 
 import re
 from collections.abc import Mapping

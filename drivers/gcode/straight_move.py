@@ -1,4 +1,4 @@
-"""A straight move, sent piece by piece: what has not been sent ends with a line that is torn.
+"""A straight move sent piece by piece, so that a torn line ends it.
 
 A G-code controller has no watchdog: it goes on to the end of what it was told. So it is never told
 more than it needs in order not to brake: the way of `_AHEAD_S`, and that of its braking.

@@ -1,4 +1,4 @@
-"""The joystick at the machine's own controller: potentiometers and buttons, as a device."""
+"""The joystick at the machine's controller: potentiometers and buttons as an input device."""
 
 import time
 from collections.abc import Callable, Sequence

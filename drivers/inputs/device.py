@@ -1,4 +1,4 @@
-"""The contract of input devices: what stands there is found by a source, opened, and read.
+"""The contract of input devices: found by a source, opened, and read.
 
 A source is a plugin (``rotemina.inputs``). Readings are what the device says, neither calibrated
 nor trusted: that a stick stands at its centre, which axis it is for and how far it goes is the

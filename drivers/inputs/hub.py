@@ -1,4 +1,4 @@
-"""All input devices there are: which came, which left, and opening one by its key."""
+"""All available input devices: arrivals, removals, and opening by key."""
 
 import logging
 import time

@@ -1,4 +1,4 @@
-"""Keys and an on-screen pad: a device whose axes and buttons the program itself sets."""
+"""Keys and an on-screen pad: a device set by the program itself."""
 
 import time
 from collections import deque

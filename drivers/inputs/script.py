@@ -1,4 +1,4 @@
-"""A script: what an input device does over time, written down or read from a CSV file."""
+"""A script: the motion of an input device over time, in Python or a CSV file."""
 
 import csv
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Inverses between the set-points of the simulated machine and its actuators, tick by tick."""
+"""Inverses between set-points and actuators of the simulated machine, tick by tick."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""The simulated machine: it lives in device time and knows nothing of hosts or threads."""
+"""The simulated machine, in device time, independent of hosts and threads."""
 
 from dataclasses import replace
 from enum import Enum, auto

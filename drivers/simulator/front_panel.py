@@ -1,4 +1,4 @@
-"""What stands on the simulated machine's desk: its display, and a joystick set by hand."""
+"""The front panel of the simulated machine: its display, and a manual joystick."""
 
 from abc import ABC
 from collections.abc import Mapping, Sequence

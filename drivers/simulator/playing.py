@@ -1,4 +1,4 @@
-"""A trajectory as the simulated machine plays it, piece by piece."""
+"""Playback of a trajectory by the simulated machine, piece by piece."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""A profile as the simulated machine runs it: the polynomial's value at each of its ticks."""
+"""Execution of a profile by the simulated machine: its polynomial at each tick."""
 
 from math import ceil
 

@@ -1,4 +1,4 @@
-"""Loops that the simulated machine closes around its axes, at ticks as fine as they ask for."""
+"""Loops around axes of the simulated machine, at their own fine ticks."""
 
 from collections.abc import Mapping
 from types import MappingProxyType

@@ -1,4 +1,4 @@
-"""Set-points of single moves: as fast as an axis may go, tick by tick.
+"""Set-points of single moves, tick by tick at the greatest permitted speed.
 
 At each tick the speed of the command changes by at most ``a·dt``, and is the greatest from which
 the axis can still stop on its target. With D the distance in units of ``a·dt²`` and u the speed

@@ -1,4 +1,4 @@
-"""How a board moves one axis, tick by tick: to a target, at a speed, or along a ramp."""
+"""Motion of one axis by a board, tick by tick: to a target, at a speed, or along a ramp."""
 
 from copy import deepcopy
 

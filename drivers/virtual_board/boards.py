@@ -1,4 +1,4 @@
-"""One or two boards on their lines, with the machine behind them: it lives when it is told to.
+"""One or two boards on their lines, with their machine; time is advanced explicitly.
 
 Time is given by the caller, in seconds since the process began: nothing here waits or looks at a
 clock, so a test may let hours pass in minutes.

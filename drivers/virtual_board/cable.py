@@ -1,4 +1,4 @@
-"""A cable that can be disturbed: what happens to bytes on their way, in either direction."""
+"""A cable with disturbances of the bytes in either direction."""
 
 from enum import Enum, auto
 

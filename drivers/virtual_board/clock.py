@@ -1,4 +1,4 @@
-"""The clock of a board: microseconds in 32 bits, from a crystal that is not quite true."""
+"""The clock of a board: 32 bits of microseconds from an imperfect crystal."""
 
 from math import ceil, floor
 

@@ -1,4 +1,4 @@
-"""What can go wrong, injected from outside by short commands: for training, and for our own tests.
+"""Fault injection by short commands, for training and tests.
 
 ========================  ===================================================================
 ``drop N``                the next N bytes are lost

@@ -1,4 +1,4 @@
-"""One board as a program: what it does at every tick of its control, and how it halts.
+"""The firmware of one virtual board: its control tick, and how it halts.
 
 It is called at the ticks at which something is due, and lets its drives generate what lies between.
 What frames ask of it is in ``messages.py``.

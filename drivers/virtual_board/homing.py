@@ -1,4 +1,4 @@
-"""How a board finds where its steppers are: to the low switch, slowly back, and on to zero."""
+"""Homing by a board: to the low switch, slowly back, and to zero."""
 
 from enum import Enum, auto
 

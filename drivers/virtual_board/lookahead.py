@@ -1,4 +1,4 @@
-"""A plant that looks ahead of the present: far fewer, longer runs.
+"""A plant simulated ahead of the present, in far fewer, longer runs.
 
 A run of the plant costs the same for one tick as for a hundred. Boards look at it at every sample
 of telemetry; so the machine is simulated beyond the present over the commands that will come if

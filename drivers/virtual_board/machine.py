@@ -1,4 +1,4 @@
-"""The machine that the boards move: plant, sensors, limit switches, and what boards count from."""
+"""The machine behind the boards: plant, sensors, limit switches, and counters."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace

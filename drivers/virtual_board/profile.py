@@ -1,4 +1,4 @@
-"""A motion that a board makes alone, at its own control rate: differences of one axis, added up."""
+"""A motion executed by a board at its own rate: summed differences of one axis."""
 
 from binascii import crc_hqx
 

@@ -1,4 +1,4 @@
-"""What a board refuses, and the questions that most frames raise."""
+"""Refusals of a board, and checks common to most frames."""
 
 from rotemina.drivers.mc68hc11.codes import Fault, Refusal
 from rotemina.drivers.virtual_board.firmware import Firmware

@@ -1,4 +1,4 @@
-"""What came of a calibration: the errors before and after, and the figures."""
+"""The result of a calibration: errors before and after, and figures."""
 
 from html import escape
 

@@ -1,4 +1,4 @@
-"""The stored calibrations: which is on, and switching one on or off."""
+"""The stored calibrations, and the switch for the one in use."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What the calibration panel says and draws, free of widgets."""
+"""Text and figures of the calibration panel, free of widgets."""
 
 from collections.abc import Iterable
 from typing import NamedTuple

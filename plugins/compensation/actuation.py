@@ -1,4 +1,4 @@
-"""What acts on the machine: an inverse, a loop, the sweep between them, and trials of all."""
+"""Actions on the machine: inverse, loop, sweep, and trials."""
 
 from collections.abc import Callable
 

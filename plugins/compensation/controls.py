@@ -1,4 +1,4 @@
-"""The panel's controls: learn, put on, tune, each with what it needs."""
+"""The panel's controls for training, applying and tuning."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (

@@ -1,4 +1,4 @@
-"""Gains in hand: searched, tried on the simulated loop, kept in a file and read from one."""
+"""The gains in use: searched, tried on the simulated loop, saved and loaded."""
 
 from pathlib import Path
 from threading import Event as Flag

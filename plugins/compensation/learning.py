@@ -1,4 +1,4 @@
-"""Inverses learned for the panel, from records or from the simulated axis; free of widgets."""
+"""Training of inverses for the panel, on records or the simulated axis; free of widgets."""
 
 import hashlib
 from collections.abc import Callable, Sequence

@@ -1,4 +1,4 @@
-"""Compensation of hysteresis: learn, check, put on, tune."""
+"""Compensation of hysteresis: train, check, apply, tune."""
 
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The motion by which compensation is tried, and what is left on it; free of widgets."""
+"""The motion that tests compensation, and its remaining error; free of widgets."""
 
 from dataclasses import dataclass
 from enum import StrEnum

@@ -1,4 +1,4 @@
-"""Gains that are typed, in place of those of a front's point."""
+"""Typed gains that replace those of a front's point."""
 
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 

@@ -1,4 +1,4 @@
-"""The pictures of the panel: loops, the front of a search, and how a loop answers."""
+"""Plots of the panel: loops, the front of a search, and responses of a loop."""
 
 from html import escape
 

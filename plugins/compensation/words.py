@@ -1,4 +1,4 @@
-"""What the panel says, and in which numbers; free of widgets."""
+"""Text and numbers of the panel; free of widgets."""
 
 from collections.abc import Mapping
 

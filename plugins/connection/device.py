@@ -1,4 +1,4 @@
-"""Which driver, with which settings; connect, disconnect, reconnect."""
+"""Choice of driver and settings; connect, disconnect, reconnect."""
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QStandardItemModel

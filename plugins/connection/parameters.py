@@ -1,4 +1,4 @@
-"""Where the device's parameters differ from the robot file: write them, or accept."""
+"""Differences between device parameters and robot file: write or accept them."""
 
 from PySide6.QtWidgets import QHeaderView
 

@@ -1,4 +1,4 @@
-"""Why something cannot be done now, in a clause; None where it can."""
+"""Reasons why an action is unavailable, as a clause; None if it is available."""
 
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.shell.language import translate

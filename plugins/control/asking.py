@@ -1,4 +1,4 @@
-"""A large move is asked for twice: typed, read back with its unit, and confirmed. Free of Qt."""
+"""Two-step confirmation of a large move: typed, read back, confirmed. Free of Qt."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Changing the pin or the dish, step by step; with the new one nothing comes down by itself."""
+"""Guided change of pin or dish; nothing descends by itself with the new one."""
 
 from collections.abc import Callable, Mapping
 from math import isfinite

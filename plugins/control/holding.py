@@ -1,4 +1,4 @@
-"""Hold-to-jog: an axis goes while its button is held, and by nothing else."""
+"""Hold-to-jog: an axis moves only while its button is held."""
 
 import time
 from contextlib import suppress

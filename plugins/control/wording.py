@@ -1,4 +1,4 @@
-"""What the control menu says of an axis, and what a typed target means."""
+"""Text of the control menu for an axis, and parsing of a typed target."""
 
 from enum import StrEnum
 

@@ -1,4 +1,4 @@
-"""The effects that an operator asks for, in the order in which a signal meets them. Free of Qt."""
+"""The effects chosen by an operator, in signal order. Free of Qt."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace

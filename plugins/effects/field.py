@@ -1,4 +1,4 @@
-"""One parameter of an effect: a field with its unit, a slider, and the way back to the preset."""
+"""One parameter of an effect: a field with unit, a slider, and a reset to the preset."""
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import (

@@ -1,4 +1,4 @@
-"""Effects on their way to the running simulator: one change at a time, and how it ended."""
+"""Changes of effects on the running simulator: one at a time, with the outcome."""
 
 from enum import Enum, auto
 

@@ -1,4 +1,4 @@
-"""What happened at the machine, in the operator's words: moves, stops, locks, runs. Free of Qt."""
+"""Events at the machine in the operator's words: moves, stops, locks, runs. Free of Qt."""
 
 import logging
 from collections import deque

@@ -1,4 +1,4 @@
-"""A virtual board as a process of its own, which ends with the window."""
+"""A virtual board as a separate process that ends with the window."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""Faults, lost links, refusals and recoveries, each with its time.
+"""Faults, lost links, refusals and recoveries, with their times.
 
 Entries are kept and written in English, and shown in the language of the window.
 """

@@ -1,4 +1,4 @@
-"""The row of choices: axis, input, output, view, and the settings of the view in sight."""
+"""The row of choices: axis, input, output, view, and the settings of the visible view."""
 
 from pathlib import Path
 

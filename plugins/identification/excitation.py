@@ -1,4 +1,4 @@
-"""What the operator asks an axis to do, the motion that this makes, and what checks say of it."""
+"""The excitation of an axis requested by the operator, its motion, and its checks."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""The section that excites an axis: what to play, what that asks of it, play, stop."""
+"""The section that excites an axis: choose a motion, see its demands, play, stop."""
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QShowEvent

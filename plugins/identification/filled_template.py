@@ -1,4 +1,4 @@
-"""Texts that a file has in English, and the window in its own language."""
+"""Texts in English for files, and in the window's language for display."""
 
 from typing import Self
 

@@ -1,4 +1,4 @@
-"""A low-order model fitted to the pair: natural frequency, damping, gain, and how well it fits."""
+"""A low-order model fitted to the pair: natural frequency, damping, gain, and quality."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""What the operator asks of a record: an axis, a pair of taps, and how to look."""
+"""The operator's query of a record: axis, pair of taps, and view."""
 
 from dataclasses import dataclass
 from pathlib import Path

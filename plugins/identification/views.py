@@ -1,4 +1,4 @@
-"""The ways to look at a pair of taps, in the order in which the panel offers them."""
+"""The views of a pair of taps, in the order of the panel."""
 
 from collections.abc import Callable
 from enum import StrEnum

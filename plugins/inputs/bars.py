@@ -1,4 +1,4 @@
-"""What a device says, drawn: bars of its axes, lamps of its buttons, a response curve."""
+"""Drawings of a device's readings: axis bars, button lamps, a response curve."""
 
 from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent, QPen, QPolygonF

@@ -1,4 +1,4 @@
-"""A calibration in the making: measured in steps, then curve, sense and travel.."""
+"""A calibration in progress: measured in steps, then curve, direction and travel."""
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, replace

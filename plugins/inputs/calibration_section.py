@@ -1,4 +1,4 @@
-"""The calibration of one device: measured in steps, then curve, sense and travel of each axis."""
+"""Calibration of one device: measurement, then curve, direction and travel of each axis."""
 
 from PySide6.QtWidgets import QCheckBox, QFormLayout, QWidget
 

@@ -1,4 +1,4 @@
-"""What is plugged in, whether it drives, and what is wrong."""
+"""The connected devices, which one is in control, and their problems."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (

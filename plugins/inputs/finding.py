@@ -1,4 +1,4 @@
-"""*Move it now*: which control of a device is moved, for one row of the mapping.."""
+"""*Move it now*: finds the moved control of a device for one row of the mapping."""
 
 from rotemina.app.motion.teleoperation.detection import Detection, Findings, Kind
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView

@@ -1,4 +1,4 @@
-"""The mapping of one device: which control does what, found by moving it."""
+"""Mapping of one device: controls are assigned by moving them."""
 
 from collections.abc import Callable
 

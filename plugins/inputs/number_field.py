@@ -1,4 +1,4 @@
-"""A field for one number with its unit; what is no number in bounds is refused and marked."""
+"""A field for one number with its unit; invalid input is refused and marked."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLineEdit, QWidget

@@ -1,4 +1,4 @@
-"""Input devices: what is plugged in, what it says and does, and setting it up."""
+"""Input devices: list, live readings, and set-up."""
 
 from collections import deque
 from collections.abc import Callable

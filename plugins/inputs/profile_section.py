@@ -1,4 +1,4 @@
-"""Which profile is used; keeping a changed one."""
+"""Choice of the profile in use; saving a changed one."""
 
 from PySide6.QtGui import QStandardItemModel
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget

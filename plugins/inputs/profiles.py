@@ -1,4 +1,4 @@
-"""Which profile is used: remembered between starts, changed, kept.."""
+"""The profile in use: remembered between starts, changed, saved."""
 
 import re
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""What screens say of input devices."""
+"""Text about input devices."""
 
 import re
 from collections.abc import Collection, Mapping

@@ -1,4 +1,4 @@
-"""What runs now, with pause and stop, and what came of the last run."""
+"""Running jobs with pause and stop, and the outcome of the last run."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What runs, in words. Free of Qt."""
+"""Text about running jobs. Free of Qt."""
 
 from pathlib import Path
 from typing import NamedTuple

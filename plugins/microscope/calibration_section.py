@@ -1,4 +1,4 @@
-"""Guided calibration of each stage: what it needs, how it goes, what came of it."""
+"""Guided calibration of each stage: requirements, progress, result."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QLabel, QProgressBar, QWidget

@@ -1,4 +1,4 @@
-"""Which camera, with which settings, behind which objective."""
+"""Choice of camera, settings and objective."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QLineEdit, QWidget

@@ -1,4 +1,4 @@
-"""How the camera is doing, in words over the picture.."""
+"""The state of the camera as text over the picture."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Where a pixel of the picture is on the screen. Free of Qt.
+"""Mapping of picture pixels to the screen. Free of Qt.
 
 A pixel's number is that of its middle: pixel 0 reaches from −0.5 to 0.5.
 """

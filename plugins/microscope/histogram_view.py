@@ -1,4 +1,4 @@
-"""The histogram of the picture, with two handles: what becomes black, and what white."""
+"""The histogram of the picture, with two handles for the black and the white level."""
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal

@@ -1,4 +1,4 @@
-"""The map of the tip beside the picture: choose a place by a click, go there by a button."""
+"""The map of the tip beside the picture: click to choose a place, press a button to go there."""
 
 import time
 from functools import partial

@@ -1,4 +1,4 @@
-"""What a press, a drag and a release in the picture do, by the mode that is on."""
+"""Press, drag and release in the picture, by the active mode."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""Pictures and films of the microscope kept as files.."""
+"""Saving of pictures and videos."""
 
 from collections.abc import Callable
 from datetime import datetime

@@ -1,4 +1,4 @@
-"""A z-stack: first, last, step; a TIFF with a page for each place."""
+"""A z-stack: first, last, step; a TIFF with one page per position."""
 
 from datetime import datetime
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Above the picture: what the left button does, zoom, and the tools beside the picture."""
+"""The bar above the picture: click modes, zoom, and tools."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent

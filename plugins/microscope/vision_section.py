@@ -1,4 +1,4 @@
-"""What is found in the picture: tip, cell, focus, drift."""
+"""Findings in the picture: tip, cell, focus, drift."""
 
 from PySide6.QtWidgets import QCheckBox, QLineEdit
 

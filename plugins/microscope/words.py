@@ -1,4 +1,4 @@
-"""What the panel says of calibration, moves, focus, tip and cell.."""
+"""Text about calibration, moves, focus, tip and cell."""
 
 from math import degrees
 

@@ -1,4 +1,4 @@
-"""Fields of the form: numbers with units, and choices that the wheel leaves alone."""
+"""Fields of the form: numbers with units, and choices that ignore the wheel."""
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QLabel, QLineEdit

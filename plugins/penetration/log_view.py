@@ -1,4 +1,4 @@
-"""The latest runs in a table, and all of the one that is chosen."""
+"""The latest runs in a table, and the details of the selected one."""
 
 from collections.abc import Iterable
 from datetime import datetime

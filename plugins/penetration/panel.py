@@ -1,4 +1,4 @@
-"""Automatic cell penetration: what it is to be like, the run, and the log of runs."""
+"""Automatic cell penetration: parameters, the run, and the log."""
 
 from pathlib import Path
 

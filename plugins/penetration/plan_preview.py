@@ -1,4 +1,4 @@
-"""What the parameters give before anything moves: speeds, depth, room, and the curves. No Qt."""
+"""Preview of a penetration: speeds, depth, travel, and curves. No Qt."""
 
 from dataclasses import dataclass
 from typing import NamedTuple, Self

@@ -1,4 +1,4 @@
-"""The numbers of a penetration as an operator types them: unit, bounds, what they do."""
+"""Numbers of a penetration as typed by an operator: unit, bounds, effect."""
 
 from dataclasses import dataclass
 from enum import StrEnum

@@ -1,4 +1,4 @@
-"""What the panel says of a penetration, and what its two buttons do now."""
+"""Text about a penetration, and the present function of its two buttons."""
 
 from enum import StrEnum
 

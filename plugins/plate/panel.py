@@ -1,4 +1,4 @@
-"""The holding plate: solved on demand, shown in 3-D over the range of motion and in its modes."""
+"""The holding plate: solved on demand, shown in 3-D over its range and in its modes."""
 
 import time
 from math import tau

@@ -1,4 +1,4 @@
-"""A plate solved away from the window's thread."""
+"""Solution of a plate in the background."""
 
 from PySide6.QtCore import QObject, Signal
 

@@ -1,4 +1,4 @@
-"""Plots of every axis: over time, loops, spectra; cursors, another run beside, and export."""
+"""Plots of every axis: over time, loops, spectra; cursors, a second run, and export."""
 
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence

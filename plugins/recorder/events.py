@@ -1,4 +1,4 @@
-"""The events of the recording that is shown; a click on one jumps there."""
+"""The events of the displayed recording; a click jumps to one."""
 
 from bisect import bisect_right
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""The recording itself: begin and end it, how it stands, remarks."""
+"""The running recording: start, end, state, remarks."""
 
 import time
 from pathlib import Path

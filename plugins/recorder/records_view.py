@@ -1,4 +1,4 @@
-"""The library of records: open one, export a stretch, make a trajectory of it, delete it."""
+"""The library of records: open, export a section, make a trajectory, delete."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a crash left unfinished, and the button that makes recordings of it."""
+"""Interrupted recordings, and the button that recovers them."""
 
 from collections.abc import Sequence
 from pathlib import Path

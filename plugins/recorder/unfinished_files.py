@@ -1,4 +1,4 @@
-"""What a crash has left in the folder of recordings."""
+"""Interrupted recordings in the folder of recordings."""
 
 from dataclasses import dataclass
 from pathlib import Path

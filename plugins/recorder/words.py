@@ -1,4 +1,4 @@
-"""The words of the recorder panel, and the span that somebody types."""
+"""Text of the recorder panel, and parsing of a typed time span."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""The scales of the present mode: how far, fast and heavily full deflection moves a coordinate."""
+"""Scales of the present mode: distance, speed and force at full deflection."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit

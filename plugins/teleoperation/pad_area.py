@@ -1,4 +1,4 @@
-"""The pad on the screen: a cross for x and y, a slider for z, and keys; all spring back."""
+"""The on-screen pad: a cross for x and y, a slider for z, and keys; all spring back."""
 
 from collections.abc import Mapping
 

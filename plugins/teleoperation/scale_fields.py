@@ -1,4 +1,4 @@
-"""The fields of a scale: names, units, text, and what is refused.."""
+"""Fields of a scale: names, units, text, and refusals."""
 
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Teleoperation in words: who drives, modes, laws, places.."""
+"""Teleoperation in words: who drives, modes, laws, places."""
 
 from collections.abc import Collection
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""How right the answers of a diagnosis are: names, sets, accusations, closure, calibration."""
+"""Scores of a diagnosis: names, sets, accusations, closure, calibration."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence

@@ -1,4 +1,4 @@
-"""The figures of the blind test in words: a table for the terminal, a page of Markdown."""
+"""The figures of the blind test as text: a table for the terminal, a page of Markdown."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence

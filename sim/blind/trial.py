@@ -1,4 +1,4 @@
-"""Runs of a machine that show what its parts do, and size them by it."""
+"""Trial runs of a machine that show and size the effects of its parts."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace

@@ -1,4 +1,4 @@
-"""A machine: its axes, their linear mechanics, and what is added to them."""
+"""A machine: its axes, their linear mechanics, and its additions."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""A sensor's calibration from records with a laser: the model, its figures, and what it is worth.
+"""Calibration of a sensor from records with a laser: model, figures, and benefit.
 
 What it is worth is told by runs that were left out of the fit: the correction, made of the other
 runs, is applied to them as a session would. One that does not make them better is refused.

@@ -1,4 +1,4 @@
-"""The period of an encoder's interpolation error, found in what a smooth model leaves.
+"""The period of an encoder's interpolation error, from the residual of a smooth model.
 
 Where the axis crept, the remainder has lines in its spectrum over position. Powers of the creeping
 stretches are added without their phases (Lomb, Astrophysics and Space Science 39 (1976) 447–462,

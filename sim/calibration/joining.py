@@ -1,4 +1,4 @@
-"""A laser's own record, with a clock of its own, joined to the record of a machine.
+"""Joining a laser's record, with its own clock, to the record of a machine.
 
 The clocks' difference is found by the motion itself: roughly by correlating the speeds, then by
 least squares of ``reading = a + b · laser(t + s + r t)``. A lag of the sensor goes into s, so it

@@ -1,4 +1,4 @@
-"""Stop operators: the part of a motion by which a loop of hysteresis lags behind.
+"""Stop operators: the part of a motion by which hysteresis lags behind.
 
 ``E_r(x) = x − P_r(x)`` with the play ``P_r = max(x − r, min(x + r, P_r))``: it follows x and stops
 at ±r. A weighted sum of them, beside a straight line, is the Prandtl–Ishlinskii model (Kuhnen,

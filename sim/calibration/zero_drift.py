@@ -1,4 +1,4 @@
-"""What no calibration removes: a zero that wanders with time, not with the axis."""
+"""A drifting zero, which depends on time, not on the axis, and cannot be calibrated."""
 
 import numpy as np
 

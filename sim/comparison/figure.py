@@ -1,4 +1,4 @@
-"""A picture of a comparison: model and real on the left, what is left between them on the right."""
+"""A picture of a comparison: model and real on the left, their difference on the right."""
 
 from pathlib import Path
 from typing import BinaryIO

@@ -1,4 +1,4 @@
-"""Two runs of a machine compared as a run and a model are: tap by tap, and along the tip's path."""
+"""Comparison of two runs of a machine: tap by tap, and along the tip's path."""
 
 from dataclasses import dataclass
 from typing import Any

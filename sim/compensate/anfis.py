@@ -1,4 +1,4 @@
-"""An adaptive neuro-fuzzy inference system of Takagi and Sugeno's kind, trained as Jang does.
+"""An adaptive neuro-fuzzy inference system (Takagi and Sugeno), trained after Jang.
 
     x = Σ_r φ_r (a_r0 + a_r1 z + Σ_j a_r,j+1 E_j),   φ_r = Π_i μ_ri(v_i) / Σ_s Π_i μ_si(v_i)
 

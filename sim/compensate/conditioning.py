@@ -1,4 +1,4 @@
-"""A sweep after which an inverse and its axis have the same past.
+"""A sweep that gives an inverse and its axis the same history.
 
 An inverse that is put on does not know what its axis went through, which decides where an axis with
 hysteresis stands. A swing through the inverse over all that it saw wipes out what was before, in

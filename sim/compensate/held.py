@@ -1,4 +1,4 @@
-"""An inverse for a device that only holds set-points and runs between them at its own ramps.
+"""An inverse for a device that holds set-points and moves between them at its own ramps.
 
 Nobody asks it at every tick, so lag and resonance are left out, and creep is that of a set-point
 which stands for :data:`SETTLED_S`: relaxations up to that time have settled, slower ones have not

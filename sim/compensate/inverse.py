@@ -1,4 +1,4 @@
-"""An inverse at work: the command that brings a desired position about, sample by sample.
+"""An inverse in operation: the command for a desired position, sample by sample.
 
     inverse = Inverse(model, sample_s=1e-3)
     command = inverse.step(desired)      # one sample; never waits, about a microsecond

@@ -1,4 +1,4 @@
-"""How far an inverse is from what was commanded, and which of several is recommended."""
+"""The error of an inverse's commands, and the recommendation of one."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace

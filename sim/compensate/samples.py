@@ -1,4 +1,4 @@
-"""What an inverse is trained and judged on: commands and the positions that they brought about."""
+"""Samples for training and checking an inverse: commands and resulting positions."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

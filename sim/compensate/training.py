@@ -1,4 +1,4 @@
-"""Inverses of all kinds from the same rows, judged side by side on rows that none of them saw."""
+"""Inverses of all kinds from the same rows, compared on rows that none was trained with."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""A trajectory sent through inverses: what a machine is told so that it goes as it should."""
+"""A trajectory sent through inverses: the commands that produce the desired motion."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""Effects on the axes of a robot: what a robot file says of them, checked.
+"""Effects on the axes of a robot: the entries of a robot file, checked.
 
 In a robot file::
 

@@ -1,4 +1,4 @@
-"""A further mode of vibration, which the nominal model of the axis lacks."""
+"""A further vibration mode that the axis' nominal model lacks."""
 
 import numpy as np
 

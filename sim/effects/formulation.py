@@ -1,4 +1,4 @@
-"""What an effect is made of: its parameters, and what it does to a signal.
+"""The parts of an effect: its parameters, and its action on a signal.
 
 An :class:`Effect` has one or several :class:`Formulation`, each the same effect by other
 equations. A formulation *acts* in one of these ways:

@@ -1,4 +1,4 @@
-"""What a fit must know of an effect, besides its equations, to find it in records.
+"""Information that a fit needs to find an effect in records, besides its equations.
 
 Each effect itself provides the start of a fit, the domain of its parameters, and the parameters of
 a single record, so effects of plugins are found like built-in ones.

@@ -1,4 +1,4 @@
-"""The resonance is not where the model has it, or not as sharp."""
+"""A resonance whose frequency or sharpness differs from the model's."""
 
 from dataclasses import replace
 

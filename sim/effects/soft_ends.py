@@ -1,4 +1,4 @@
-"""Where and how softly an amplifier ends, read from the voltages that it gave."""
+"""The saturation of an amplifier, estimated from its output voltages."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""Step functions: the form in which an effect is written, compiled, and called by the plant.
+"""Step functions: the form of an effect's equations, compiled and called by the plant.
 
 A step function is plain Python on floats that numba can compile::
 

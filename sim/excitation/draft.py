@@ -1,4 +1,4 @@
-"""The making of one axis' excitation: what the axis allows, and what was reduced to fit."""
+"""A draft of one axis' excitation: the limits of the axis, and the reductions to fit."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

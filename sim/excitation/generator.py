@@ -1,4 +1,4 @@
-"""From excitations of single axes to a trajectory that the machine may play."""
+"""Generation of a playable trajectory from excitations of single axes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

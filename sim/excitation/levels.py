@@ -1,4 +1,4 @@
-"""Excitations that go from level to level: staircase, S-curve steps and PRBS."""
+"""Excitations between levels: staircase, S-curve steps and PRBS."""
 
 from dataclasses import dataclass
 from math import inf

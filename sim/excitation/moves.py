@@ -1,4 +1,4 @@
-"""Moves from rest to rest within a speed and an acceleration: what many excitations consist of.
+"""Moves from rest to rest within speed and acceleration limits, used by many excitations.
 
 Between two rows the judge of limits sees a second difference; it never exceeds the greatest
 acceleration of a continuous motion with continuous speed, so these bounds hold at any rate.

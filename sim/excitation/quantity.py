@@ -1,4 +1,4 @@
-"""Amounts as users state them: ``200urad``, ``5 um``, ``1 mm/s`` or ``30%`` of an axis."""
+"""Amounts as typed by users: ``200urad``, ``5 um``, ``1 mm/s`` or ``30%`` of an axis."""
 
 import re
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What is asked of an axis for a reference, before any feedback.
+"""Feed-forward: the output for a reference, before any feedback.
 
 The reference is sent through an inverse of what the actuator does to a position. What the axis and
 the held command would lag behind it (:mod:`rotemina.sim.feedback.lead`) is added::

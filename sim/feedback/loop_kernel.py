@@ -1,4 +1,4 @@
-"""Loops around axes, compiled: the plant's own step and the controllers in turn."""
+"""Loops around axes, compiled: alternating steps of plant and controllers."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""A plant of which some axes are under controllers, stepped as a live machine is."""
+"""A plant with some axes under controllers, stepped like a live machine."""
 
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Gains that may be applied to a machine's axis: held against its model before anything moves."""
+"""Gains approved for a machine's axis: checked against its model before anything moves."""
 
 import numpy as np
 

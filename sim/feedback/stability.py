@@ -1,4 +1,4 @@
-"""Is a loop stable, and how far from its end? Poles, margins and peak sensitivity.
+"""Stability of a loop: poles, margins and peak sensitivity.
 
 With the loop's L = C G, ``S = 1/(1 + L)`` is what is left of a disturbance, and its peak Ms the
 inverse of the least distance of L from −1; Ms ≤ 1.7 leaves a gain margin of at least

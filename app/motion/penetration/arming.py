@@ -1,4 +1,4 @@
-"""What must be true before a penetration may begin."""
+"""Conditions for arming a penetration."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""A running penetration: the findings so far, and the resulting entry of the log."""
+"""A running penetration: its findings so far, and the resulting log entry."""
 
 from dataclasses import dataclass, field
 

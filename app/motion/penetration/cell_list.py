@@ -1,4 +1,4 @@
-"""Cells to be penetrated one after the other, and what came of each."""
+"""A list of cells to penetrate in turn, with the outcome of each."""
 
 import csv
 import io

@@ -1,4 +1,4 @@
-"""What a penetration is to be like: parameters with bounds, and their file."""
+"""Parameters of a penetration, with bounds, and their file."""
 
 from collections.abc import Mapping
 from contextlib import suppress

@@ -1,4 +1,4 @@
-"""Automatic cell penetration: armed, it approaches, feels the membrane, thrusts, and comes back.
+"""Automatic cell penetration: arm, approach, detect the membrane, thrust, and retract.
 
 A stop, a fault or a lost link *holds* the tip where it is: nothing here moves it again until
 somebody presses the button once more or takes the axes over.

@@ -1,4 +1,4 @@
-"""What became of each penetration: a line of JSON a run, appended to a file."""
+"""The log of penetrations: one line of JSON per run, appended to a file."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""The sequence of a penetration: what each phase does, and how one leads to the next.
+"""The sequence of a penetration: the actions of each phase, and the transitions between them.
 
 A stop, a fault or a lost link *holds* the tip where it is: nothing here moves it again.
 """

@@ -1,4 +1,4 @@
-"""The thrust: its profile as a board runs it, and how the axis followed it."""
+"""The thrust: its profile as executed by a board, and how the axis followed it."""
 
 from dataclasses import dataclass
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Export of recordings as records, and as trajectories that can be played."""
+"""Export of recordings as records or playable trajectories."""
 
 from collections.abc import Iterator
 from contextlib import suppress

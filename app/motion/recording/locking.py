@@ -1,4 +1,4 @@
-"""Locks on files, which the system takes back when a process ends."""
+"""File locks that the system releases when a process ends."""
 
 import os
 from typing import BinaryIO

@@ -1,4 +1,4 @@
-"""One file out of the segments of a recording: when it ends, or after a crash."""
+"""Merges the segments of a recording into one file, at its end or after a crash."""
 
 import json
 import os

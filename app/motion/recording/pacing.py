@@ -1,4 +1,4 @@
-"""A replay paced by a clock, slower or faster, with pauses and jumps."""
+"""The pace of a replay by a clock: speed, pauses and jumps."""
 
 import time
 

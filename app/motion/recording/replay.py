@@ -1,4 +1,4 @@
-"""A recording shown again: history and states as the session had them, at any pace."""
+"""Replay of a recording: the session's history and states, at any pace."""
 
 import json
 from bisect import bisect_right

@@ -1,4 +1,4 @@
-"""The append-only file that a recording is while it runs: segments, each found whole or not at all.
+"""The append-only file of a running recording: segments, each either complete or ignored.
 
 A segment is a header (magic, number, length, CRC-32 of number, length and content) and its
 content. A file that was cut off anywhere, or whose last writing failed, ends with its last whole

@@ -1,4 +1,4 @@
-"""A recorder of a motion session: its actions, inputs and messages, on the host's clock."""
+"""Records a motion session: its actions, inputs and messages, on the host's clock."""
 
 import hashlib
 import json

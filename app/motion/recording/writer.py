@@ -1,4 +1,4 @@
-"""The writer of a recording, on a thread of its own."""
+"""The writer thread of a recording."""
 
 import json
 import threading

@@ -1,4 +1,4 @@
-"""Calibration of an input device: from what its axes say to deflections of −1 to 1.
+"""Calibration of an input device: raw axis values to deflections of −1 to 1, with a dead zone.
 
 Kept in one file per device identity. A stick is described in the raw numbers of its device, so a
 calibration stays true for whatever the stick is mapped to.

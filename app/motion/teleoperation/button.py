@@ -1,4 +1,4 @@
-"""A button whose contacts bounce, or an axis that is used as one."""
+"""Debouncing of a button, or of an axis used as one."""
 
 BOUNCE_S = 0.02  # after a change no other one is believed for so long
 

@@ -1,4 +1,4 @@
-"""A calibration run: the stick is let go of, then moved to all its ends.
+"""A calibration run: the stick is released, then moved to all its ends.
 
 Nothing is sent meanwhile (the arbiter has its mapping open); readings are all it needs.
 """

@@ -1,4 +1,4 @@
-"""What a stick feels of a contact: a force on the virtual mass, bounded so that it stays passive.
+"""The contact force at the stick: a force on the virtual mass, bounded to stay passive.
 
 A contact is told by the deviation of the real position from the model's (m or rad), or by the force
 on the tip (N), either below 0 where it pushes back against positive motion. A gain g makes a force

@@ -1,4 +1,4 @@
-"""A profile for a device that nobody made one for, from what its controls are called."""
+"""The automatic profile of a device without one, from the names of its controls."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""*Move it now*: tells which control the operator moved."""
+"""*Move it now*: detects which control the operator moved."""
 
 from collections import deque
 from collections.abc import Iterator, Sequence

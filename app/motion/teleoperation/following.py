@@ -1,4 +1,4 @@
-"""How the machine is kept on a reference by speeds: what was wanted, and what is sent for it."""
+"""Following of a reference by speeds."""
 
 from bisect import bisect_right
 from collections import deque

@@ -1,4 +1,4 @@
-"""The input arbiter: from the readings of all input devices to one intent.
+"""The input arbiter: merges the readings of all input devices into one intent.
 
 It has neither threads nor a clock: whoever reads the devices tells it what came in and the time.
 """

@@ -1,4 +1,4 @@
-"""The operator's input devices: found, opened, read, and made into one intent."""
+"""The operator's input devices: discovery, opening, reading, and one resulting intent."""
 
 import logging
 import threading

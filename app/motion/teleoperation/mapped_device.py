@@ -1,4 +1,4 @@
-"""One plugged input device: readings become deflections and actions, as far as they are trusted."""
+"""One connected input device: converts trusted readings to deflections and actions."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Profiles: which control of which input device does what. One TOML file each, strict."""
+"""Profiles: the function of each control of each input device, one strict TOML file each."""
 
 import re
 from collections.abc import Iterator

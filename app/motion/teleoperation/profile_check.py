@@ -1,4 +1,4 @@
-"""Whether a profile fits: the robot's axes, the devices that are plugged in, their controls."""
+"""Whether a profile fits the robot's axes, the connected devices and their controls."""
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Moving the nano stage, back to the middle of its range for example, while the tip stays.
+"""Moving the nano stage, such as to mid-range, while the tip stays in place.
 
 Two even ramps do not hold the tip: a table steps by whole microsteps, rings, and lags behind. Here
 the tables step at an even pace and the nano stage follows not what they are told but where the

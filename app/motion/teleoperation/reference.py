@@ -1,4 +1,4 @@
-"""A reference that a machine can follow: in its range, no faster and no more abrupt than it may.
+"""A reference within range, speed and acceleration that the machine can follow.
 
 Between two steps the reference is some motion whose acceleration stays within its bound ``a``. That
 is so where the change of speed Δv over a step dt, and the way, satisfy::

@@ -1,4 +1,4 @@
-"""How far, how fast and how heavily a stick moves the coordinates of each mode: presets and file.
+"""Scales of each mode (distance, speed, force at full deflection): presets and file.
 
 A full deflection means a way (linear position), a speed (linear rate), or a force on a virtual mass
 (impedance); of each coordinate its own. The presets follow from a coordinate's range.

@@ -1,4 +1,4 @@
-"""From the deflection of a stick to the motion of one coordinate: what all scaling laws share.
+"""Scaling of a stick's deflection to the motion of a coordinate: the base of all scaling laws.
 
 The laws: :mod:`~rotemina.app.motion.teleoperation.linear_position`, ``linear_rate`` and
 ``impedance``, one instance for each degree of freedom. A law is switched by starting the new one

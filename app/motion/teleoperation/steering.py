@@ -1,4 +1,4 @@
-"""Steering in one mode: laws on the coordinates of a frame, and what the axes are to do."""
+"""Steering in one mode: laws on the coordinates of a frame, and the resulting axis motion."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Which of two seats drives: the trainer takes over at once, the trainee only when asked to."""
+"""Which of two seats is in control: the trainer takes over at once, the trainee only on request."""
 
 from dataclasses import dataclass
 

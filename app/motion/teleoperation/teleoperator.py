@@ -1,4 +1,4 @@
-"""The loop of teleoperation: an operator's intents in, speeds of axes with a lease out."""
+"""The teleoperation loop: converts an operator's intents to leased axis speeds."""
 
 import threading
 from collections.abc import Callable, Iterable, Mapping

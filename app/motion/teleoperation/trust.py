@@ -1,4 +1,4 @@
-"""Whether what an axis of an input device says may move anything: seen at rest, and plausible.
+"""Whether an input axis may move anything: seen at rest, and plausible.
 
 An axis begins untrusted and is trusted when it has been in its dead zone for a moment. It loses
 that trust when its numbers cannot come from a hand.

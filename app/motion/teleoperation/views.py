@@ -1,4 +1,4 @@
-"""What screens show of teleoperation."""
+"""The state of teleoperation, for displays."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

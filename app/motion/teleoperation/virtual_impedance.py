@@ -1,4 +1,4 @@
-"""A virtual mass, damper and spring: parameters, what is felt of them, and their exact response.
+"""A virtual mass, damper and spring: parameters, perceived dynamics, and exact response.
 
     M ẍ + D ẋ + K (x − x0) = F
 

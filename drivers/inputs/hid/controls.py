@@ -1,4 +1,4 @@
-"""What the bits of a report are for the operator: deflections, hats, and buttons held."""
+"""Meaning of a report's bits for the operator: deflections, hats, and held buttons."""
 
 from dataclasses import dataclass
 from math import cos, pi, sin

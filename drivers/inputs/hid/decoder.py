@@ -1,4 +1,4 @@
-"""From the bytes of a report to axes and buttons, by what the report descriptor says."""
+"""Decoding of report bytes to axes and buttons by the report descriptor."""
 
 from collections import Counter
 from dataclasses import dataclass

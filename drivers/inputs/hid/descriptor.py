@@ -1,4 +1,4 @@
-"""A HID report descriptor: which bits of which report are what.
+"""A HID report descriptor: the meaning of each bit of each report.
 
 Item tags are those of hid-parser. Its own walk through the items is not used: as of 0.1.0 it
 counts an array as one element and a repeated usage not at all, so that all fields behind them sit

@@ -1,4 +1,4 @@
-"""The border to the library hidapi: found late, and its errors told in plain words."""
+"""The interface to the library hidapi: loaded late, with its errors in plain words."""
 
 import importlib
 import sys

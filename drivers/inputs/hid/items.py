@@ -1,4 +1,4 @@
-"""The items that a HID report descriptor is a string of (HID 1.11, section 6.2.2)."""
+"""The items of a HID report descriptor (HID 1.11, section 6.2.2)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Finding joysticks and gamepads among the HID devices, and what they are known by."""
+"""Discovery of joysticks and gamepads among the HID devices, and their identities."""
 
 import logging
 import time

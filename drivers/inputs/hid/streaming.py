@@ -1,4 +1,4 @@
-"""Finding out whether a device goes on reporting while nothing changes: no descriptor tells it."""
+"""Detection of devices that report although nothing changes; no descriptor tells."""
 
 from rotemina.drivers.inputs.device import InputReading
 

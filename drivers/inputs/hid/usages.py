@@ -1,4 +1,4 @@
-"""The HID usages that are axes, hats and buttons, and what they are called."""
+"""The HID usages of axes, hats and buttons, and their names."""
 
 from hid_parser.data import (  # type: ignore[import-untyped]  # it has no types
     GenericDesktopControls,
