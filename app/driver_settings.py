@@ -90,7 +90,7 @@ def kept(settings: Settings, kind: type[Driver]) -> dict[str, SettingValue]:
 
 
 def keep(settings: Settings, kind: type[Driver], values: Mapping[str, SettingValue]) -> None:
-    """Remember settings of a driver for the next start; what has not changed is not written."""
+    """Store the settings of a driver for the next start, if they changed."""
     before = kept(settings, kind)
     for name, value in values.items():
         if before[name] != value:

@@ -10,7 +10,7 @@ from rotemina.app.motion.recording.backlog import RecordedEvent
 
 
 class Severity(StrEnum):
-    """How much an event matters to somebody who looks for what happened."""
+    """How much an event matters to someone who looks for what happened."""
 
     GRAVE = "grave"
     WARNING = "warning"

@@ -153,7 +153,7 @@ def complaint(packages: Sequence[Package]) -> str:
 
 
 def install(packages: Sequence[Package]) -> bool:
-    """Install packages where that needs no password; tell whether it worked."""
+    """Install packages where that needs no password; return whether it worked."""
     root = _as_root()
     if root is None or not shutil.which("apt-get"):
         return False

@@ -67,7 +67,7 @@ class Format(Generic[T]):
         return tomli_w.dumps(_filled(self._adapter.dump_python(value, mode="json")))
 
     def save(self, path: Path, value: T) -> None:
-        """Write a file, whole or not at all; its folder is made.
+        """Write a file, completely or not at all; its folder is made.
 
         Raises
         ------

@@ -28,7 +28,7 @@ DISPLAY_ROWS, DISPLAY_COLUMNS = 2, 20
 
 
 class VelocityMover(Driver, ABC):
-    """A device that moves axes at a speed for as long as somebody vouches for it."""
+    """A device that moves axes at a speed while its lease is renewed."""
 
     @final
     def move_velocity(
@@ -36,7 +36,7 @@ class VelocityMover(Driver, ABC):
     ) -> None:
         """Let axes move at these speeds (m/s or rad/s) until the lease runs out. Returns at once.
 
-        Renewed before its end it goes on without a jump; not renewed, the axes come to a halt by
+        Renewed before its end it continues without a jump; not renewed, the axes come to a halt by
         themselves, without a fault, whatever has become of the host. At an end of its range an axis
         halts. Zero halts it at once. Other axes are left to what they do.
 
@@ -156,7 +156,7 @@ class VoltageOutput(Driver, ABC):
 
     @final
     def set_voltage(self, axis: str, voltage: float, *, permit: Permit | None = None) -> None:
-        """Put out a voltage, V, within `VOLTAGE_SLEW`; the next move takes over from it.
+        """Set a voltage, V, within `VOLTAGE_SLEW`; the next move takes over from it.
 
         Raises
         ------
@@ -257,7 +257,7 @@ class Capturer(Driver, ABC):
 
     @abstractmethod
     def captured(self) -> Captured | None:
-        """Return what has come of the present or latest capture since it was last asked for."""
+        """Return the samples of the latest capture since the last call."""
 
     @abstractmethod
     def _capture(self, axes: tuple[str, ...], rate_hz: float, count: int) -> None:
@@ -279,7 +279,7 @@ class ProfileRunner(Driver, ABC):
             If the device is closed, faulty or not at rest.
         """
         permit = self._permitted(permit)
-        state = self._require_sound("take a profile")
+        state = self._require_sound("accept a profile")
         if state is not DeviceState.IDLE:
             raise StateError(
                 message("engine", "{name}: cannot accept a profile while it is {state}").fill(
@@ -350,7 +350,7 @@ class Display(Driver, ABC):
         StateError
             If the device is closed.
         """
-        self._require_open("show a text")
+        self._require_open("show text")
         if not 0 <= row < DISPLAY_ROWS:
             raise LimitError(
                 message("engine", "{name}: row {row} of the display: must be 0 or {last}").fill(
@@ -415,7 +415,7 @@ class Linked(Driver, ABC):
 
     @abstractmethod
     def link_quality(self) -> LinkQuality:
-        """Return how well the line does; asks nothing, never waits, any thread."""
+        """Return the quality of the line; sends nothing, never waits, any thread."""
 
 
 class TrajectoryPlayer(Driver, ABC):

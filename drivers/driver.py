@@ -108,7 +108,7 @@ class Driver(ABC):
 
     @final
     def close(self) -> None:
-        """Let go of the device; safe to call twice. It counts as closed even if this raises."""
+        """Release the device; safe to call twice. It counts as closed even if this raises."""
         if not self._is_open:
             return
         self._is_open = False
@@ -167,7 +167,7 @@ class Driver(ABC):
         """Bring every axis to a halt and hold it there; ends a trajectory too.
 
         Any thread may call it at any time. It never waits and is not queued behind anything. What
-        was asked for before does not pass the gate any more, on a closed driver too.
+        was requested before does not pass the gate any more, on a closed driver too.
         """
         self.gate.stop()
         self.halt()

@@ -84,14 +84,14 @@ class Gate:
         return Permit(self, self._epoch, purpose)
 
     def stop(self, latch: str | None = None) -> None:
-        """Let nothing through that was asked for before; with ``latch`` nothing at all."""
+        """Let nothing through that was requested before; with ``latch`` nothing at all."""
         with self._lock:
             if latch is not None:
                 self._latched = latch
             self._epoch = self._epoch._replace(stops=self._epoch.stops + 1)
 
     def release(self) -> None:
-        """End a latch; what was asked for before does not pass any more."""
+        """End a latch; what was requested before does not pass any more."""
         with self._lock:
             self._latched = None
             self._epoch = self._epoch._replace(releases=self._epoch.releases + 1)
@@ -173,7 +173,7 @@ class Permit:
     def passing(self, *, begins: bool = True) -> Iterator[None]:
         """Hold the gate open for one write that cannot block.
 
-        ``begins`` is False where a motion goes on that has begun, a playback's next set-point:
+        ``begins`` is False where a motion continues that has begun, a playback's next set-point:
         then stop, latch and connection count, and nothing else.
 
         Raises

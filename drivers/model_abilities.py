@@ -42,7 +42,7 @@ class EffectCarrier(Driver, ABC):
 
     @final
     def set_effects(self, effects: Sequence[AxisEffect], *, permit: Permit | None = None) -> None:
-        """Put effects in place of those before; the axes go on from where they are.
+        """Put effects in place of those before; the axes continue from where they are.
 
         Raises
         ------
@@ -132,7 +132,7 @@ class Regulator(Driver, ABC):
     @property
     @abstractmethod
     def regulation_limited(self) -> tuple[str, ...]:
-        """The axes whose loop asks for more than a limit allows just now; any thread may ask."""
+        """The axes whose loop asks for more than a limit allows at present; any thread may ask."""
 
     @final
     def regulate(

@@ -11,7 +11,7 @@ class ToolOutput(Driver, ABC):
     """A device with one output that switches a tool.
 
     The tool is off when the device is opened, and after a stop: what nobody watches any more does
-    not go on flowing into a cell.
+    not continue flowing into a cell.
     """
 
     @property

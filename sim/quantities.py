@@ -60,7 +60,7 @@ def decimal_sign() -> str:
 
 
 def parsed(text: str, sign: str | None = None) -> float | None:
-    """Return a number as somebody typed it, with the decimal sign or a point; None for no number.
+    """Return a number as someone typed it, with the decimal sign or a point; None for no number.
 
     There are no separators of thousands: ``1,500`` is no number where the sign is the point.
     ``sign`` is the process's unless given.

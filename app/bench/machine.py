@@ -23,7 +23,7 @@ class BenchError(InputError):
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """What is known of a machine.
+    """Known causes of a machine.
 
     Attributes
     ----------

@@ -16,7 +16,7 @@ LONGEST_S = 60.0
 
 @dataclass(frozen=True, slots=True)
 class NamedCause:
-    """A cause: effect and axis, with what it cannot be told from."""
+    """A cause: effect and axis, with the effects that cannot be distinguished from it."""
 
     axis: str
     effect: str
@@ -99,7 +99,7 @@ class Result:
 
     @property
     def not_reached(self) -> list[str]:
-        """What is not as it should be, in words."""
+        """The levels that are not reached, as text."""
         return list(self._not_reached())
 
     def _not_reached(self) -> Iterator[str]:
@@ -121,7 +121,7 @@ class Result:
             yield f"it takes {self.seconds:.0f} s, more than {LONGEST_S:.0f} s"
 
     def as_json(self) -> dict[str, Any]:
-        """Return what is written of it."""
+        """Return the result as JSON."""
         truth = self.machine.truth
         return {
             "machine": self.machine.name,

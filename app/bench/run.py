@@ -28,7 +28,7 @@ _PROGRAM = (sys.executable, "-m", "rotemina.app.cli.main")
 
 
 def run_bench(options: Namespace) -> None:
-    """Diagnose every machine, print a line each, and write what was asked for."""
+    """Diagnose every machine, print one line each, and write the requested files."""
     found = machines(options.folders)
     results = []
     for machine in found:

@@ -25,7 +25,7 @@ Contest = Callable[[SealedCase], Mapping[str, Any]]
 
 
 class BlindRun:
-    """A folder of results: what is in it is not done again.
+    """A folder of results; finished cases are not repeated.
 
     Raises
     ------

@@ -28,7 +28,7 @@ _CASES = 300
 
 
 def run_test(options: Namespace) -> None:
-    """Do what is not done yet, then score all that is."""
+    """Run the unfinished cases, then score all."""
     _check_seed(options)
     cases, folder = _cases(options)
     blind = BlindRun(folder, cases)

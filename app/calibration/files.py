@@ -30,7 +30,7 @@ Line = Annotated[str, Field(strict=True, max_length=400)]
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Source:
-    """A record that a calibration comes from, with the digest of what is in it."""
+    """A source record of a calibration, with the digest of its content."""
 
     name: Text
     digest: Digest
@@ -164,7 +164,7 @@ FORMAT = Format(
 def kept(
     calibration: Calibration, robot: str, sources: tuple[Source, ...], date: datetime
 ) -> CalibrationFile:
-    """Return what is kept of a calibration.
+    """Return the stored form of a calibration.
 
     Raises
     ------

@@ -40,7 +40,7 @@ class Compared(NamedTuple):
 
 
 def card_of(record: Record, axis: str) -> tuple[Figure, ...]:
-    """Return what a record tells of an axis: those figures that it excites.
+    """Return the health figures of an axis that a record excites.
 
     From ``cmd`` to ``meas``: static gain, resonance and damping of a fitted model of second order;
     the width of the loop over its stroke. Of rests after a move: how long the reading takes to stay

@@ -23,7 +23,7 @@ class HealthBookError(InputError):
 
 
 class Card(NamedTuple):
-    """The figures of one day, and the record that they come from."""
+    """The figures of one day, and their source record."""
 
     date: str
     record: str

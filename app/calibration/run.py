@@ -76,7 +76,7 @@ class CalibrationRun:
 
     @property
     def record(self) -> Record | None:
-        """What was recorded, once the run is done."""
+        """The record, once the run is done."""
         with self._lock:
             return self._record
 

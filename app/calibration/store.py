@@ -51,7 +51,7 @@ class CalibrationStore:
         self.folder = folder / FOLDER / _plain(robot.name)
 
     def listed(self) -> tuple[tuple[Stored, ...], tuple[str, ...]]:
-        """Return what is stored, the newest first, and what is wrong with files that are none."""
+        """Return the stored calibrations, newest first, and the problems of invalid files."""
         try:
             in_use, problems = self._in_use(), []
         except CalibrationError as error:
@@ -125,7 +125,7 @@ class CalibrationStore:
         _IN_USE.save(self.folder / IN_USE, replace(InUse(), axes=kept))
 
     def apply(self, corrections: SensorCorrections) -> tuple[str, ...]:
-        """Let a session use what is on, and nothing else; return what is wrong with files."""
+        """Apply the calibrations in use to a session, and no others; return problems of files."""
         stored, problems = self.listed()
         on = {one.calibration.axis: one.calibration for one in stored if one.on}
         for axis in self._robot.axes:

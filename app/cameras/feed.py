@@ -26,7 +26,7 @@ _AS_IT_IS = CameraSettings()
 
 
 class FeedState(StrEnum):
-    """How a camera is doing."""
+    """The state of a camera."""
 
     CLOSED = "closed"
     OPENING = "opening"
@@ -72,7 +72,7 @@ class FeedView:
 
 
 class CameraFeed:
-    """Keeps a camera open on a thread of its own. Every method may be called from any thread.
+    """Keeps a camera open on its own thread. Every method may be called from any thread.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ class CameraFeed:
 
     @property
     def view(self) -> FeedView:
-        """How it is doing now, as told by the age of its newest picture; waits for nobody."""
+        """The present state, by the age of the newest picture; never waits."""
         latest = self._latest
         if latest.frame is None:
             return latest
@@ -118,7 +118,7 @@ class CameraFeed:
         return self._latest.frame
 
     def start(self, settings: CameraSettings | None = None) -> None:
-        """Open the camera and go on until :meth:`close`; also after it was lost.
+        """Open the camera and continue until :meth:`close`; also after it was lost.
 
         Raises
         ------
@@ -141,7 +141,7 @@ class CameraFeed:
         self._thread.start()
 
     def close(self, timeout_s: float = 2.0) -> bool:
-        """Let go of the camera; return whether its thread has ended in time.
+        """Release the camera; return whether its thread has ended in time.
 
         One that hangs in its camera is left behind and hinders nobody.
         """
@@ -212,7 +212,7 @@ class CameraFeed:
         self._publish(state=FeedState.LOST, reason=reason, description=None)
 
     def _obey(self) -> None:
-        """Set what was asked for, and pass on a trigger."""
+        """Set what was requested, and pass on a trigger."""
         with self._lock:
             wanted, self._wanted = self._wanted, None
         if wanted is not None:

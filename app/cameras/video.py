@@ -25,7 +25,7 @@ class VideoError(InputError):
 
 @dataclass(frozen=True, slots=True)
 class VideoStatus:
-    """How a film does.
+    """The status of a video.
 
     Attributes
     ----------
@@ -118,11 +118,11 @@ class Video:
 
     @property
     def status(self) -> VideoStatus:
-        """How it does; waits for nobody."""
+        """The status; never waits."""
         return self._status
 
     def take(self, frame: Frame) -> None:
-        """Take a picture to be written; returns at once, on any thread."""
+        """Queue a picture for writing; returns at once, on any thread."""
         size = frame.pixels.nbytes
         with self._changed:
             if self._ending or self._status.failure:
@@ -232,5 +232,5 @@ class Video:
 
 
 def _alike(one: Frame, other: Frame) -> bool:
-    """Tell whether two pictures can be pages of one film."""
+    """Return whether two pictures can be pages of one film."""
     return one.pixels.shape == other.pixels.shape and one.pixels.dtype == other.pixels.dtype

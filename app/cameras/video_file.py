@@ -95,7 +95,7 @@ class VideoFile:
         self.pages += 1
 
     def close(self) -> None:
-        """Let go of it; safe to call twice."""
+        """Release it; safe to call twice."""
         self._file.close()
 
     def _directory(self, frame: Frame, data: int) -> tuple[int, bytes, int]:

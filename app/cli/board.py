@@ -209,7 +209,7 @@ class _Server:
         self._line = b""
 
     def serve(self, ended: Callable[[], bool]) -> None:
-        """Go on until ``ended``."""
+        """Continue until ``ended``."""
         sys.setswitchinterval(_SWITCH_S)  # the ears must not wait for what is simulated
         began_s = time.monotonic()
         _tell(f"0.0000 s is {began_s:.6f} s of this machine's monotonic clock")

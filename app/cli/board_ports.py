@@ -35,7 +35,7 @@ class HostPort(Protocol):
         ...
 
     def close(self) -> None:
-        """Let go of it."""
+        """Release it."""
         ...
 
 
@@ -99,7 +99,7 @@ class PseudoTerminal:
             self._waiting = self._waiting[-_MOST_WAITING:]  # nobody reads
 
     def close(self) -> None:
-        """Let go of it, and take its name away."""
+        """Release it, and take its name away."""
         if self._link is not None and _leads_to(self._link) == self._device:
             self._link.unlink()
         os.close(self._own)
@@ -179,7 +179,7 @@ class Socket:
             self._hang_up()
 
     def close(self) -> None:
-        """Let go of it."""
+        """Release it."""
         if self._client is not None:
             self._client.close()
         self._listener.close()

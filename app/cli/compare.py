@@ -51,7 +51,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Compare, print a table, and write what was asked for."""
+    """Compare, print a table, and write the requested files."""
     robot = robot_of(options)
     record = read_record(options.record, columns=options.columns, robot=robot)
     comparison, found, text = _compared(options, robot, record)

@@ -180,7 +180,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Make the trajectory, write it, and say what it is and what was reduced."""
+    """Make the trajectory, write it, and describe it and all reductions."""
     robot = robot_of(options)
     made = excite(
         robot,

@@ -59,7 +59,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Diagnose, print a summary, and write what was asked for."""
+    """Diagnose, print a summary, and write the requested files."""
     if options.seed < 0:
         raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
     document = Path(options.json) if options.json not in (None, "-") else None

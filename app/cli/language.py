@@ -47,7 +47,7 @@ class CatalogueWording(Wording):
 
 
 def wording(asked: str | None = None) -> Wording:
-    """Return how messages read in the language asked for, else in the window's."""
+    """Return the wording of the requested language, else of the window's."""
     language = asked or chosen()
     if language not in LANGUAGES:
         return Wording()

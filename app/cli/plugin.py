@@ -55,7 +55,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def new(options: argparse.Namespace) -> int:
-    """Write a package and say what to do with it."""
+    """Write a package, and print the next steps."""
     from rotemina.app.plugin_kit.kinds import Kind  # the kinds take their time to import
     from rotemina.app.plugin_kit.writing import new_plugin
 

@@ -53,7 +53,7 @@ class ProgressLine:
             self._open = False
 
     def __call__(self, progress: Progress) -> None:
-        """Tell how far it has come, unless that was just done."""
+        """Return how far it has come, unless that was just done."""
         self._share = max(self._share, progress.share)
         now_s = self._clock()
         pause_s = _BETWEEN_REWRITES_S if self._terminal else _BETWEEN_LINES_S

@@ -8,7 +8,7 @@ from types import FrameType
 
 @contextmanager
 def termination_requested() -> Iterator[Callable[[], bool]]:
-    """Tell whether somebody wants an end, rather than be interrupted."""
+    """Return whether someone wants an end, rather than be interrupted."""
     received: list[int] = []
 
     def note(number: int, _: FrameType | None) -> None:

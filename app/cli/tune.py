@@ -99,7 +99,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Search, or choose; write the result and say what it is."""
+    """Search, or choose; write the result, and print it."""
     return _choose(options) if options.choose is not None else _search(options)
 
 

@@ -31,7 +31,7 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
 
 @contextmanager
 def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
-    """Make ready for parallel work and tell how many jobs to ask joblib for.
+    """Prepare parallel work, and return the number of jobs for joblib.
 
     Raises
     ------

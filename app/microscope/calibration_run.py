@@ -60,7 +60,7 @@ class Observation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CalibrationStatus:
-    """What is to be shown.
+    """Status for display.
 
     Attributes
     ----------
@@ -149,7 +149,7 @@ class CalibrationRun:
 
     @property
     def status(self) -> CalibrationStatus:
-        """What is to be shown."""
+        """Status for display."""
         return self._status
 
     @property
@@ -158,7 +158,7 @@ class CalibrationRun:
         return self._pipette
 
     def step(self, now_s: float) -> CalibrationStatus:
-        """Go on; never raises for what a device or a camera does."""
+        """Advance; never raises for what a device or a camera does."""
         phase = self._status.phase
         if phase not in (Phase.LOOKING, Phase.RETURNING):
             return self._status

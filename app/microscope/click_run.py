@@ -27,7 +27,7 @@ _COVERED = 0.02  # share of a pixel that a pipette may still shade
 
 
 class Visit(StrEnum):
-    """How a visit to a clicked place goes on."""
+    """The state of a visit to a clicked point."""
 
     UNDER_WAY = "under way"
     ARRIVED = "arrived"
@@ -36,7 +36,7 @@ class Visit(StrEnum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VisitStatus:
-    """What is to be shown: the latest miss (2,), px, seen after so many corrections."""
+    """Status for display: the latest miss (2,), px, seen after so many corrections."""
 
     visit: Visit
     corrections: int = 0
@@ -101,7 +101,7 @@ class ClickRun:
         self.status = VisitStatus(Visit.UNDER_WAY)
 
     def step(self, now_s: float) -> VisitStatus:
-        """Go on; never raises for what a device or a camera does."""
+        """Advance; never raises for what a device or a camera does."""
         if self.ended:
             return self.status
         try:

@@ -28,7 +28,7 @@ CONFIRM_M = 100e-6  # moves of the tip beyond this are confirmed first
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlannedMove:
-    """A click thought through; nothing has moved.
+    """The planned move for a click; nothing has moved.
 
     Attributes
     ----------
@@ -97,7 +97,7 @@ class ClickToMove:
         tip_px: FloatArray | None = None,
         frame: Frame | None = None,
     ) -> PlannedMove:
-        """Think a click through.
+        """Plan the move for a click.
 
         Parameters
         ----------

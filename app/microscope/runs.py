@@ -28,7 +28,7 @@ class Run(Protocol):
         """Whether it moves nothing any more."""
 
     def step(self, now_s: float) -> object:
-        """Go on; never raises for what a device or a camera does."""
+        """Advance; never raises for what a device or a camera does."""
 
     def abort(self, reason: str) -> None:
         """Stop the machine and end."""
@@ -63,7 +63,7 @@ class Runs:
 
     @property
     def activity(self) -> Activity:
-        """What is under way."""
+        """The running activity."""
         return self._activity
 
     def begin(
@@ -104,7 +104,7 @@ class Runs:
         self._session.stop(reason, by=by)
 
     def step(self, now_s: float) -> None:
-        """Go on; on one thread only."""
+        """Advance; on one thread only."""
         with self._lock:
             run, asked, activity = self._run, self._asked, self._activity
         if run is None:

@@ -32,7 +32,7 @@ REST_PATIENCE_S = 30.0  # with a machine
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SettledFrame:
-    """What was seen of a machine at rest.
+    """Pictures of a machine at rest, with its position.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class SettledFrame:
 
 
 class SettledFrameGrabber:
-    """Waits for one look at a time; somebody calls :meth:`step` at about the camera's rate.
+    """Waits for one settled frame at a time; call :meth:`step` at about the camera's rate.
 
     Parameters
     ----------
@@ -95,12 +95,12 @@ class SettledFrameGrabber:
         self._restart()
 
     def step(self, now_s: float) -> SettledFrame | None:
-        """Return the look as soon as there is one.
+        """Return the settled frame as soon as there is one.
 
         Raises
         ------
         MicroscopeError
-            If somebody stopped the machine, it cannot move any more or does not come to rest, or
+            If someone stopped the machine, it cannot move any more or does not come to rest, or
             the camera stands still, is black, or shows another part of its sensor.
         VisionError
             If the picture is none.
@@ -145,7 +145,7 @@ class SettledFrameGrabber:
     def check(self) -> None:
         """Refuse if nothing may be moved any more; to be asked right before every move.
 
-        What is computed from a picture takes a while, in which somebody may stop the machine.
+        What is computed from a picture takes a while, in which someone may stop the machine.
 
         Raises
         ------

@@ -66,7 +66,7 @@ def places_of(first: float, last: float, step: float) -> tuple[float, ...]:
 
 
 class StackRun:
-    """Takes the pictures; somebody calls :meth:`step`.
+    """Takes the pictures; the caller calls :meth:`step`.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ class StackRun:
         self._go(now_s)
 
     def step(self, now_s: float) -> StackStatus:
-        """Go on; never raises for what a device or a camera does."""
+        """Advance; never raises for what a device or a camera does."""
         if self.ended:
             return self.status
         try:

@@ -55,7 +55,7 @@ class TipPositioning:
         )
 
     def plan(self, pixel: FloatArray, stage: str | None) -> PlannedMove:
-        """Think a click through; nothing moves. Raises as :meth:`ClickToMove.plan`."""
+        """Plan the move for a click; nothing moves. Raises as :meth:`ClickToMove.plan`."""
         self.planned = None
         self.planned = self._thought(pixel, stage)
         return self.planned
@@ -104,7 +104,7 @@ class TipPositioning:
         self._runs.begin(Activity.TARGETS, make)
 
     def doubt(self, activity: Activity) -> str:
-        """Return why what is tracked must not be moved by any more."""
+        """Return why the tracked tip must not be used for motion, or None."""
         tracked = self._tracker.tracked
         if activity not in (Activity.CLICK, Activity.TARGETS) or tracked.lost_since_s is None:
             return ""

@@ -32,14 +32,14 @@ def play_of(robot: Robot, effects: Iterable[AxisEffect], axis: str) -> float | N
 
 @dataclass(frozen=True, slots=True)
 class Approach:
-    """How an axis comes to its targets: ``rising`` or falling, from ``width`` (m) at least."""
+    """The approach of an axis to targets: ``rising`` or falling, over ``width`` (m) or more."""
 
     width: float
     rising: bool
 
 
 class Backlash:
-    """One-sided approaches of axes, each off until somebody chooses it.
+    """One-sided approaches of axes, each off until someone chooses it.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class Backlash:
         self.applied: Mapping[str, Approach] = MappingProxyType({})
 
     def use(self, axis: str, approach: Approach | None) -> None:
-        """Come to an axis' targets so from now on, or, for None, straight.
+        """Set the approach of an axis from now on; None: straight.
 
         Raises
         ------
@@ -97,7 +97,7 @@ class Backlash:
         self.applied = MappingProxyType({})
 
     def taken_up(self, axis: str) -> bool:
-        """Tell whether an axis is where its one-sided approach ended."""
+        """Return whether an axis is where its one-sided approach ended."""
         at = self._admission.approached.get(axis)
         command = self._link.worker.state.command.get(axis)
         if at is None or command is None:

@@ -38,7 +38,7 @@ class NamedInverse:
 
 
 class Inverses:
-    """Inverses of axes, put on and taken off at rest."""
+    """Inverses of axes, applied and removed at rest."""
 
     def __init__(self, link: DeviceLink, admission: Admission) -> None:
         self._link = link

@@ -26,7 +26,7 @@ class Gap:
 
 @dataclass(frozen=True, slots=True)
 class Excess:
-    """An axis that was beyond its bound for too long; m or rad."""
+    """An axis beyond its bound for too long; m or rad."""
 
     axis: str
     deviation: float

@@ -86,11 +86,11 @@ class DeviceLink:
         self.mailbox.request_connection(ConnectionRequest(self.driver))
 
     def disconnect(self) -> None:
-        """Ask the worker to let go of the device."""
+        """Ask the worker to release the device."""
         self.mailbox.request_connection(ConnectionRequest(None))
 
     def exchange(self, driver: Driver) -> None:
-        """Ask the worker to let go of the device and to connect to another one."""
+        """Ask the worker to release the device and to connect to another one."""
         # Until the worker has exchanged them, both drivers are stopped and neither is moved.
         driver.gate = self.gate
         self.driver = driver

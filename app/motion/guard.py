@@ -118,7 +118,7 @@ class Guard:
     def move(
         self, envelope: PositionEnvelope, targets: Mapping[str, float], *, confirmed: bool = False
     ) -> tuple[PathSegment, ...]:
-        """Return how a move is to be made: at once, or slower close above the floor.
+        """Return the segments of a move: direct, or slower close above the floor.
 
         A tip that is out of its bounds, as commanded or as read, moves only if that is
         ``confirmed``, only by axes that each bring it nearer, and slowly.

@@ -17,7 +17,7 @@ class Heartbeat:
         self._last_s: float | None = None
 
     def beat(self) -> None:
-        """Say that the thread is alive."""
+        """Record that the thread is alive."""
         self._last_s = self._clock()
 
     def end(self) -> None:

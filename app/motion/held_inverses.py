@@ -178,7 +178,7 @@ class HeldInverses:
         return replace(samples, command=command, inputs=inputs)
 
     def _end_playback(self) -> None:
-        """Go on from the last row that acted."""
+        """Continue from the last row that acted."""
         played, self._played = self._played, None
         if played is None or self._sent is None:
             return

@@ -32,7 +32,7 @@ class LiveWindow:
     gap_since_s : float
         Device time from which on the model was in use: the gap begins there.
     connection : int
-        Counts up whenever the history starts anew, after each connection to the device.
+        Counts up whenever the history starts again, after each connection to the device.
     """
 
     axes: tuple[str, ...]

@@ -83,7 +83,7 @@ class LiveModels:
 
     @property
     def unsettled(self) -> tuple[str, ...]:
-        """The axes of whose past the model in use knows too little."""
+        """The axes whose history is insufficient for the model in use."""
         return self._runs[0].unsettled if self._runs else ()
 
     def prepare(self) -> None:

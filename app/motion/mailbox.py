@@ -19,7 +19,7 @@ from rotemina.sim.trajectory.checked import CheckedTrajectory
 
 
 class RefusedError(InputError):
-    """A command that the session does not take now; the message says why and what to do."""
+    """A refused command; the message gives reason and remedy."""
 
 
 def refuse_overtaken(permit: Permit) -> None:
@@ -67,7 +67,7 @@ class Home:
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """Something else that a driver is asked to do, on the thread that talks to it."""
+    """Another request to the driver, executed on the thread that talks to it."""
 
     action: Callable[[Driver, Permit], None]
 
@@ -84,7 +84,7 @@ class Play:
 
 @dataclass(frozen=True, slots=True)
 class LoadProfile:
-    """Hand over a profile, which does not run yet."""
+    """Upload a profile without running it."""
 
     profile: Profile
 
@@ -98,7 +98,7 @@ class RunProfile:
 
 @dataclass(frozen=True, slots=True)
 class SetVoltage:
-    """Put out a voltage, V, which sends its axis to ``targets``, m or rad."""
+    """Set a voltage, V, which sends its axis to ``targets``, m or rad."""
 
     axis: str
     voltage: float
@@ -151,7 +151,7 @@ Command = (
 
 @dataclass(frozen=True, slots=True)
 class ConnectionRequest:
-    """What is to become of the connection: made by ``driver``, or None: ended."""
+    """The desired connection: a ``driver``, or None to disconnect."""
 
     driver: Driver | None
 
@@ -207,7 +207,7 @@ class Mailbox:
         self.wake_event.set()
 
     def _renews(self, command: Drive) -> bool:
-        """Tell whether the latest command is of the same axes: only the newest speed counts."""
+        """Return whether the latest command is of the same axes: only the newest speed counts."""
         latest = self._commands[-1].command if self._commands else None
         return isinstance(latest, Drive) and latest.velocities.keys() <= command.velocities.keys()
 

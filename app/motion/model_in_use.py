@@ -35,7 +35,7 @@ _UNFORESEEN = frozenset({"lost_steps"})
 
 
 class ModelError(InputError):
-    """A model that cannot be used; the message says why and what to do."""
+    """A model that cannot be used; the message gives reason and remedy."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,7 +217,7 @@ class ModelInUse:
 
 
 def foreseen(robot: Robot, effect: AxisEffect) -> bool:
-    """Tell whether commands predict an effect."""
+    """Return whether commands predict an effect."""
     traits = Attached.of(robot, effect).formulation.traits
     by_chance = Trait.RANDOM in traits or Trait.LOCKED_TO_TIME in traits
     return effect.id not in _UNFORESEEN and not by_chance

@@ -82,7 +82,7 @@ class Moves:
         *,
         permit: Permit | None = None,
     ) -> dict[str, float]:
-        """Let axes go at speeds, m/s or rad/s, until the lease runs out; renew it to go on.
+        """Move axes at speeds, m/s or rad/s, until the lease runs out; renew it to continue.
 
         Returns the speeds that are used: close to the tip's bounds they are lower. A speed of 0
         halts an axis.
@@ -290,7 +290,7 @@ class Moves:
     def set_voltage(
         self, axis: str, voltage: float, owner: str = OPERATOR, *, permit: Permit | None = None
     ) -> None:
-        """Put out a piezo's voltage, V; where that sends the axis is held against all limits.
+        """Set a piezo's voltage, V; the resulting position is checked against all limits.
 
         Raises
         ------

@@ -160,7 +160,7 @@ class Operation:
     # --- what buttons ask for ---------------------------------------------------------------------
 
     def press_penetration(self) -> None:
-        """Take the penetration's one button: start it, bring it back.
+        """Press the penetration's button: start the run, or retract.
 
         Raises
         ------

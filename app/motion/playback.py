@@ -144,7 +144,7 @@ class Playback:
         self._begin(trajectory, 0, state, watch, permit)
 
     def pause(self, *, by: str = PROGRAM) -> None:
-        """Bring the axes to rest, to go on later; ``by`` as of :meth:`MotionSession.stop`.
+        """Bring the axes to rest, to continue later; ``by`` as of :meth:`MotionSession.stop`.
 
         Raises
         ------
@@ -158,7 +158,7 @@ class Playback:
         self._session.stop(message("engine", "the playback is paused"), by=by)
 
     def resume(self, *, speed: float | None = None, permit: Permit | None = None) -> None:
-        """Go on from the last row that began, at the speed of before or at another one.
+        """Continue from the last row that began, at the speed of before or at another one.
 
         ``permit`` as in :meth:`play`.
 
@@ -168,7 +168,7 @@ class Playback:
             If nothing is paused, or as :meth:`MotionSession.play`.
         """
         permit = self._session.permit() if permit is None else permit
-        whole, watch, state = self._paused("go on with")
+        whole, watch, state = self._paused("resume")
         pace = state.speed if speed is None else check_speed(speed)
         row = min(max(state.row, 0), state.rows - 1)
         self._begin(whole, row, replace(state, speed=pace, excess=None), watch, permit)

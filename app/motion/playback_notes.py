@@ -19,7 +19,7 @@ class PlaybackNotes:
         self._noted: list[str] = []
 
     def begin(self) -> None:
-        """Forget what was noted before a playback."""
+        """Clear earlier notes before a playback."""
         self._noted.clear()
 
     def add(self, *what: str) -> None:
@@ -27,7 +27,7 @@ class PlaybackNotes:
         self._noted.extend(what)
 
     def metadata(self, driver: Driver, model: ModelInUse) -> dict[str, str]:
-        """Return what the metadata of a playback that begins now are to say."""
+        """Return the metadata of a playback that begins now."""
         effects = driver.effects_text if isinstance(driver, EffectCarrier) else ""
         return {
             "began": datetime.now().astimezone().isoformat(timespec="milliseconds"),

@@ -13,7 +13,7 @@ LOST = message("engine", "the connection was lost")
 class PositionTrust:
     """Doubt about axes; while there is any, motion is locked.
 
-    An axis is believed again when its switch was found, or when somebody who has looked confirms
+    An axis is believed again when its switch was found, or when someone who has looked confirms
     all of them. Used on the worker's thread.
 
     Parameters
@@ -52,6 +52,6 @@ class PositionTrust:
             self.reason = None
 
     def confirm(self) -> None:
-        """Believe all of them, as somebody says who has looked."""
+        """Trust all positions, on an operator's confirmation."""
         self._doubtful, self.reason = frozenset(), None
         self._watch.restart()

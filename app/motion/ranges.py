@@ -99,6 +99,6 @@ def speed_before(left: float, time_s: float, braking: float | None) -> float:
 
 
 def outside(robot: Robot, axis: str, position: float, ends: Range) -> bool:
-    """Tell whether a position, m or rad, is beyond these ends by more than rounding."""
+    """Return whether a position, m or rad, is beyond these ends by more than rounding."""
     slack = RANGE_SLACK * robot.axes[axis].span
     return not ends[0] - slack <= position <= ends[1] + slack

@@ -25,7 +25,7 @@ _PER_SECOND = 1e9
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunAnswers:
-    """What models said of each row of a record while it was played: what came before is in them.
+    """The models' answers for each row of a record during its playback, with their history.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class PlaybackRecorder:
 
     @property
     def answers(self) -> RunAnswers | None:
-        """What the models said of each row of the record; None before its end, and without them."""
+        """The models' answers for each row; None before the end of the record, or without models."""
         return self._answered
 
     def say(self, name: str, text: str) -> None:

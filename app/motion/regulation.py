@@ -49,7 +49,7 @@ class Loops:
 
     @property
     def limited(self) -> tuple[str, ...]:
-        """The axes whose loop asks for more than a limit allows just now; any thread."""
+        """The axes whose loop asks for more than a limit allows at present; any thread."""
         driver = self._link.driver
         return driver.regulation_limited if isinstance(driver, Regulator) else ()
 

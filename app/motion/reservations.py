@@ -40,7 +40,7 @@ class Reservations:
         self._link.worker.ownership.check(self._link.driver.axes, owner)
 
     def held_by(self, owner: str) -> bool:
-        """Tell whether every axis is reserved for an owner: nobody has taken one over."""
+        """Return whether every axis is reserved for an owner: nobody has taken one over."""
         return self._link.worker.ownership.has_reserved(self._link.driver.axes, owner)
 
     def set_free(self, owner: str) -> None:
@@ -48,5 +48,5 @@ class Reservations:
         self._link.worker.ownership.set_free(owner)
 
     def take_over(self, axes: Sequence[str], owner: str) -> None:
-        """Make axes an owner's that another one drives; they go on until told otherwise."""
+        """Make axes an owner's that another one drives; they continue until told otherwise."""
         self._link.worker.ownership.take_over(axes, owner)

@@ -17,7 +17,7 @@ _DENSE = 2.0  # set-point periods: rows farther apart are places to go to, not p
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Piece:
-    """What is played of a trajectory, and where each moment of it lies in the whole.
+    """The played part of a trajectory, and the mapping of its times to the whole.
 
     Attributes
     ----------

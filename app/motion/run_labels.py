@@ -16,7 +16,7 @@ class RunLabels:
 
     @classmethod
     def typed(cls, run: str, operator: str, sample: str) -> Self:
-        """Return what somebody typed, each as one line that a file's metadata can hold."""
+        """Return what someone typed, each as one line that a file's metadata can hold."""
         return cls(one_line(run), one_line(operator), one_line(sample))
 
     @property

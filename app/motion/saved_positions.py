@@ -90,7 +90,7 @@ class SavedPositions:
         self._kept = {name: MappingProxyType(dict(at)) for name, at in found.positions.items()}
 
     def keep(self, name: str, place: Mapping[str, float]) -> None:
-        """Keep a place under a name; a name that is there is given the new place.
+        """Save a position under a name, replacing an existing one.
 
         Raises
         ------

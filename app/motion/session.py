@@ -177,7 +177,7 @@ class MotionSession:
         self._thread.start()
 
     def close(self, timeout_s: float = 5.0) -> bool:
-        """Stop, let go of the device and end the worker; safe to call twice.
+        """Stop, release the device and end the worker; safe to call twice.
 
         Returns whether the worker ended in time; one that hangs in a device is left behind.
         """
@@ -208,12 +208,12 @@ class MotionSession:
         self._link.connect()
 
     def disconnect(self) -> None:
-        """Stop, and let go of the device; it holds."""
+        """Stop, and release the device; it holds."""
         self.stop(message("engine", "the device is being released"))
         self._link.disconnect()
 
     def use(self, driver: Driver) -> None:
-        """Stop, let go of the device, and connect to another one.
+        """Stop, release the device, and connect to another one.
 
         It has neither inverses nor loops, and no way leads back to where the first one was.
 
@@ -256,7 +256,7 @@ class MotionSession:
         self._link.worker.run_once()
 
     def confirm_position(self) -> None:
-        """Trust the position again after a lost connection: somebody has looked.
+        """Trust the position again after a lost connection: someone has looked.
 
         A stop that comes before the worker hears of it withdraws that.
 

@@ -24,7 +24,7 @@ class Connection(StrEnum):
 
 
 class Phase(StrEnum):
-    """What an operator must know of the session, in one word."""
+    """The phase of the session for the operator."""
 
     DISCONNECTED = "disconnected"
     CONNECTING = "connecting"
@@ -72,13 +72,13 @@ class SessionState:
     silent_s : float
         For how long the device has said nothing though it should have.
     stopping : bool
-        Whether a stop was asked for and the device has not been seen at rest since.
+        Whether a stop was requested and the device has not been seen at rest since.
     stop : StopRequest or None
         The latest stop: who asked, why and when.
     latched : str or None
         Why the emergency stop is latched, until it is released.
     owners : mapping axis -> str
-        Who drives each axis that somebody drives.
+        Who drives each axis that someone drives.
     differences : tuple of str
         Where the device's parameters differ from the robot file, until they are accepted.
     tip : (x, y, z) or None
@@ -149,7 +149,7 @@ class StateChanged:
 
 @dataclass(frozen=True, slots=True)
 class Stopped:
-    """A stop was asked for."""
+    """A stop was requested."""
 
     request: StopRequest
 
@@ -163,14 +163,14 @@ class Faulted:
 
 @dataclass(frozen=True, slots=True)
 class Alarmed:
-    """A reading is where it should not be; motion goes on."""
+    """A reading is outside its bounds; motion continues."""
 
     message: str
 
 
 @dataclass(frozen=True, slots=True)
 class CommandRefused:
-    """The device would not take a command that had been accepted; nothing moved."""
+    """The device refused an accepted command; nothing moved."""
 
     message: str
 

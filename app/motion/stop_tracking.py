@@ -31,7 +31,7 @@ class StopTracking:
         self._to_tell.append(request)
 
     def untold(self) -> Iterator[StopRequest]:
-        """Yield each stop that nobody was told of yet."""
+        """Yield each stop that has not been reported yet."""
         while self._to_tell:
             yield self._to_tell.popleft()
 

@@ -26,7 +26,7 @@ class TipBounds:
         return self._guard.zone
 
     def tip(self, state: SessionState) -> tuple[float, float, float] | None:
-        """Return where the tip is commanded to be, m; None where there is none."""
+        """Return the commanded position of the tip, m; None if there is no tip."""
         zone = self._guard.zone
         if zone is None or not state.command:
             return None
@@ -67,7 +67,7 @@ class TipBounds:
         return floor
 
     def clear_floor(self) -> None:
-        """Take the tip's floor away; the objective stays a bound.
+        """Remove the tip's floor; the objective remains a bound.
 
         Raises
         ------

@@ -181,7 +181,7 @@ class Worker:
             self._note_model(why if model.corrected else "")
 
     def _note_model(self, why: str = "") -> None:
-        """Begin the gap anew, and tell which model it is of."""
+        """Begin the gap again, and tell which model it is of."""
         self._history.restart_gap()
         self._next = replace(self._next, model_id=self.models.model.id)
         self._publish()
@@ -192,7 +192,7 @@ class Worker:
         self._trust.confirm()
 
     def shut_down(self) -> None:
-        """Stop and let go of the device."""
+        """Stop and release the device."""
         self._let_go()
         self._publish()
 

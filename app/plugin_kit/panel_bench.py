@@ -49,7 +49,7 @@ class PanelBench:
         self._clock = clock
 
     def advance(self, seconds: float, *, read: bool = True) -> None:
-        """Let time pass and show it; without ``read`` the machine has nothing to say meanwhile."""
+        """Advance time and show it; without ``read`` the machine has nothing to say meanwhile."""
         left_s = seconds
         while read and left_s > 0.0:
             self._clock.advance(min(_READ_S, left_s))

@@ -81,7 +81,7 @@ class Library:
         LibraryError
             If the library's file cannot be read or written; what is known stays.
         DamagedLibraryError
-            If it was damaged, after all that can be found again has been listed anew.
+            If it was damaged, after all that can be found again has been listed again.
         """
         try:
             self._refresh()

@@ -58,7 +58,7 @@ class RecordStore:
         LibraryError
             As all methods do: if the file cannot be read or written, or is of a newer program.
         DamagedLibraryError
-            Likewise: if it was damaged. It was set aside, and the next request begins anew.
+            Likewise: if it was damaged. It was set aside, and the next request begins again.
         """
         if not self.path.exists():
             return []
@@ -98,7 +98,7 @@ class RecordStore:
 
     @contextmanager
     def _open(self) -> Iterator[sqlite3.Connection]:
-        """Open the file for one request, which is kept as a whole or not at all."""
+        """Open the file for one request, which is kept as a completely or not at all."""
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             with closing(sqlite3.connect(self.path, timeout=_WAIT_S)) as base, base:

@@ -58,7 +58,7 @@ class Guarded(RequestHandler):
         _LOG.error("the 3-D view failed to answer", exc_info=(typ, value, tb))
 
     def write_error(self, status_code: int, **kwargs: Any) -> None:
-        """Say nothing but the status."""
+        """Send only the status."""
         self.finish()
 
     def _end(self, status: int) -> None:
@@ -112,7 +112,7 @@ class SceneSocket(Guarded, WebSocketHandler):
         self._viewer = self._viewers.join(self)
 
     def on_message(self, message: str | bytes) -> None:
-        """Go on after a drawn frame; anything else ends the connection."""
+        """Continue after a drawn frame; anything else ends the connection."""
         if message == _DRAWN and self._viewer is not None:
             self._viewer.drawn()
         else:

@@ -30,7 +30,7 @@ class Words:
         "thx, thy, zn drawn {factor:g} × too large from mid-range; the tip is not where it is drawn"
     )
     silent: str = "The program does not answer: the drawing is out of date."
-    quiet: str = "No news from the program: the drawing is out of date."
+    quiet: str = "No data from the program: the drawing is out of date."
 
 
 class Old:

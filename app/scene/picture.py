@@ -50,7 +50,7 @@ class _Object:
 
 
 class Picture:
-    """Obeys the commands of a scene, and gives what is to be painted."""
+    """Executes the commands of a scene, and provides the result for painting."""
 
     def __init__(self) -> None:
         self.camera: Camera | None = None

@@ -130,7 +130,7 @@ class RobotScene:
             self._put_surroundings()
 
     def paint(self, colours: Colours) -> None:
-        """Draw everything anew in these colours."""
+        """Draw everything again in these colours."""
         self._colours = colours
         rgb = [int(colours.background[at : at + 2], 16) / 255 for at in (1, 3, 5)]
         for end in ("top_color", "bottom_color"):

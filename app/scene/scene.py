@@ -32,7 +32,7 @@ class Scene:
         self._lock = threading.Lock()
 
     def put(self, *commands: Command, again: bool = False) -> None:
-        """Take commands over from those before them on the same path, all at once.
+        """Replace earlier commands on the same path, all at once.
 
         What is no change is left out, unless it is to happen ``again``.
         """

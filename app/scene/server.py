@@ -106,7 +106,7 @@ class ViewServer:
             self._call(self._viewers.tell)
 
     def close(self) -> bool:
-        """Let go of all viewers and end the thread; safe to call twice. Return whether it ended."""
+        """Release all viewers and end the thread; safe to call twice. Return whether it ended."""
         if self._thread is None:
             return True
         ending = self._ending

@@ -74,7 +74,7 @@ class Watchdog:
         self._window: subprocess.Popen[bytes] | None = None
 
     def take(self, line: str) -> bool:
-        """Take a beat; return whether the program goes on, and has not said farewell."""
+        """Take a beat; return whether the program continues, and has not said farewell."""
         with contextlib.suppress(ValueError):  # cut off in mid-line
             self._beat = json.loads(line)
         return not self._beat.get("farewell")
@@ -94,7 +94,7 @@ class Watchdog:
         self.tell("\n".join(["RoTeMiNa has ended without letting go of the machine.", *sent]))
 
     def tell(self, text: str) -> None:
-        """Say something on the terminal, in the log and on the screen, wherever that can be."""
+        """Report on the terminal, in the log and on the screen, wherever possible."""
         line = f"{datetime.now():%Y-%m-%d %H:%M:%S}  watchdog: {text}\n"
         with contextlib.suppress(OSError, ValueError):
             sys.stderr.write(line)

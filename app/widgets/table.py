@@ -30,7 +30,7 @@ class Table(QTableWidget):
         self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
 
     def set_head(self, head: Sequence[str]) -> None:
-        """Name the columns anew."""
+        """Name the columns again."""
         self.setColumnCount(len(head))
         self.setHorizontalHeaderLabels(list(head))
 

@@ -107,7 +107,7 @@ class Camera(ABC):
 
     @property
     def description(self) -> CameraDescription:
-        """What it can do.
+        """The camera's capabilities.
 
         Raises
         ------
@@ -122,7 +122,7 @@ class Camera(ABC):
 
     @property
     def settings(self) -> CameraSettings:
-        """What is in force: as asked for, or what the camera made of it."""
+        """The settings in force: as requested, or as adjusted by the camera."""
         return self._settings
 
     @final
@@ -149,7 +149,7 @@ class Camera(ABC):
 
     @final
     def close(self) -> None:
-        """Let go of it; safe to call twice."""
+        """Release it; safe to call twice."""
         if self._description is not None:
             self._description = None
             self._close()

@@ -10,7 +10,7 @@ from rotemina.sim.messages import message
 
 
 class PixelType(StrEnum):
-    """How a pixel is told."""
+    """The type of a pixel."""
 
     MONO8 = "mono8"
     MONO16 = "mono16"
@@ -26,7 +26,7 @@ class Trigger(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class CameraSettings:
-    """What a camera is told; None leaves it as the camera has it.
+    """Requested camera settings; None leaves the camera's own.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class CameraSettings:
         None: the first of what the camera has.
     trigger : Trigger
     repeat : bool
-        Whether a file or sequence begins anew at its end; without meaning for a device.
+        Whether a file or sequence begins again at its end; without meaning for a device.
     """
 
     exposure_s: float | None = None

@@ -10,7 +10,7 @@ from rotemina.drivers.driver import Driver
 
 
 class Verdict(StrEnum):
-    """What became of a check."""
+    """The verdict of a check."""
 
     PASSED = "passed"
     FAILED = "failed"

@@ -58,7 +58,7 @@ class Dialogue:
         self._port.write(byte)
 
     def invalidate_reports(self) -> None:
-        """Trust no report any more that was asked for before now."""
+        """Trust no report any more that was requested before now."""
         self._acts += 1
 
     def forget(self) -> None:
@@ -81,9 +81,9 @@ class Dialogue:
         self.asked_s, self._asked_acts = now_s, self._acts
 
     def hear(self) -> Iterator[tuple[Message, float | None, bool]]:
-        """Yield what has come, for a status also when it was asked for, and whether it is fresh.
+        """Yield what has come, for a status also when it was requested, and whether it is fresh.
 
-        A fresh one was asked for after everything that was said. Where the answer took too long to
+        A fresh one was requested after everything that was said. Where the answer took too long to
         tell of which moment it is, the time is None.
         """
         *lines, self._rest = (self._rest + self._port.read()).split(b"\n")
@@ -117,7 +117,7 @@ class Dialogue:
             yield message, asked_s, fresh
 
     def quality(self) -> LinkQuality:
-        """Return how well the line does; any thread."""
+        """Return the quality of the line; any thread."""
         return LinkQuality(
             sent=self._sent,
             received=self._received,

@@ -116,7 +116,7 @@ class EmulatedStage:
             self._hear(byte)
 
     def advance(self, to_s: float) -> bytes:
-        """Live on until this time; return what has been said by then."""
+        """Advance until this time; return what has been said by then."""
         self._live(to_s)
         said = bytes(self._out)
         self._out.clear()
@@ -142,7 +142,7 @@ class EmulatedStage:
         self._start()
 
     def _start(self) -> None:
-        """Begin anew, as after each reset: what waited is gone."""
+        """Begin again, as after each reset: what waited is gone."""
         self._rx = bytearray()
         self._modes = _Modes()
         self._blocks.clear()
@@ -332,7 +332,7 @@ class EmulatedStage:
         return False
 
     def _seek(self, search: _Search) -> None:
-        """Go on towards the low switch of the first axis, or away from it."""
+        """Continue towards the low switch of the first axis, or away from it."""
         axis = search.axes[0]
         rate = self.settings[_PULL_OFF_RATE if search.pulling_off else _SEEK]
         way = rate / 60.0 * TICK_S

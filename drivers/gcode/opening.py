@@ -20,7 +20,7 @@ _LINE_S = 2.0
 
 @dataclass(slots=True)
 class ControllerInfo:
-    """What a controller says of itself, at rest and with nothing left to do.
+    """A controller's description of itself, at rest and with an empty queue.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Opening:
         self._last_s = float("-inf")
 
     def handshake(self) -> ControllerInfo:
-        """Stop whatever it does, empty it and ask it; what was under way never goes on.
+        """Stop whatever it does, empty it and ask it; what was under way never continues.
 
         Raises
         ------

@@ -74,7 +74,7 @@ class Alarm:
 
 @dataclass(frozen=True, slots=True)
 class Welcome:
-    """What is said after each reset."""
+    """The greeting after each reset."""
 
     text: str
 

@@ -35,12 +35,12 @@ class GcodeStage(Homer, Linked):
     """A stage of up to six stepping motors behind a GRBL controller.
 
     Settings: ``port``, a device or a URL of pyserial; ``baud``; ``letters`` of the axes, in the
-    order of the robot file; ``poll_s``, how often a report is asked for; ``homing_s``, how long a
+    order of the robot file; ``poll_s``, how often a report is requested; ``homing_s``, how long a
     search for switches may take; ``trust_position``, take the controller's count of steps for the
     position when it is opened (otherwise the axes must be homed first).
 
     The controller has no sensors: readings are its own count of steps. Nor has it a clock: a sample
-    is of when it was asked for, and is left out where the answer was late.
+    is of when it was requested, and is left out where the answer was late.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ class GcodeStage(Homer, Linked):
         return self._controller is not None and self._controller.stop_pending
 
     def link_quality(self) -> LinkQuality:
-        """Return how well the line does."""
+        """Return the quality of the line."""
         return LinkQuality() if self._controller is None else self._controller.dialogue.quality()
 
     def _open(self) -> None:

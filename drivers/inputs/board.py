@@ -130,7 +130,7 @@ class BoardJoystick(InputDevice):
         return (InputReading(self._clock(), axes, buttons),)
 
     def close(self) -> None:
-        """Let go of it; see :class:`InputDevice`."""
+        """Release it; see :class:`InputDevice`."""
         self._is_open = False
 
 

@@ -41,7 +41,7 @@ class InputIdentity:
 
 @dataclass(frozen=True, slots=True)
 class InputReading:
-    """What a device said last.
+    """The latest reading of a device.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class InputDevice(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Let go of the device; safe to call twice."""
+        """Release the device; safe to call twice."""
 
 
 class Rumbler(InputDevice, ABC):

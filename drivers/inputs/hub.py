@@ -167,7 +167,7 @@ class InputHub:
         return device
 
     def lost(self, key: str) -> None:
-        """Take note that an open device raised :class:`InputLostError`.
+        """Note that an open device raised :class:`InputLostError`.
 
         The next poll tells that it has left, or, where it is back already, that it has returned.
         """
@@ -175,7 +175,7 @@ class InputHub:
             self._lost.add(key)
 
     def released(self, key: str) -> None:
-        """Take note that a device was closed on purpose: coming again it has not ``returned``."""
+        """Note that a device was closed on purpose: coming again it has not ``returned``."""
         with self._lock:
             self._opened.discard(key)
 

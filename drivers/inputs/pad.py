@@ -99,7 +99,7 @@ class Pad(InputSource):
             self._tell()
 
     def renew(self) -> bool:
-        """Go on holding what is held; return False where the pad let go of it. Any thread.
+        """Continue holding what is held; return False where the pad release it. Any thread.
 
         A deflection of 0 is held like any other.
         """
@@ -234,6 +234,6 @@ class PadDevice(InputDevice):
         return self._pad.readings(self)
 
     def close(self) -> None:
-        """Let go of it; see :class:`InputDevice`."""
+        """Release it; see :class:`InputDevice`."""
         self._is_open = False
         self._pad.forget(self)

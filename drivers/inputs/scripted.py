@@ -40,7 +40,7 @@ class Scripted(InputSource):
         self.start()
 
     def start(self) -> None:
-        """Begin the script anew, now."""
+        """Begin the script again, now."""
         self.begun_s = self.clock()
 
     def devices(self) -> Sequence[InputIdentity]:
@@ -112,7 +112,7 @@ class ScriptedDevice(Rumbler):
         )
 
     def close(self) -> None:
-        """Let go of it; see :class:`InputDevice`."""
+        """Release it; see :class:`InputDevice`."""
         self._is_open = False
 
     def rumble(self, strength: float) -> None:

@@ -124,7 +124,7 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         return own.value(board.commanded()[own.number])
 
     def _upload(self, profile: Profile, permit: Permit) -> None:
-        self._prepare("take a profile")
+        self._prepare("accept a profile")
         board, axis = self._running.board_of(profile.axis)
         if not board.able(Ability.PROFILE):
             raise StateError(

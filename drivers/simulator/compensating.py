@@ -92,7 +92,7 @@ class Compensating:
         return min(max(at, low), high)
 
     def retime(self, tick_s: float) -> None:
-        """Go on at other ticks; the axes are at rest."""
+        """Continue at other ticks; the axes are at rest."""
         self._tick_s = tick_s
         for index, before in self._inverses.items():
             after = Inverse(before.model, tick_s)

@@ -136,7 +136,7 @@ class Simulator(
 
     @property
     def stop_pending(self) -> bool:
-        """Whether a stop was asked for that the simulated time has not come to."""
+        """Whether a stop was requested that the simulated time has not come to."""
         return bool(self._stops_s)
 
     @property
@@ -179,7 +179,7 @@ class Simulator(
 
     @property
     def regulation_limited(self) -> tuple[str, ...]:
-        """The axes whose loop asks for more than a limit allows just now."""
+        """The axes whose loop asks for more than a limit allows at present."""
         device = self._device
         return () if device is None else tuple(self.axes[index] for index in device.limited)
 
@@ -413,7 +413,7 @@ class Simulator(
         return self._device
 
     def _catch_up(self) -> None:
-        """Simulate up to the clock's present, with every stop at the time it was asked for."""
+        """Simulate up to the clock's present, with every stop at the time it was requested."""
         if self._fault is not None:
             return
         device = self._running
@@ -434,7 +434,7 @@ class Simulator(
                 self._capturing.take(part)
 
     def _next_end_s(self) -> float:
-        """Return when the next stop was asked for, or a lease runs out."""
+        """Return when the next stop was requested, or a lease runs out."""
         stop_s = self._stops_s[0] if self._stops_s else float("inf")
         return min(stop_s, min(self._leases_s.values(), default=float("inf")))
 

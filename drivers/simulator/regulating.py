@@ -54,7 +54,7 @@ class Regulating:
 
     @property
     def beyond(self) -> dict[int, Exceedance]:
-        """In what the inverses of the feed-forwards went beyond what they saw, just now."""
+        """In what the inverses of the feed-forwards went beyond what they saw, at present."""
         return {index: one.beyond for index, one in self._inverses.items()}
 
     def check(self, index: int, regulation: Regulation, *, alone: bool) -> None:
@@ -137,7 +137,7 @@ class Regulating:
                 controller.lead()
 
     def limited(self, index: int) -> bool:
-        """Whether a limit cuts the output of an axis' loop off just now."""
+        """Whether a limit cuts the output of an axis' loop off at present."""
         return index in self._controllers and self._controllers[index].limited
 
     def advance(

@@ -65,7 +65,7 @@ class SetpointGenerator:
             self.retarget({index: float(end[index])}, abs(velocity))
 
     def retime(self, tick_s: float) -> None:
-        """Go on at other ticks; all axes rest."""
+        """Continue at other ticks; all axes rest."""
         self._tick_s = tick_s
 
     def bound(self, index: int, low: float, high: float) -> None:

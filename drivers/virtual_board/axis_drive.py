@@ -89,7 +89,7 @@ class AxisDrive:
         self.place(self.position)
 
     def place(self, position: float, speed: float = 0.0) -> None:
-        """Command a position, and come to rest from a speed if there is one."""
+        """Command a position, and come to rest from a speed if any."""
         self._ramp_end = None
         self._include(position)
         self._generator.take_over(np.array([position]), np.array([speed]))

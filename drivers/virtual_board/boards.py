@@ -52,7 +52,7 @@ class Port:
         self._line.hear(data, self._boards.now_s)
 
     def advance(self, to_s: float) -> bytes:
-        """Live on until this time; return what has reached the host by then.
+        """Advance until this time; return what has reached the host by then.
 
         Raises
         ------
@@ -175,7 +175,7 @@ class VirtualBoards:
         return min(sample * self.tick_s, lines)
 
     def live(self, to_s: float) -> None:
-        """Live on until this time, s; a time that is over changes nothing.
+        """Advance until this time, s; a time that is over changes nothing.
 
         Raises
         ------

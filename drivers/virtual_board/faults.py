@@ -8,7 +8,7 @@
 ``garbage N``             N bytes come that nobody sent
 ``silence T s``           nothing comes through for so long, both ways: a torn or shorted line
 ``space T s``             the same, and boards hear a break: a line that is held at space
-``reset B``, ``brown-out B``  board B begins anew; it does not know where its steppers are
+``reset B``, ``brown-out B``  board B begins again; it does not know where its steppers are
 ``freeze AXIS``, ``thaw AXIS``  a sensor says the same until it is thawed
 ``lose AXIS N``           a stepper stays N microsteps behind its command
 ``joystick X Y Z [B]``    hold the joystick of board 1 there, 0 to 4095, and buttons bit by bit
@@ -87,7 +87,7 @@ class RandomFaults:
         self._next_s = boards.now_s + self._pause_s()
 
     def live(self, to_s: float) -> None:
-        """Live on until this time, s, with what goes wrong until then."""
+        """Advance until this time, s, with what goes wrong until then."""
         while self._next_s <= to_s:
             self._boards.live(self._next_s)
             what = _RANDOM[int(self._chance.integers(len(_RANDOM)))]

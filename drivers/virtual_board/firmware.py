@@ -108,7 +108,7 @@ class Firmware:
         drive.bound(*kept.limits(axis), kept.speed(axis), kept.acceleration(axis))
 
     def reset(self, fault: Fault) -> None:
-        """Begin anew, as after power came: nobody knows where the steppers are."""
+        """Begin again, as after power came: nobody knows where the steppers are."""
         self.kept.recall(self.now_s)
         for axis, drive in enumerate(self.drives):
             self.rebound(axis, drive)

@@ -27,7 +27,7 @@ class HomingAxis:
         drive.drive(-kept.homing_speed(axis))
 
     def step(self, closed: bool) -> bool:
-        """Go on; ``closed`` is the low switch. Return whether it has just opened."""
+        """Advance; ``closed`` is the low switch. Return whether it has just opened."""
         if self._phase is _Phase.SEEK and closed:
             self._drive.halt()
             self._phase = _Phase.HALT

@@ -1,7 +1,7 @@
 """A serial line with the boards at its end, byte by byte in time.
 
 Paced, a byte has come, and has left, when its stop bit is over: ten bits after the one before. On a
-shared bus the boards answer after the slot in which the host may go on.
+shared bus the boards answer after the slot in which the host may continue.
 """
 
 from collections import deque

@@ -106,7 +106,7 @@ class PlantRun:
         return self._state
 
     def take_over(self, plant: Plant, state: PlantState) -> None:
-        """Go on with another plant, from its state at the present tick."""
+        """Continue with another plant, from its state at the present tick."""
         self._settle()
         self._plant, self._state = plant, state
 

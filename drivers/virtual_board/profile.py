@@ -50,7 +50,7 @@ class Profile:
         self.axis, self._announced = axis, segments
 
     def add(self, told: Segments) -> bool:
-        """Take segments whose turn it is, or that are here already; tell whether they are."""
+        """Take segments whose turn it is, or that are here already; return whether they are."""
         segments, own = list(told.segments()), self._segments
         if told.index < len(own):
             return own[told.index : told.index + len(segments)] == segments

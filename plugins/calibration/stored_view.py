@@ -53,7 +53,7 @@ class StoredView(QWidget):
         return self.stored[rows.pop()] if rows else None
 
     def show_stored(self, stored: tuple[Stored, ...]) -> None:
-        """Show what is stored; what was chosen stays chosen."""
+        """Show the stored calibrations, and keep the selection."""
         chosen = self.chosen
         self.table.clearSelection()
         self.stored = stored

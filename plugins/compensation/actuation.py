@@ -33,7 +33,7 @@ from rotemina.sim.tuning.result import Tuning
 
 
 class Actuation:
-    """Puts on and takes off, and tries.
+    """Applies and removes inverses and loops, and runs trials.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class Actuation:
         self.trials: dict[Aid, Trial] = {}
 
     def switch(self, learned: Learned | None, source: str) -> None:
-        """Put the chosen inverse on its axis, or take off what is on."""
+        """Apply the chosen inverse to its axis, or remove the present one."""
         session, axis = self._workbench.session, self._controls.chosen
         if axis in session.inverses.applied:
             self._workbench.ask(lambda: session.inverses.remove(axis))

@@ -96,7 +96,7 @@ class Controls(QWidget):
         return self.axis.currentData() or ""
 
     def tell(self, text: str, share: float | None) -> None:
-        """Say what is done, and how much of it."""
+        """Show the current work and its progress."""
         self.doing.setText(text)
         self.progress.setVisible(share is not None)
         self.progress.setValue(round(1000.0 * (share or 0.0)))

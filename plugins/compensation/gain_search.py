@@ -48,7 +48,7 @@ class GainSearch(QObject):
 
     @property
     def running(self) -> bool:
-        """Whether a search goes on."""
+        """Whether a search continues."""
         return self._job.running
 
     def tune(self, robot: Robot, axis: str, model: InverseModel | None, source: str) -> None:

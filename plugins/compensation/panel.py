@@ -170,7 +170,7 @@ class CompensationPanel(Panel):
     # --- inside -----------------------------------------------------------------------------------
 
     def _robot(self) -> Robot:
-        """Return the robot with the effects that act on the simulated machine just now."""
+        """Return the robot with the effects that act on the simulated machine at present."""
         robot, effects = self.workbench.robot, self.workbench.session.service.effects
         return robot if effects is None else replace(robot, effects=effects)
 

@@ -44,7 +44,7 @@ class PortFinder(QObject):
         workbench.closing.connect(self._background.wait)
 
     def look(self) -> None:
-        """Look once more."""
+        """Look again."""
         self._background.run("ports", serial_ports, self.found.emit, self._failed)
 
     def _failed(self, message: str) -> None:

@@ -58,7 +58,7 @@ class SettingField(QObject):
 
     Signals
     -------
-    changed() : somebody has written or chosen something else.
+    changed() : someone has written or chosen something else.
     """
 
     changed = Signal()

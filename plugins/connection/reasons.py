@@ -44,7 +44,7 @@ def against_disconnecting(state: SessionState) -> str | None:
 
 
 def against_reconnecting(state: SessionState) -> str | None:
-    """Why not connect once more."""
+    """Why not connect again."""
     if state.connection is Connection.CONNECTING:
         return translate("connection", "the connection is being opened")
     return (

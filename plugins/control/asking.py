@@ -35,7 +35,7 @@ class Confirmation:
         return self._pending.what
 
     def take(self, target: float, command: float, now_s: float) -> Permit | None:
-        """Return the permit to go, or None: a large move has to be asked for once more.
+        """Return the permit to go, or None: a large move has to be asked for again.
 
         It is that of the question: no stop that came after it lets the answer count.
         """

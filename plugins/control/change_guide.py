@@ -83,7 +83,7 @@ class ChangeGuide(QDialog):
         self.raise_()
 
     def refresh(self, state: SessionState) -> None:
-        """Go on where a step is done, and say which one is next."""
+        """Continue where a step is done, and say which one is next."""
         if not self.isVisible():
             return
         if self._begun and self.steps[self._at].done(state):
@@ -194,7 +194,7 @@ class ChangeGuide(QDialog):
         self._bench.ask(lambda: self._bench.microscope.track(False))
 
     def _teach(self) -> None:
-        """Ask once more; a stop withdraws the question."""
+        """Ask again; a stop withdraws the question."""
         if self._teaching.take():
             self._bench.teach_floor()
         else:

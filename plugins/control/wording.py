@@ -281,7 +281,7 @@ def _millimetres(metres: float) -> str:
 
 
 def taken(state: SessionState) -> tuple[str, ...]:
-    """Return the axes that somebody else drives from whom they may be taken over."""
+    """Return the axes that someone else drives from whom they may be taken over."""
     return tuple(axis for axis, owner in state.owners.items() if owner not in _NOT_TAKEN)
 
 

@@ -75,7 +75,7 @@ class ParameterField(QObject):
                 grid.addWidget(widget, row, column)
 
     def show_value(self, value: float, *, anew: bool = False) -> None:
-        """Show a value (SI); a text that was refused stays until it changes, or ``anew``."""
+        """Show a value (SI); a text that was refused stays until it changes, or ``again``."""
         if not anew and value == self._value and self.not_applied:
             return
         self._value = value

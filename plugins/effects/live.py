@@ -37,7 +37,7 @@ class LiveEffects(QObject):
     -------
     changed() : ``apply_state`` or ``reason`` did.
     refused(str) : at once, by the session. What its worker refuses, the workbench tells.
-    replaced(tuple) : somebody else put other effects in place.
+    replaced(tuple) : someone else put other effects in place.
     """
 
     changed = Signal()
@@ -118,7 +118,7 @@ class LiveEffects(QObject):
         return len(self._cycles) > _CYCLES
 
     def _not_taken(self) -> None:
-        """Send once more what a stop swept out of the queue; tell of what was refused."""
+        """Send again what a stop swept out of the queue; tell of what was refused."""
         if self._told or self._tries > 1:
             self._end(
                 ApplyState.REFUSED,

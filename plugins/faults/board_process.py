@@ -26,7 +26,7 @@ class BoardProcess(QObject):
     listening(list of (port, who)) : all its ports are there.
     said(str) : a line of what it tells.
     complained(str) : a line of what it refuses.
-    ended(str) : why, or "" where that was asked for.
+    ended(str) : why, or "" where that was requested.
     """
 
     listening = Signal(object)

@@ -30,7 +30,7 @@ class Diagnosing(QObject):
     """Runs one diagnosis at a time.
 
     The workbench's own thread stays free for what must not wait: a record that was played is
-    written down and compared while a diagnosis goes on.
+    written down and compared while a diagnosis continues.
 
     Signals
     -------

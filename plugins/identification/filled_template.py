@@ -20,7 +20,7 @@ class FilledTemplate(str):
 
 
 def localized(text: str) -> str:
-    """Return a text, a marked or a filled one or anybody's, in the language of the window."""
+    """Return a text, a marked or a filled one or anyone's, in the language of the window."""
     if isinstance(text, FilledTemplate):
         filled = {
             name: localized(value) if isinstance(value, str) else value

@@ -56,7 +56,7 @@ class Calibrating:
 
     @property
     def measurable(self) -> tuple[str, ...]:
-        """Axes that are measured unless somebody wishes otherwise."""
+        """Axes that are measured unless someone wishes otherwise."""
         return tuple(axis for axis in self.device.axes if not _begins(axis, _SWITCHES))
 
     @property
@@ -108,7 +108,7 @@ class Calibrating:
         return max(REST_S - (now_s - self._begun_s), 0.0) if self.step is Step.REST else 0.0
 
     def sweep(self) -> None:
-        """Go on to the ends."""
+        """Continue to the ends."""
         assert self._run is not None
         self._run.sweep()
         self.step = Step.SWEEP

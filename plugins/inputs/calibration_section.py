@@ -21,7 +21,7 @@ _MM = 1e3
 
 
 class CalibrationSection(Section):
-    """Measuring, and the settings of each axis; used and kept when somebody says so."""
+    """Measuring, and the settings of each axis; used and kept when someone says so."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(translate("inputs", "Calibration"))
@@ -125,7 +125,7 @@ class CalibrationSection(Section):
                 self._all[key].hear(readings)
 
     def leave(self) -> None:
-        """Forget what was not kept; somebody is told of it."""
+        """Forget what was not kept; someone is told of it."""
         lost = [device_name(one.device.identity) for one in self._all.values() if one.changed]
         self._all.clear()
         self._now = None

@@ -21,7 +21,7 @@ _ROOM = 6
 
 
 class DeviceList(Section):
-    """The devices, one of which is looked at."""
+    """The devices, one of which is examined."""
 
     def __init__(self) -> None:
         super().__init__(translate("inputs", "Devices"))
@@ -41,12 +41,12 @@ class DeviceList(Section):
 
     @property
     def key(self) -> str:
-        """The device that is looked at; empty: there is none."""
+        """The device that is examined; empty: there is none."""
         item = self.list.currentItem()
         return "" if item is None else str(item.data(Qt.ItemDataRole.UserRole))
 
     def show_entries(self, entries: tuple[Entry, ...]) -> None:
-        """Show other devices; the one that is looked at stays."""
+        """Show other devices; the one that is examined stays."""
         if entries == self._entries:
             return
         same = [one.key for one in entries] == [one.key for one in self._entries]

@@ -32,7 +32,7 @@ _SEATS = {
 
 
 class MappingSection(Section):
-    """What the controls of the device that is looked at do.
+    """What the controls of the device that is examined do.
 
     Changes are used at once; nothing is sent while they are made.
     """

@@ -183,7 +183,7 @@ class SettingsSection(Section):
             field.returnPressed.connect(self._apply)
 
     def refresh(self, status: MicroscopeStatus) -> None:
-        """Show what is in force, unless somebody is typing."""
+        """Show what is in force, unless someone is typing."""
         feed = status.feed
         can = feed.description
         self.form.setEnabled(can is not None)

@@ -97,7 +97,7 @@ class Viewport:
         )
 
     def holds(self, column: float, row: float) -> bool:
-        """Tell whether that is a pixel of the picture."""
+        """Return whether that is a pixel of the picture."""
         return -0.5 <= column < self.columns - 0.5 and -0.5 <= row < self.rows - 0.5
 
     def part(self) -> Part:

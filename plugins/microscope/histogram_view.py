@@ -96,5 +96,5 @@ class HistogramView(QWidget):
         self.update()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Let go of it."""
+        """Release it."""
         self._held = None

@@ -156,7 +156,7 @@ class VideoCapture:
     def due(self, recorder: SessionRecorder | None) -> bool | None:
         """Return whether to begin (True) or end (False) now, because a recording did.
 
-        None: nothing is to be done. One that was begun by hand goes on beside a recording.
+        None: nothing is to be done. One that was begun by hand continues beside a recording.
         """
         before, self._followed = self._followed, recorder if self.follows else None
         if self._followed is not None and before is not self._followed:

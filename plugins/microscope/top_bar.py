@@ -42,7 +42,7 @@ class TopBar(QWidget):
 
     Signals
     -------
-    chosen(PointerTool) : somebody wants the left button to do this.
+    chosen(PointerTool) : someone wants the left button to do this.
     """
 
     chosen = Signal(object)

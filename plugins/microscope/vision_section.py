@@ -47,7 +47,7 @@ class TipSection(Section):
             lambda: workbench.ask(microscope.take_background),
             translate("microscope", "Save the background without the tip in the picture"),
         )
-        self.drift = QCheckBox(translate("microscope", "watch the drift"))
+        self.drift = QCheckBox(translate("microscope", "monitor drift"))
         self.drift.setToolTip(
             plain_tip(translate("microscope", "Displacement of the background since it was taken"))
         )

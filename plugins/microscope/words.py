@@ -61,7 +61,7 @@ def geometry_text(found: Geometry) -> str:
 
 
 def calibration_text(status: CalibrationStatus | None) -> str:
-    """Return how the latest calibration goes on, or went."""
+    """Return how the latest calibration continues, or went."""
     if status is None:
         return ""
     text = translate("microscope", "{phase}: picture {done} of {moves}").format(
@@ -183,7 +183,7 @@ def drift_text(seen: DriftSeen) -> str:
 
 
 def focus_text(status: FocusStatus | None) -> str:
-    """Return how the latest autofocus goes on, or went."""
+    """Return how the latest autofocus continues, or went."""
     if status is None:
         return ""
     if status.search is Search.FAILED:

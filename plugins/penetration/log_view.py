@@ -23,7 +23,7 @@ class LogView(QWidget):
         super().__init__()
         self.list = RunList()
         self.table = Table(
-            translate("penetration", "Runs, the latest first"),
+            translate("penetration", "Runs, latest first"),
             [translate("penetration", one) for one in COLUMNS],
             row_height=24,
         )

@@ -233,7 +233,7 @@ QUANTITIES = {
         ),
         Quantity(
             "retract_speed",
-            marked("penetration", "Speed back"),
+            marked("penetration", "Return speed"),
             "µm/s",
             _UM,
             Group.RETRACT,
@@ -241,7 +241,7 @@ QUANTITIES = {
         ),
         Quantity(
             "depth_tolerance",
-            marked("penetration", "Depth off by"),
+            marked("penetration", "Depth tolerance"),
             "%",
             _PERCENT,
             Group.LIMITS,

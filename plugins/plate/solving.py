@@ -12,7 +12,7 @@ from rotemina.sim.robot.model import Robot
 
 
 class Solving(QObject):
-    """Solves one plate at a time; an end is asked for between its stages.
+    """Solves one plate at a time; an end is requested between its stages.
 
     Signals
     -------

@@ -45,7 +45,7 @@ def listed(names: Sequence[str]) -> str:
 
 
 def span(begin: str, end: str, duration_s: float) -> tuple[float, float]:
-    """Return the stretch that somebody typed, s from the begin; nothing means begin or end.
+    """Return the stretch that someone typed, s from the begin; nothing means begin or end.
 
     Raises
     ------

@@ -98,7 +98,7 @@ class ScaleEditor(Section):
         self.choice.blockSignals(False)
 
     def _show(self) -> None:
-        """Write the scale into the fields, but for the one in which somebody types."""
+        """Write the scale into the fields, but for the one in which someone types."""
         name = self.choice.currentData()
         if name not in self._coordinates:
             return

@@ -89,7 +89,7 @@ class PadArea(QWidget):
             self.release()
 
     def release(self) -> None:
-        """Let go of everything."""
+        """Release everything."""
         self._renewing.stop()
         self._stick.release_all()
         self.update()
@@ -122,7 +122,7 @@ class PadArea(QWidget):
         self._follow()
 
     def keyReleaseEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Let go of a key."""
+        """Release a key."""
         key = event.key()
         if key in _SCALING:
             self._scale(event.modifiers() & ~_SCALING[key])
@@ -144,7 +144,7 @@ class PadArea(QWidget):
         self._drag(event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Move what was taken; what was let go of meanwhile has to be taken anew."""
+        """Move what was taken; what was release meanwhile has to be taken again."""
         if event.buttons() & Qt.MouseButton.LeftButton and self._stick.dragging:
             self._drag(event.position())
 
@@ -174,12 +174,12 @@ class PadArea(QWidget):
         self.update()
 
     def focusOutEvent(self, event: QFocusEvent) -> None:  # noqa: N802 (Qt's name)
-        """Let go of everything, whatever took the focus."""
+        """Release everything, whatever took the focus."""
         self.release()
         super().focusOutEvent(event)
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)
-        """Let go of everything."""
+        """Release everything."""
         self.release()
         super().hideEvent(event)
 

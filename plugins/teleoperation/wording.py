@@ -220,7 +220,7 @@ def pad_of(view: DevicesView) -> DeviceView | None:
 
 
 def is_trainee(pad: DeviceView | None) -> bool:
-    """Whether somebody else drives first, and the pad may take over."""
+    """Whether someone else drives first, and the pad may take over."""
     return pad is not None and pad.seat is OperatorRole.TRAINEE
 
 
@@ -239,7 +239,7 @@ def factor_text(factor: float, held: Collection[Action]) -> str:
 
 
 def clutch_text(law: LawKind, held: Collection[Action]) -> str:
-    """Return what the clutch does, or does just now."""
+    """Return what the clutch does, or does at present."""
     if Action.CLUTCH in held:
         return translate("teleoperation", "Clutch pressed: the stick moves without the robot.")
     if law is LawKind.RATE:
@@ -306,7 +306,7 @@ def reserve_text(state: TeleoperationState) -> str:
 def tilt_shown(state: TeleoperationState) -> str:
     """Return by how much the tool was turned."""
     if state.tilt is None:
-        return translate("teleoperation", "not by this mode") if state.coordinates else "–"
+        return translate("teleoperation", "not in this mode") if state.coordinates else "–"
     return plain_units.tilt_text(round(state.tilt, _TILT_DIGITS))
 
 

@@ -150,7 +150,7 @@ class _Candidate(NamedTuple):
 
 
 def _gains(before: FloatArray, after: FloatArray) -> bool:
-    """Tell whether errors (runs,) fell by more than chance, and by enough to matter."""
+    """Return whether errors (runs,) fell by more than chance, and by enough to matter."""
     fall = before - after
     error = float(fall.std(ddof=1)) / np.sqrt(len(fall))
     return bool(fall.mean() > max(error, _WORTH * float(before.mean())))

@@ -157,7 +157,7 @@ def _check_travel(travel: float, axis: str, robot: Robot, name: str) -> None:
 def _frozen(
     time_s: FloatArray, reading: FloatArray, reference: FloatArray, moved: float
 ) -> BoolArray:
-    """Tell where the laser repeats one value to the last digit while the sensor goes on."""
+    """Tell where the laser repeats one value to the last digit while the sensor continues."""
     lost = np.zeros(len(time_s), dtype=np.bool_)
     edges = np.flatnonzero(np.diff(reference) != 0.0) + 1
     bounds = np.concatenate([[0], edges, [len(time_s)]])

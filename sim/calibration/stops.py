@@ -13,7 +13,7 @@ from rotemina.sim.arrays import FloatArray
 
 @numba.njit(cache=True, error_model="numpy")
 def stops(x: FloatArray, radii: FloatArray, state: FloatArray) -> FloatArray:
-    """Return ``E_r`` (n, k) of x (n,) for radii (k,); ``state`` (k,), the plays, goes on."""
+    """Return ``E_r`` (n, k) of x (n,) for radii (k,); ``state`` (k,), the plays, continues."""
     result = np.empty((len(x), len(radii)))
     for row in range(len(x)):
         for each in range(len(radii)):

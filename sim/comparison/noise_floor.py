@@ -111,7 +111,7 @@ def _at_rest(record: Record, axis: str, tap: Tap) -> float | None:
 
 
 def _was_measured(floor: float, signal: FloatArray) -> bool:
-    """Tell whether what scatters is noise: a computed signal has none but its rounding."""
+    """Return whether what scatters is noise: a computed signal has none but its rounding."""
     return floor > _ROUNDING * float(np.abs(signal).max())
 
 

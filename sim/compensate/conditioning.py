@@ -3,7 +3,7 @@
 An inverse that is put on does not know what its axis went through, which decides where an axis with
 hysteresis stands. A swing through the inverse over all that it saw wipes out what was before, in
 the axis and in the inverse alike (Mayergoyz, "Mathematical Models of Hysteresis" (1991), sec. 1.2).
-What creeps goes on creeping.
+What creeps continues creeping.
 """
 
 from math import inf, isfinite

@@ -141,7 +141,7 @@ class _Document(_Strict):
 
 
 def write_trained(path: str | PathLike[str], trained: Trained, provenance: Provenance) -> None:
-    """Write the file, whole or not at all.
+    """Write the file, completely or not at all.
 
     Raises
     ------

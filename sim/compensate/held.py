@@ -97,7 +97,7 @@ class HeldInverse:
         return float(slopes.min()) if len(slopes) else 1.0
 
     def walked(self, path: FloatArray, sent: float) -> Self:
-        """Go on from the end of a path (n,) of wanted positions that brought ``sent`` about.
+        """Continue from the end of a path (n,) of wanted positions that brought ``sent`` about.
 
         What ``sent`` differs by from a held set-point there, mostly slow creep, stays as an offset.
         """

@@ -80,7 +80,7 @@ class Inverse:
 
     @property
     def state(self) -> FloatArray:
-        """A copy of the memory; setting it goes on from there."""
+        """A copy of the memory; setting it continues from there."""
         return self._state.copy()
 
     @state.setter

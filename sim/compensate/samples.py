@@ -136,7 +136,7 @@ def _known_from(command: FloatArray) -> int:
 
 
 def one_size(samples: Sequence[Samples]) -> bool:
-    """Tell whether nearly all swings of the commands are of one size.
+    """Return whether nearly all swings of the commands are of one size.
 
     Then they cannot tell how a loop grows with its size, nor apart what comes late and what turns
     late: an inverse rich enough to follow that loop would only guess at others.

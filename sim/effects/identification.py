@@ -157,7 +157,7 @@ class Identification:
     fitted : bool
         Whether it can be fitted to a response, and not only be found by its sign.
     scout : str, optional
-        The formulation that is looked at first where none is quick to simulate.
+        The formulation that is examined first where none is quick to simulate.
     from_other : callable, optional
         Makes parameters of another formulation, as fitted, those from which this one begins.
     lateness_s : callable, optional

@@ -30,7 +30,7 @@ class Controller:
         From sample to sample.
     limits : OutputLimits
     feed_forward : FeedForward, optional
-        What is asked for a reference without feedback; the reference itself without.
+        What is requested a reference without feedback; the reference itself without.
 
     Raises
     ------
@@ -102,7 +102,7 @@ class Controller:
         """Return the output of this sample, or the last one again where none can be found.
 
         That is where a number is not finite, or the reading of a held loop not believed. The
-        feed-forward goes on all the same, as a machine's does, which cannot wait.
+        feed-forward continues all the same, as a machine's does, which cannot wait.
         """
         feed = self.feed_forward.step(reference)
         error = reference - measured

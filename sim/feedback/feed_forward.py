@@ -42,7 +42,7 @@ class FeedForward:
     taps : sequence of float
         Weights of the present reference and those before it.
     inverse : SampledInverse, optional
-        None: what is wanted is asked for. One that has a stage against lag of its own must do
+        None: what is wanted is requested. One that has a stage against lag of its own must do
         without it (``preview``), as the lead is in its place.
     """
 

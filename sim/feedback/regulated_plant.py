@@ -50,7 +50,7 @@ def advance(
     reference : (n, axes)
         Where those with one shall be, m or rad.
     controllers : mapping int -> Controller
-        By the number of the axis; they go on.
+        By the number of the axis; they continue.
     chance : Chance, optional
 
     Returns

@@ -69,7 +69,7 @@ class Regulation:
         return 1.0 / self.rate_hz
 
     def controller(self, inverse: SampledInverse | None = None) -> Controller:
-        """Return a controller, fed forward through the lead and an inverse, if there is one.
+        """Return a controller, fed forward through the lead and an inverse, if any.
 
         The inverse is one at the loop's rate, without a stage against lag (``preview``).
         """

@@ -34,7 +34,7 @@ class SampledAxis:
     interval_s : float
     a : (n, n)
     b, c : (n,)
-        The input is the position that is asked for, m or rad (V of an axis that a force moves).
+        The input is the position that is requested, m or rad (V of an axis that a force moves).
     through : float
         g.
     delay : int

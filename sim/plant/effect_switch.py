@@ -1,4 +1,4 @@
-"""A run that goes on with other effects than it began with."""
+"""A run that continues with other effects than it began with."""
 
 from collections import Counter
 from collections.abc import Iterator

@@ -98,7 +98,7 @@ def row_separator(line: str, count: int) -> str | None:
 
 
 def splits_into_numbers(line: str, separator: str, count: int) -> bool:
-    """Tell whether a separator makes ``count`` numbers of a row, with either decimal sign."""
+    """Return whether a separator makes ``count`` numbers of a row, with either decimal sign."""
     fields = split_fields(line, separator)
     if separator != ",":
         fields = [field.replace(",", ".", 1) for field in fields]

@@ -64,7 +64,7 @@ def write_pieces(
     Raises
     ------
     RecordError
-        As of :func:`write_record`; if there is no piece, or one does not go on where the one
+        As of :func:`write_record`; if there is no piece, or one does not continue where the one
         before ended.
     """
     coming = iter(pieces)

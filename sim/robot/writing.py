@@ -111,7 +111,7 @@ def robot_text(robot: Robot) -> str:
 
 
 def write_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool = False) -> None:
-    """Write a robot file, whole or not at all.
+    """Write a robot file, completely or not at all.
 
     Raises
     ------

@@ -36,7 +36,7 @@ class Provenance:
     inverse : str
         Of the feed-forward; empty without.
     generations, done, population, seed : int
-        How many were asked for, and done.
+        How many were requested, and done.
     against : Against
     peak_sensitivity, overshoot, spread : float
         Constraints, and by how much gain and resonance were off.
@@ -167,7 +167,7 @@ def document_of(tuning: Tuning) -> dict[str, Any]:
 
 
 def save_tuning(tuning: Tuning, path: str | PathLike[str]) -> None:
-    """Write a tuning as TOML, whole or not at all.
+    """Write a tuning as TOML, completely or not at all.
 
     Raises
     ------

@@ -32,7 +32,7 @@ _LEAST_PART = 0.3  # of the part that must be in the picture
 
 @dataclass(frozen=True, slots=True)
 class BodyPart:
-    """The part of the body that is looked at: larger where a cell gives way over more pixels.
+    """The part of the body that is examined: larger where a cell gives way over more pixels.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ def fit_body(
     Parameters
     ----------
     image : (rows, columns)
-        Numbers of any kind; only the part about the body is looked at.
+        Numbers of any kind; only the part about the body is examined.
     pipette : Pipette
     start : (2,)
         px.

@@ -4,7 +4,7 @@ from rotemina.sim.errors import InputError
 
 
 class VisionError(InputError):
-    """An image, or a set of them, that does not show what is asked for."""
+    """An image, or a set of them, that does not show what is requested."""
 
 
 class RegistrationError(VisionError):

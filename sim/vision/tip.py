@@ -142,7 +142,7 @@ def find_body(image: Image, pipette: Pipette) -> TipFit:
 
 
 def plausible(fit: TipFit) -> bool:
-    """Tell whether a fit may be a tip at all."""
+    """Return whether a fit may be a tip at all."""
     return (
         -MOST_CONTRAST <= fit.contrast <= -LEAST_CONTRAST
         and fit.used >= LEAST_USED

@@ -97,7 +97,7 @@ def begin_track(
 ) -> TipTrack:
     """Find the tip in a whole image; with ``dimple`` it is going to press on a membrane.
 
-    Without ``turning`` the pipette's direction is taken as it is, not found anew.
+    Without ``turning`` the pipette's direction is taken as it is, not found again.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def follow(
     ----------
     track : TipTrack
     image : (rows, columns)
-        Numbers of any kind; mostly a part of them is looked at.
+        Numbers of any kind; mostly a part of them is examined.
     background : (rows, columns), optional
         The same view without the tip.
     moved : (2,), optional

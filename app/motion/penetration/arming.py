@@ -36,7 +36,7 @@ class TravelMargin(NamedTuple):
 
     @property
     def needed(self) -> float:
-        """All of the way."""
+        """The total travel."""
         return self.approach + self.halt + self.thrust
 
 

@@ -18,7 +18,7 @@ _SURE = 6.0  # standard deviations
 
 @dataclass(slots=True)
 class Attempt:
-    """What is known of a run under way; positions are commands, m."""
+    """Findings of a running penetration; positions are commands, m."""
 
     parameters: PenetrationParameters
     plan: ThrustPlan

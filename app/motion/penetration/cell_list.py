@@ -15,7 +15,7 @@ MOST_CELLS = 999
 
 
 class Outcome(StrEnum):
-    """What has become of a cell."""
+    """The outcome of a cell."""
 
     WAITING = "waiting"
     SKIPPED = "skipped"
@@ -94,7 +94,7 @@ class CellList:
         self._become(Outcome.SKIPPED)
 
     def take(self, number: int, run: PenetrationRun) -> None:
-        """Note what came of a cell."""
+        """Note the outcome of a cell."""
         done = run.verdict is Verdict.DONE
         depth = run.thrust.depth if run.thrust is not None else None
         outcome = Outcome.DONE if done else Outcome.FAILED

@@ -182,7 +182,7 @@ class ContactDetector:
         return None
 
     def _leans(self, command: float) -> bool:
-        """Tell whether the level has risen as no drift makes it rise."""
+        """Return whether the level has risen as no drift makes it rise."""
         way = abs(command - self._begin)
         if way == 0.0:
             self._rested = self._level  # creep goes on while it still rests

@@ -22,7 +22,7 @@ MOST_POINTS = 200
 
 
 class Direction(StrEnum):
-    """Which way the cell is, along the axis."""
+    """Direction of the cell along the axis."""
 
     DOWN = "down"
     UP = "up"
@@ -37,7 +37,7 @@ class ThrustShape(StrEnum):
 
 
 class Shaping(StrEnum):
-    """What is done against the axis' resonance."""
+    """Input shaping against the axis' resonance."""
 
     NONE = "none"
     ZV = "zv"
@@ -215,7 +215,7 @@ class PenetrationParameters:
         return "\n".join(lines) + "\n"
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the file, whole or not at all; its folder is made.
+        """Write the file, completely or not at all; its folder is made.
 
         Raises
         ------

@@ -1,7 +1,7 @@
 """Automatic cell penetration: arm, approach, detect the membrane, thrust, and retract.
 
 A stop, a fault or a lost link *holds* the tip where it is: nothing here moves it again until
-somebody presses the button once more or takes the axes over.
+someone presses the button again or takes the axes over.
 """
 
 from collections.abc import Callable
@@ -23,7 +23,7 @@ from rotemina.sim.messages import marked, message
 
 
 class Penetration(PenetrationSequence):
-    """The state machine; it has no thread: somebody calls :meth:`step`, at about 200 Hz.
+    """The state machine; it has no thread: someone calls :meth:`step`, at about 200 Hz.
 
     Every method may be called from any thread.
 
@@ -59,7 +59,7 @@ class Penetration(PenetrationSequence):
         ------
         InputError
             If a run is under way or held, the device or robot cannot, the room left in the range
-            or the tip's bounds do not allow it, or somebody else drives an axis.
+            or the tip's bounds do not allow it, or someone else drives an axis.
         """
         with self._lock:
             if self._status.phase in UNDER_WAY | {Phase.HELD}:
@@ -127,7 +127,7 @@ class Penetration(PenetrationSequence):
         self._write()
 
     def press(self, now_s: float) -> None:
-        """Take the one button: start when armed, go back while it runs, go back when held.
+        """Press the button: start when armed, retract during a run or a hold.
 
         Raises
         ------

@@ -103,7 +103,7 @@ class ThrustMeasured:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ThrustTrace:
-    """What the axis' own sensor said of a thrust, for a picture of it.
+    """The axis' sensor readings of a thrust, for plotting.
 
     Attributes
     ----------

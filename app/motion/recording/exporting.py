@@ -37,7 +37,7 @@ def export(
     RecordError
         If the file cannot be written.
     RecordingError
-        If there are no samples, or the device was connected anew in between.
+        If there are no samples, or the device was connected again in between.
     """
     count = 0
 

@@ -51,7 +51,7 @@ def unfinished(folder: Path) -> tuple[Path, ...]:
 
 
 def being_recorded(path: Path) -> bool:
-    """Tell whether a program is recording or recovering ``path``."""
+    """Return whether a program is recording or recovering ``path``."""
     try:
         with path.open("r+b") as file:
             return not locked(file)

@@ -146,7 +146,7 @@ class SegmentFile:
             del self._unconfirmed[:count]
 
     def close(self) -> None:
-        """Let go of the file; safe to call twice."""
+        """Release the file; safe to call twice."""
         self._file.close()
 
     def _write(self, data: bytes) -> None:

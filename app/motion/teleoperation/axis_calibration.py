@@ -116,7 +116,7 @@ class Calibration:
         return self.axes.get(name, UNCALIBRATED)
 
     def with_axes(self, axes: Mapping[str, AxisCalibration]) -> "Calibration":
-        """Return it with some axes calibrated anew."""
+        """Return it with some axes calibrated again."""
         return Calibration(device=self.device, axes=MappingProxyType({**self.axes, **axes}))
 
 
@@ -172,7 +172,7 @@ class CalibrationFolder:
         return found
 
     def save(self, identity: InputIdentity, calibration: Calibration) -> Path:
-        """Write the file of a device, whole or not at all, and return where it is.
+        """Write the file of a device, completely or not at all, and return where it is.
 
         Raises
         ------

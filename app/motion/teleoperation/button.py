@@ -7,7 +7,7 @@ class Button:
     """Debounced: the first change counts at once, its bounces do not.
 
     A button that is down when it is first seen (stuck, taped, held while plugging in) does nothing
-    until it was let go of.
+    until it was release.
 
     Parameters
     ----------
@@ -27,12 +27,12 @@ class Button:
         return self._down and self._usable
 
     def feed(self, time_s: float, down: bool) -> bool:
-        """Take in a reading; return whether it went down by it."""
+        """Process a reading; return whether it went down by it."""
         self._said = down
         return self.step(time_s)
 
     def step(self, now_s: float) -> bool:
-        """Let time pass; return whether it turned out to be down."""
+        """Advance time; return whether it turned out to be down."""
         if self._said is None:
             return False
         if self._said == self._down:

@@ -84,7 +84,7 @@ class CalibrationRun:
             self.feed(last)
 
     def feed(self, reading: InputReading) -> None:
-        """Take in a reading; numbers that are none are passed over."""
+        """Process a reading; numbers that are none are passed over."""
         for axis, raw in zip(self._axes, reading.axes, strict=False):
             if axis in self._seen and isfinite(raw):
                 self._seen[axis].add(raw, self.phase)

@@ -79,7 +79,7 @@ class Detection:
         self._pressed: dict[tuple[str, str], float] = {}
 
     def feed(self, key: str, reading: InputReading) -> None:
-        """Take in a reading of a device."""
+        """Process a reading of a device."""
         device = self._devices[key]
         for name, raw in zip(device.axes, reading.axes, strict=False):
             if isfinite(raw):

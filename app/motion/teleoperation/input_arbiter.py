@@ -105,7 +105,7 @@ class InputArbiter:
         self._arrange({key})
 
     def unplug(self, key: str, why: str = "unplugged") -> None:
-        """Let go of a device; if it was driving, that is over."""
+        """Release a device; if it was driving, that is over."""
         if key not in self._plugged:
             return
         self._lose(key, why)
@@ -113,13 +113,13 @@ class InputArbiter:
         self._arrange(())
 
     def inform(self, key: str, *, streams: bool) -> None:
-        """Take note whether a plugged device streams: that may turn out while it is open."""
+        """Note whether a plugged device streams: that may turn out while it is open."""
         device = self._plugged[key]
         if device.streams is not streams:
             self._plugged[key] = self._devices[key].device = replace(device, streams=streams)
 
     def use(self, profile: Profile) -> None:
-        """Take another profile; nothing moves before every stick was seen at rest.
+        """Use another profile; nothing moves before every stick was seen at rest.
 
         Raises
         ------
@@ -136,7 +136,7 @@ class InputArbiter:
         self._arrange(set(self._plugged))
 
     def calibrate(self, key: str, calibration: Calibration) -> None:
-        """Use another calibration of a plugged device; it must be seen at rest anew.
+        """Use another calibration of a plugged device; it must be seen at rest again.
 
         Raises
         ------
@@ -171,7 +171,7 @@ class InputArbiter:
             self._lost.append(marked("engine", "input devices are being set up"))
 
     def close_mapping(self) -> None:
-        """Send again, after every stick was seen at rest and every button let go of."""
+        """Send again, after every stick was seen at rest and every button release."""
         if self._mapping_open:
             self._mapping_open = False
             self._arrange(set(self._plugged))
@@ -179,7 +179,7 @@ class InputArbiter:
     # What the operator wants
 
     def step(self, readings: Mapping[str, Sequence[InputReading]], now_s: float) -> Intent:
-        """Return what is asked for now.
+        """Return the present intent.
 
         Parameters
         ----------
@@ -243,7 +243,7 @@ class InputArbiter:
     # How
 
     def _arrange(self, anew: Collection[str]) -> None:
-        """Give each device its mapping; those that are new, or have another one, begin anew."""
+        """Give each device its mapping; those that are new, or have another one, begin again."""
         mappings = self._mappings()
         devices: dict[str, MappedDevice] = {}
         for key, device in self._plugged.items():

@@ -38,7 +38,7 @@ _RANKS = {"board": 1, _PAD: 2}
 
 @dataclass(frozen=True, slots=True)
 class InputSnapshot:
-    """What came of one look at all devices.
+    """The readings of all devices at one instant, and the resulting intent.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class InputDevices:
 
     @property
     def profile(self) -> Profile | None:
-        """What the devices do now; None while there is none."""
+        """The profile in use, or None."""
         return self._used
 
     @property
@@ -175,7 +175,7 @@ class InputDevices:
             return (*self.hub.problems.values(), *self.arbiter.problems)
 
     def look(self) -> None:
-        """Look what has been plugged in or unplugged; the next step deals with it."""
+        """Detect connected and removed devices; the next step handles them."""
         changes = self.hub.poll()
         if changes.arrived or changes.left:
             self._changes.append(changes)
@@ -231,7 +231,7 @@ class InputDevices:
             return self._open.get(key)
 
     def close(self) -> None:
-        """Let go of every device."""
+        """Release every device."""
         with self._lock:
             for key in tuple(self._open):
                 self._drop(key, marked("engine", "the program releases it"))
@@ -285,7 +285,7 @@ class InputDevices:
     def _use_automatic(self, anew: bool = False) -> None:
         """Use what the user has kept for these devices, or else what their controls suggest.
 
-        What is used now stays if it fits, unless one is to be found ``anew``.
+        What is used now stays if it fits, unless one is to be found ``again``.
         """
         plugged = tuple(_plugged(device) for device in self._open.values())
         if not anew and self._used is not None and _fits(self._used, plugged):

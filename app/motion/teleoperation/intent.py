@@ -26,7 +26,7 @@ class Action(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Intent:
-    """What the operator's devices ask for now.
+    """The present request of the operator's devices.
 
     Attributes
     ----------

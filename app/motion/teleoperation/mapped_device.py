@@ -82,7 +82,7 @@ class MappedDevice:
         self._actors = [] if mapping is None else [_Actor(each) for each in mapping.actions]
 
     def step(self, readings: Sequence[InputReading], now_s: float) -> None:
-        """Take in the readings since the last step, oldest first, and let time pass."""
+        """Process the readings since the last step, oldest first, and let time pass."""
         if self._heard_s is None:
             self._heard_s = now_s  # it has as long from now on as after a reading
         self.lost = None

@@ -33,7 +33,7 @@ class PluggedDevice:
     axes, buttons : tuple of str
         What they are called, in the order of the readings.
     streams : bool
-        Whether it goes on talking while nothing changes, so that silence means a fault.
+        Whether it continues talking while nothing changes, so that silence means a fault.
     """
 
     identity: InputIdentity

@@ -184,7 +184,7 @@ def _nano(joints: tuple[str, ...]) -> tuple[str, ...]:
         raise RecentringError(
             message(
                 "engine",
-                "re-centring: {value} is not one of thx, thy, zn; only these have a middle "
+                "re-centring: {value}: must be one of thx, thy, zn; only these have a middle "
                 "to return to",
             ).fill(value=", ".join(wrong) or marked("engine", "no joint"))
         )

@@ -187,7 +187,7 @@ class Scales:
         return _FORMAT.load(path) if path.exists() else cls()
 
     def save(self, path: Path) -> None:
-        """Write the file, whole or not at all.
+        """Write the file, completely or not at all.
 
         Raises
         ------

@@ -52,7 +52,7 @@ class ScalingLaw(ABC):
 
     @final
     def start(self, position: float, velocity: float, deflection: float) -> Motion:
-        """Go on from a motion, with the stick where it is; also re-indexes after a clutch.
+        """Continue from a motion, with the stick where it is; also re-indexes after a clutch.
 
         A position outside the range counts as its end, a speed that could not be braked in the
         range is reduced.
@@ -64,7 +64,7 @@ class ScalingLaw(ABC):
 
     @final
     def step(self, deflection: float, dt: float, reaction: float = 0.0) -> Motion:
-        """Go on for ``dt`` s with a deflection of −1 to 1; a dt of 0 leaves all as it is.
+        """Advance by ``dt`` s with a deflection of −1 to 1; a dt of 0 leaves all as it is.
 
         ``reaction`` is what a contact is felt by; only the impedance law heeds it.
 
@@ -88,7 +88,7 @@ class ScalingLaw(ABC):
 
     @final
     def hold(self, position: float, velocity: float = 0.0) -> Motion:
-        """Take note that the machine is only there: the reference does not run ahead of it."""
+        """Note that the machine is only there: the reference does not run ahead of it."""
         self._motion = self.bounds.begin(position, velocity)
         return self._motion
 
@@ -112,7 +112,7 @@ class ScalingLaw(ABC):
 
     @abstractmethod
     def _anchor(self) -> None:
-        """Index anew, for the present motion and deflection."""
+        """Index again, for the present motion and deflection."""
 
     @abstractmethod
     def _step(self, dt: float, reaction: float) -> Motion:

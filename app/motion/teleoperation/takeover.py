@@ -40,7 +40,7 @@ class Takeover:
         self.driving = OperatorRole.TRAINER
 
     def decide(self, trainer: RoleState, trainee: RoleState) -> str | None:
-        """Let the seats have their say; return why the one that drove does so no more, or None."""
+        """Decide which seat is in control; return why the previous one lost control, or None."""
         reason = None
         if self.driving is OperatorRole.TRAINEE:
             if not trainer.present:

@@ -140,7 +140,7 @@ class Teleoperator:
     # --- the loop ---------------------------------------------------------------------------------
 
     def step(self, intent: Intent, now_s: float) -> None:
-        """Do what an intent asks for; never waits."""
+        """Execute an intent; never waits."""
         dt = min(max(now_s - (self._before_s or now_s), 0.0), _LONGEST_STEP_S)
         self._before_s, self._intent = now_s, intent
         stopped = self._stop_if_asked(intent)
@@ -172,7 +172,7 @@ class Teleoperator:
         )
 
     def _stop_if_asked(self, intent: Intent) -> str | None:
-        """Stop where that is asked for, or what drove is gone; return why nothing is to move."""
+        """Stop where that is requested, or what drove is gone; return why nothing is to move."""
         if Action.EMERGENCY_STOP in intent.pressed:
             self._session.emergency_stop(
                 message("engine", "the joystick's stop and lock"), by=OPERATOR
@@ -388,7 +388,7 @@ class Teleoperator:
         self._law, self._channels = kind, channels
 
     def _let_go(self, reason: str | None) -> None:
-        """Halt what it moves, and begin anew where the machine then stands."""
+        """Halt what it moves, and begin again where the machine then stands."""
         if reason is not None:
             self._refused = reason
         self._drop_all()

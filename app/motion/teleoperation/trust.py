@@ -39,11 +39,11 @@ class AxisTrust:
         self._at_end_only = True
 
     def reset(self, why: str) -> None:
-        """Trust it no more until it is at rest; ``why`` is told to the operator."""
+        """Distrust the axis until it is at rest; ``why`` is shown to the operator."""
         self._why = why
 
     def forget(self, why: str) -> None:
-        """Trust it no more until it has said anew that it is at rest."""
+        """Distrust the axis until it has reported being at rest again."""
         self._why = why
         self._said = None
         self._centred_since_s = None
@@ -73,7 +73,7 @@ class AxisTrust:
         return NOTHING_SAID if self._said is None and self._why == NOT_CENTRED else self._why
 
     def feed(self, time_s: float, raw: float) -> None:
-        """Take in a reading and the time when it came in; NaN says nothing."""
+        """Process a reading and the time when it came in; NaN says nothing."""
         if isnan(raw):
             self.forget(NOT_CENTRED)
             return
@@ -93,7 +93,7 @@ class AxisTrust:
         self._settle(time_s)
 
     def step(self, now_s: float) -> None:
-        """Let time pass: a device that says nothing may still be at rest."""
+        """Advance time: a device that says nothing may still be at rest."""
         self._jitter.step(now_s)
         self._settle(now_s)
 
@@ -118,7 +118,7 @@ class _Jitter:
         self._reversals_s: deque[float] = deque(maxlen=REVERSALS)
 
     def feed(self, time_s: float, raw: float) -> bool:
-        """Take in a reading; return whether it is one leap to and fro too many."""
+        """Process a reading; return whether it is one leap to and fro too many."""
         before, self._raw = self._raw, raw
         if before is None or abs(raw - before) < self._leap:
             return False

@@ -78,7 +78,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class ReportDescriptor:
-    """What a device says of the reports that it sends.
+    """A device's description of its reports.
 
     Attributes
     ----------
@@ -163,7 +163,7 @@ class _Walk:
         self._collections: list[int] = []  # the application that each open one belongs to
 
     def take(self, item: Item) -> None:
-        """Go on by an item; of a kind that is of no use here it changes nothing."""
+        """Advance by an item; of a kind that is of no use here it changes nothing."""
         if item.type == Type.MAIN:
             self._main(item)
             self._locals = _Locals()

@@ -71,7 +71,7 @@ class HidDevice(InputDevice):
         return tuple(readings)
 
     def close(self) -> None:
-        """Let go of it; see :class:`InputDevice`."""
+        """Release it; see :class:`InputDevice`."""
         handle, self._handle = self._handle, None
         if handle is not None:
             try:

@@ -12,7 +12,7 @@ class Streaming:
 
     Some report only changes; some go on for as long as they are deflected. So the same reading has
     to come again and again, for longer than a hand keeps still. One that is silent after that and
-    then goes on by itself has to be found out anew.
+    then continues by itself has to be found out again.
     """
 
     def __init__(self) -> None:

@@ -1246,8 +1246,8 @@
         <translation>das Programm gibt es frei</translation>
     </message>
     <message>
-        <source>re-centring: {value} is not one of thx, thy, zn; only these have a middle to return to</source>
-        <translation>Zurückstellen: {value} gehört nicht zu thx, thy, zn, die eine Mitte haben</translation>
+        <source>re-centring: {value}: must be one of thx, thy, zn; only these have a middle to return to</source>
+        <translation>Zurückstellen: {value}: muss thx, thy oder zn sein; nur diese haben eine Mitte</translation>
     </message>
     <message>
         <source>no joint</source>

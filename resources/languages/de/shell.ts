@@ -116,7 +116,7 @@
         <translation>ein Profil ausführen</translation>
     </message>
     <message>
-        <source>show a text</source>
+        <source>show text</source>
         <translation>einen Text anzeigen</translation>
     </message>
     <message>
@@ -128,7 +128,7 @@
         <translation>das Werkzeug einschalten</translation>
     </message>
     <message>
-        <source>take a profile</source>
+        <source>accept a profile</source>
         <translation>ein Profil annehmen</translation>
     </message>
     <message>
@@ -136,7 +136,7 @@
         <translation>seine Parameter schreiben</translation>
     </message>
     <message>
-        <source>go on with</source>
+        <source>resume</source>
         <translation>fortsetzen</translation>
     </message>
     <message>
@@ -875,8 +875,8 @@
         <translation>keine Meldung wird gezeigt</translation>
     </message>
     <message>
-        <source>Window late by {usual} ms at most in 99 %, worst {worst} ms</source>
-        <translation>Fenster zu 99 % höchstens {usual} ms verspätet, schlimmstens {worst} ms</translation>
+        <source>Window delay: at most {usual} ms in 99 %, worst {worst} ms</source>
+        <translation>Verzögerung des Fensters: in 99 % höchstens {usual} ms, schlimmstens {worst} ms</translation>
     </message>
     <message>
         <source>Messages, newest first</source>

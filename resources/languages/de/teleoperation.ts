@@ -335,7 +335,7 @@ Leer  Kupplung</translation>
         <translation>{left} – zentrieren</translation>
     </message>
     <message>
-        <source>not by this mode</source>
+        <source>not in this mode</source>
         <translation>nicht in diesem Modus</translation>
     </message>
     <message>

@@ -83,7 +83,7 @@ def test_a_reading_beyond_the_range_by_more_than_its_noise_alarms_once_until_it_
 
 def test_a_reading_far_beyond_the_range_locks():
     locks, alarms = beyond_the_range(np.full(100, 23e-6))
-    assert locks[0] == "axis zn reads 23 µm beyond its range, 22.75 µm at most"
+    assert locks[0] == "axis zn reads 23 µm beyond its range; at most 22.75 µm is permitted"
     assert alarms == []
 
 

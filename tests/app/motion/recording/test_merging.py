@@ -132,9 +132,9 @@ def test_polars_reads_the_samples_in_one_line(crashed):
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        (b"", "no recording"),
+        (b"", "not a recording"),
         (b"t [s],x [m]\n0,1\n" * 10, "not a recording of this program, or damaged"),
-        (bytes(200), "no recording"),
+        (bytes(200), "not a recording"),
     ],
 )
 def test_other_files_are_refused(tmp_path, data, words):

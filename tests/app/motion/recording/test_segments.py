@@ -127,9 +127,9 @@ def test_a_file_that_is_being_written_is_left_alone(path):
         (MAGIC[:5], "before anything was recorded; delete it"),
         (
             MAGIC[:6] + b"99" + bytes(100),
-            "recording of version 99, but this program reads version 01",
+            "version 99, but this program reads version 01",
         ),
-        (b"PK\x03\x04" + bytes(100), "not a recording of this program"),
+        (b"PK\x03\x04" + bytes(100), "not an interrupted recording of this program"),
     ],
 )
 def test_other_files_are_refused(path, data, words):
@@ -140,7 +140,7 @@ def test_other_files_are_refused(path, data, words):
 
 
 def test_a_file_that_cannot_be_made_or_read_is_named(tmp_path, path):
-    with pytest.raises(RecordingError, match=r"nowhere/run.part: cannot be made"):
+    with pytest.raises(RecordingError, match=r"nowhere/run.part: cannot be created"):
         SegmentFile(tmp_path / "nowhere" / "run.part")
     with pytest.raises(RecordingError, match="cannot be read"):
         WholeSegments(path)

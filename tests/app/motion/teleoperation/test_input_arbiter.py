@@ -162,7 +162,7 @@ def test_readings_of_another_shape_move_nothing():
     bench.run(0.2)
     reading = InputReading(bench.now_s, (1.0,), ())
     assert bench.arbiter.step({"a": [reading]}, bench.now_s).deflections == {}
-    assert "a reading of 1 axes and 0 buttons" in bench.reasons()[0]
+    assert "a reading has 1 axes and 0 buttons" in bench.reasons()[0]
     assert bench.run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
 
 
@@ -263,7 +263,7 @@ def test_a_calibration_acts_at_once_and_wants_the_centre():
     bench.say(axes=(0.5, 0.0)).run(0.2)
     axis = AxisCalibration(low=-0.9, centre=0.5, high=1.0, dead_zone=0.05, travel_m=0.02)
     bench.arbiter.calibrate("a", Calibration(device="a", axes={"X": axis}))
-    assert lost([bench.step()]) == ["stick a: calibrated anew"]
+    assert lost([bench.step()]) == ["stick a: recalibrated"]
     assert bench.run(0.2)[-1].deflections == {"x": 0.0, "y": 0.0}
     assert bench.say(axes=(1.0, 0.0)).step().deflections["x"] == 1.0
     assert (bench.arbiter.travel_m("x"), bench.arbiter.travel_m("y")) == (0.02, None)
