@@ -9,7 +9,7 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged
-from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.app.motion.stop import PROGRAM
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import Samples
 from rotemina.sim.messages import marked, message

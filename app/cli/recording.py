@@ -107,16 +107,16 @@ def info(options: argparse.Namespace) -> int:
 
 def recover(options: argparse.Namespace) -> int:
     """Finish one recording, or all in a folder."""
-    from rotemina.app.motion.recording import merging
+    from rotemina.app.motion.recording import recovery
 
     source = options.source
-    found = merging.unfinished(source) if source.is_dir() else (source,)
+    found = recovery.unfinished(source) if source.is_dir() else (source,)
     if not found:
         tell(options, message("cli", "{source}: nothing to recover").fill(source=source))
     refused = []
     for path in found:
         try:
-            print(merging.recover(path))
+            print(recovery.recover(path))
         except InputError as error:  # one that is being recorded keeps nobody from the others
             refused.append(str(error))
     if refused:
@@ -166,7 +166,7 @@ def report(options: argparse.Namespace) -> int:
     from platformdirs import user_data_path
 
     from rotemina.app.motion.penetration.run_log import RunLog
-    from rotemina.app.motion.recording.merging import SUFFIX
+    from rotemina.app.motion.recording.recovery import SUFFIX
     from rotemina.app.motion.run import Run
     from rotemina.app.records.run_report import RunReport, report_text
     from rotemina.app.records.store import RecordStore

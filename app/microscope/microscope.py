@@ -23,7 +23,7 @@ from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.app.motion.stop import PROGRAM
 from rotemina.app.motion.ticker import Ticker
 from rotemina.app.settings import Settings
 from rotemina.drivers.cameras.camera import Camera

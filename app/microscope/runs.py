@@ -8,7 +8,7 @@ from rotemina.app.cameras.feed import FeedState, FeedView
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.status import Activity
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.app.motion.stop import PROGRAM
 from rotemina.sim.messages import message
 
 _BROKEN = (

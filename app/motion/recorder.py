@@ -94,7 +94,7 @@ class PlaybackRecorder:
 
     @property
     def answers(self) -> RunAnswers | None:
-        """The models' answers for each row; None before the end of the record, or without models."""
+        """The models' answers for each row; None before its end or without models."""
         return self._answered
 
     def say(self, name: str, text: str) -> None:

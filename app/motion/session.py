@@ -28,7 +28,7 @@ from rotemina.app.motion.run_labels import RunLabels
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.service import Service
 from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.motion.stop_request import LOCKED, PROGRAM, StopRequest
+from rotemina.app.motion.stop import LOCKED, PROGRAM, StopRequest
 from rotemina.app.motion.subscribers import Subscribers
 from rotemina.app.motion.tip_bounds import TipBounds
 from rotemina.app.motion.tool import Tool
@@ -280,11 +280,11 @@ class MotionSession:
         Queued commands are dropped. The device is told from this very thread. ``by`` is
         ``ownership.OPERATOR`` only where a person asked for it.
         """
-        self._link.halt(StopRequest(by, why, self._local_time()))
+        self._link.stop(StopRequest(by, why, self._local_time()))
 
     def emergency_stop(self, why: str = LOCKED, *, by: str = PROGRAM) -> None:
         """Stop, and let nothing move until :meth:`release`; any thread, never waits or raises."""
-        self._link.halt(StopRequest(by, why, self._local_time()), latch=why)
+        self._link.stop(StopRequest(by, why, self._local_time()), latch=why)
 
     def release(self) -> None:
         """Permit motion again after an emergency stop; the machine rests until the next command."""

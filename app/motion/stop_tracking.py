@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.motion.stop_request import StopRequest
+from rotemina.app.motion.stop import StopRequest
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
 

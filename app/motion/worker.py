@@ -43,8 +43,8 @@ from rotemina.app.motion.state import (
     StateChanged,
     Stopped,
 )
+from rotemina.app.motion.stop import StopRequest
 from rotemina.app.motion.stop_latency import StopLatency
-from rotemina.app.motion.stop_request import StopRequest
 from rotemina.app.motion.stop_tracking import StopTracking
 from rotemina.drivers.abilities import Homer, Linked
 from rotemina.drivers.clock import Clock

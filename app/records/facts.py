@@ -7,8 +7,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.motion.recording.merging import SUFFIX
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.motion.run import worst
 from rotemina.app.recorded_events import Severity, timeline_events
 from rotemina.app.records.entry import Entry, WorstGap

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from rotemina.app.motion.recording.exporting import record_of, trajectory
-from rotemina.app.motion.recording.merging import SUFFIX
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.motion.run import Run, worst
 from rotemina.app.records.entry import Entry, Kind, WorstGap
 from rotemina.app.records.errors import DamagedLibraryError, LibraryError

@@ -12,7 +12,7 @@ from math import pi
 
 from rotemina.drivers.gcode.blocks import Blocks
 from rotemina.drivers.gcode.coordinates import check_stage
-from rotemina.drivers.gcode.words import LineError, Target, jog_of, motion_of
+from rotemina.drivers.gcode.parser import LineError, Target, jog_of, motion_of
 from rotemina.sim.robot.model import Robot
 
 TICK_S = 1e-3

@@ -11,7 +11,7 @@ from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
 from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.motion.stop_request import LOCKED
+from rotemina.app.motion.stop import LOCKED
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import duration_text, size_text
-from rotemina.app.motion.recording.merging import UNFINISHED
+from rotemina.app.motion.recording.recovery import UNFINISHED
 from rotemina.app.motion.run_labels import MOST_LETTERS, RunLabels
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import translate

@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import size_text
 from rotemina.app.motion.recording import exporting
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import SUFFIX
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.records.entry import Entry, Kind
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import being_recorded, recover, unfinished
+from rotemina.app.motion.recording.recovery import being_recorded, recover, unfinished
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import translate
 

@@ -12,7 +12,7 @@ from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
-from rotemina.sim.trajectory.violations import commands_of
+from rotemina.sim.trajectory.validation import commands_of
 
 _UNEVEN = 1e-3  # of a row's interval
 

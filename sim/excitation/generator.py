@@ -20,7 +20,7 @@ from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.violations import Quantity, Violation
+from rotemina.sim.trajectory.validation import Quantity, Violation
 
 _PER_RESONANCE = 4.0  # rows in a period of the fastest resonance, at the default rate
 _RATES_HZ = (1_000.0, 2_000.0, 5_000.0, 10_000.0)

@@ -20,7 +20,7 @@ from rotemina.sim.trajectory.limits import (
     voltage_bounds,
 )
 from rotemina.sim.trajectory.prediction import TrackingError, predict
-from rotemina.sim.trajectory.violations import Violation, find_violations
+from rotemina.sim.trajectory.validation import Violation, find_violations
 
 
 class Bounds(NamedTuple):

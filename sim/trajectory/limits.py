@@ -1,7 +1,7 @@
 """The limits of a machine's axes: one rule for the targets of all motion.
 
 Every path that moves an axis (jog, click, playback, script) asks here, or for a whole trajectory
-:mod:`rotemina.sim.trajectory.violations`. An axis without a declared bound is not checked against
+:mod:`rotemina.sim.trajectory.validation`. An axis without a declared bound is not checked against
 it.
 """
 

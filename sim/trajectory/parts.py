@@ -5,7 +5,7 @@ import numpy as np
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.trajectory.violations import TrajectoryError
+from rotemina.sim.trajectory.validation import TrajectoryError
 
 MOST_TIMES, MOST_ROWS = 1000, 5_000_000
 _CLOSED = 1e-9  # of an axis' stroke: ends that differ by less are the same

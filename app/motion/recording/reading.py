@@ -14,7 +14,7 @@ import pyarrow as pa  # type: ignore[import-untyped,unused-ignore] # it comes wi
 
 from rotemina.app.motion.recording.backlog import RecordedEvent
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import UNFINISHED
+from rotemina.app.motion.recording.recovery import UNFINISHED
 from rotemina.app.motion.recording.tables import (
     CHANNEL,
     EVENTS,

@@ -4,7 +4,7 @@ import pytest
 from tests.app.motion.test_session import there_and_back
 
 from rotemina.app.motion.heartbeat import PERIOD_S, SILENT_S
-from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.app.motion.stop import PROGRAM
 from rotemina.drivers.samples import DeviceState
 
 BEGUN = {

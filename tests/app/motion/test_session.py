@@ -18,7 +18,7 @@ from rotemina.app.motion.state import (
     StateChanged,
     Stopped,
 )
-from rotemina.app.motion.stop_request import StopRequest
+from rotemina.app.motion.stop import StopRequest
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import ConnectionLostError, DriverTimeoutError, StateError
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
@@ -29,7 +29,7 @@ from rotemina.sim.trajectory import checked as checked_module
 from rotemina.sim.trajectory.checked import check
 from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.violations import TrajectoryError
+from rotemina.sim.trajectory.validation import TrajectoryError
 
 NOON = datetime(2026, 1, 2, 12)
 

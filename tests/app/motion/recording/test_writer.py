@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import being_recorded, recover
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import being_recorded, recover
 
 
 def test_everything_comes_back_bit_by_bit(make_writer, feed, check, clock):
@@ -248,7 +248,7 @@ def test_the_thread_writes_by_itself(make_writer, feed, check):
 
 def test_long_runs_grow_neither_in_memory_nor_in_handles(make_writer, feed, monkeypatch):
     """Three hundred segments after a hundred take no byte more, nor does merging hold the file."""
-    monkeypatch.setattr("rotemina.app.motion.recording.merging._ROWS", 4096)
+    monkeypatch.setattr("rotemina.app.motion.recording.recovery._ROWS", 4096)
     writer = make_writer()
 
     def live(segments):

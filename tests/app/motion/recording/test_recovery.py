@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import recover, unfinished
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import recover, unfinished
 from rotemina.app.motion.recording.segments import SegmentFile
 
 DOCUMENT = Path(__file__).parents[4] / "docs" / "recording.md"
