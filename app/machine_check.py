@@ -141,7 +141,7 @@ def qt_libraries(platform: str) -> Finding:
 
 
 def qt(platform: str, program: str = _TRY_QT) -> Iterator[Finding]:
-    """Start Qt in a separate process, for it aborts where it cannot; tell how it draws."""
+    """Start Qt in a separate process, because it may abort; report how it renders."""
     windowless = platform == "offscreen"  # as the program itself does without a display
     try:
         done = subprocess.run(

@@ -23,7 +23,7 @@ HIDDEN_S = 0.2  # between two looks of a panel that is out of sight
 
 
 class Area(StrEnum):
-    """Where a panel stands when the window is first opened."""
+    """The initial area of a panel in the window."""
 
     CENTRE = "centre"
     LEFT = "left"

@@ -29,7 +29,7 @@ T = TypeVar("T")
 
 
 class Format(Generic[T]):
-    """One kind of file: its schema, and the error that tells what is wrong with it.
+    """A kind of file: its schema, and the error class for problems.
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ class NamedCause:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """The diagnosis of a machine; ``not_run`` says why there is none.
+    """The diagnosis of a machine; ``not_run`` gives the reason for a missing one.
 
     ``before`` and ``after``: what the model leaves of the test records as it was, and corrected.
     """

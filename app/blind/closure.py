@@ -24,7 +24,7 @@ UNPREDICTABLE = frozenset(
 
 
 class Gap(NamedTuple):
-    """Rms of what is left, offset removed, of the nominal and the corrected model; the floor."""
+    """Rms residuals without offset of the nominal and the corrected model, and the floor."""
 
     before: float
     after: float

@@ -68,7 +68,7 @@ def draw_secret(robot: Robot, seed: int) -> Secret:
 
 
 class HiddenMachine(Simulator):
-    """The simulator with a secret in the place of its plant; nothing tells what it has."""
+    """The simulator with a hidden plant; nothing reveals its effects."""
 
     name = "hidden machine"
 

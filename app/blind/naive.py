@@ -31,7 +31,7 @@ Answer = dict[str, Any]
 
 
 def contest(case: SealedCase, classifier: Classifier) -> dict[str, Answer]:
-    """Return what each contestant says of a case; where one of them fails, all have."""
+    """Return each contestant's answer to a case; if one fails, all fail."""
     try:
         robot = load_robot(case.robot)
         records = [read_record(path, robot=robot) for path in case.records]

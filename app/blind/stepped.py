@@ -157,7 +157,7 @@ class SteppedState:
 
 
 class SteppedMotion(NamedTuple):
-    """Positions, readings, and inputs that nobody tells, each (n, axes)."""
+    """Positions, readings, and hidden inputs, each (n, axes)."""
 
     position: FloatArray
     reading: FloatArray

@@ -214,7 +214,7 @@ def kept(
 
 
 def source_of(record: Record, name: str) -> Source:
-    """Return how a record is named in a calibration: by what is in it, wherever its file goes."""
+    """Return a record's name in a calibration, derived from its content."""
     parts = [np.ascontiguousarray(record.time_s).tobytes()]
     for channel in record.columns:
         parts += [str(channel).encode(), np.ascontiguousarray(record.signal(*channel)).tobytes()]

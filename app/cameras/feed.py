@@ -153,7 +153,7 @@ class CameraFeed:
         return not thread.is_alive()
 
     def configure(self, settings: CameraSettings) -> None:
-        """Have the camera set; the latest wish counts. ``view`` tells what came of it."""
+        """Request settings; the latest request counts, and ``view`` shows the outcome."""
         with self._lock:
             self._wanted = settings
 
@@ -163,7 +163,7 @@ class CameraFeed:
             self._triggers += 1
 
     def listen(self, tell: Callable[[Frame], None]) -> Callable[[], None]:
-        """Have every picture told, on the camera's thread, until what is returned is called.
+        """Call ``listener`` with every picture, on the camera's thread; return how to end that.
 
         ``tell`` must not wait: a recorder puts the frame into a bounded queue.
         """

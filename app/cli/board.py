@@ -83,7 +83,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Serve until told to end."""
+    """Serve until termination is requested."""
     if options.seed < 0:
         raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
     if not 0.0 <= options.mishaps <= 1000.0:

@@ -40,7 +40,7 @@ class HostPort(Protocol):
 
 
 class PseudoTerminal:
-    """A serial device that is none, under a name of its own if it is given one.
+    """A pseudo-terminal, optionally under a name of its own.
 
     Raises
     ------

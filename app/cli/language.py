@@ -42,7 +42,7 @@ class CatalogueWording(Wording):
         return self.text("engine", text) if text else text
 
     def conjunction(self, *, one_of_them: bool) -> str:
-        """Return what stands before the last one of several."""
+        """Return the conjunction before the last item of a list."""
         return self.text("engine", super().conjunction(one_of_them=one_of_them))
 
 

@@ -18,7 +18,7 @@ _TO_LINE_END = "\x1b[K"
 
 
 class ProgressLine:
-    """A listener that tells stage, axis, candidate, the candidate that leads and the time left.
+    """A listener that prints stage, axis, candidate, the leading candidate and the time left.
 
     On a terminal it rewrites one line and ends it when its context ends; elsewhere it writes a
     line every few seconds, so that a log stays short.

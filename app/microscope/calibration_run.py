@@ -182,7 +182,7 @@ class CalibrationRun:
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
         return self._status.phase in (Phase.DONE, Phase.FAILED)
 
     def abort(self, reason: str = message("engine", "the calibration was stopped")) -> None:

@@ -130,7 +130,7 @@ class CameraInUse:
         )
 
     def let_go(self) -> None:
-        """Use no camera any more, nor at the next start; raises as :meth:`open_address`."""
+        """Close the camera, also for the next start; raises as :meth:`open_address`."""
         self._refuse_in_use()
 
         def forget() -> None:
@@ -155,7 +155,7 @@ class CameraInUse:
         self._present().trigger()
 
     def listen(self, tell: Callable[[Frame], None]) -> Callable[[], None]:
-        """Have every picture told, of whatever camera, until what is returned is called.
+        """Call ``listener`` with every picture of any camera; return how to end that.
 
         ``tell`` is called on the camera's thread and must not wait.
         """

@@ -114,7 +114,7 @@ class ClickRun:
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
         return self.status.visit is not Visit.UNDER_WAY
 
     def abort(self, reason: str) -> None:

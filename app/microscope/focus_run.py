@@ -96,7 +96,7 @@ class FocusRun:
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
         return self.status.search is not Search.UNDER_WAY
 
     def abort(self, reason: str) -> None:

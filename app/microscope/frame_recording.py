@@ -30,7 +30,7 @@ class FrameRecording:
         self._recorder, self._calibration = recorder, calibration
 
     def frame(self, frame: Frame) -> None:
-        """Record that a picture came in, with all numbers that the camera tells of it.
+        """Record the arrival of a picture, with all numbers of the camera.
 
         A camera's own time is among those, where it tells one.
         """

@@ -306,7 +306,7 @@ class Microscope:
         self.jobs.outline(np.asarray(near, dtype=np.float64), self.setup.pixel_m)
 
     def forget_cell(self) -> None:
-        """Show no outline any more."""
+        """Remove the outline."""
         self.jobs.forget()
 
     def measure(self, begin: FloatArray, end: FloatArray) -> None:
@@ -319,7 +319,7 @@ class Microscope:
         self.measured = ends
 
     def forget_measure(self) -> None:
-        """Show no line any more."""
+        """Remove the measured line."""
         self.measured = None
 
     def watch_drift(self, on: bool) -> None:

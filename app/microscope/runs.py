@@ -25,7 +25,7 @@ class Run(Protocol):
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
 
     def step(self, now_s: float) -> object:
         """Advance; never raises for what a device or a camera does."""

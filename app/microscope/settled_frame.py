@@ -143,7 +143,7 @@ class SettledFrameGrabber:
         return None
 
     def check(self) -> None:
-        """Refuse if nothing may be moved any more; to be asked right before every move.
+        """Refuse if motion is no longer permitted; to be called right before every move.
 
         What is computed from a picture takes a while, in which someone may stop the machine.
 

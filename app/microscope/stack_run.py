@@ -17,7 +17,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.gate import Permit
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
-from rotemina.sim.quantities import exact
+from rotemina.sim.quantities import exact, fixed
 
 MOST_PAGES = 1000
 MOST_BYTES = 1 << 29  # of pictures that are kept until they are written
@@ -128,7 +128,7 @@ class StackRun:
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
         return self.status.search is not Search.UNDER_WAY
 
     def abort(self, reason: str) -> None:
@@ -161,7 +161,7 @@ class StackRun:
                     "together; use a larger step, or a part of the sensor",
                 ).fill(
                     count=count,
-                    each=f"{frame.pixels.nbytes / 1e6:.1f}",
-                    most=f"{MOST_BYTES / 1e6:.0f}",
+                    each=fixed(frame.pixels.nbytes / 1e6, 1),
+                    most=fixed(MOST_BYTES / 1e6, 0),
                 )
             )

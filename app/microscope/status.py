@@ -84,7 +84,7 @@ class TipSeen:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CellSeen:
-    """The outline of a cell, and how the tip stands to it.
+    """The outline of a cell, and the position of the tip relative to it.
 
     Attributes
     ----------

@@ -76,7 +76,7 @@ class TargetSequence:
 
     @property
     def ended(self) -> bool:
-        """Whether nothing is moved any more."""
+        """Whether the visit has ended."""
         return self._run is None or self._run.ended
 
     @property

@@ -120,6 +120,6 @@ class Admission:
         self.queue(command, permit, axes, owner)
 
     def note_approached(self, targets: Mapping[str, float], axes: Iterable[str]) -> None:
-        """Note where axes come to by an approach; those of ``axes`` without a target by none."""
+        """Note the approached targets of axes; ``axes`` without a target have none."""
         kept = {axis: at for axis, at in self.approached.items() if axis not in set(axes)}
         self.approached = MappingProxyType({**kept, **targets})

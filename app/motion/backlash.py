@@ -24,7 +24,7 @@ OVER_PLAY = 1.5  # of a play that was measured: the width that surely takes it u
 
 
 def play_of(robot: Robot, effects: Iterable[AxisEffect], axis: str) -> float | None:
-    """Return the play of an axis by effects that a diagnosis found, m; None where none tells it."""
+    """Return the backlash of an axis from diagnosed effects, m, or None."""
     own = (one for one in effects if one.enabled and one.axis == axis and one.id == BACKLASH.id)
     plays = [Attached.of(robot, one).values.get("width", 0.0) for one in own]
     return sum(plays) if plays else None

@@ -134,7 +134,7 @@ class DeviceLink:
         self.worker.stopped(asked_s, failure, request)
 
     def snapshot(self) -> SessionState:
-        """Return the present state, but for the tip's."""
+        """Return the present state, without the tip's."""
         state = self.worker.state
         latched = self.gate.latched
         locked = self._locked(state)

@@ -91,7 +91,7 @@ class LoadProfile:
 
 @dataclass(frozen=True, slots=True)
 class RunProfile:
-    """Let the profile run that was handed over; its axis ends at ``targets``, m or rad."""
+    """Run the uploaded profile; its axis ends at ``targets``, m or rad."""
 
     targets: Mapping[str, float]
 
@@ -179,7 +179,7 @@ class Mailbox:
 
     @property
     def busy(self) -> bool:
-        """Whether a command waits, or is being handed over."""
+        """Whether a command is queued or being executed."""
         with self._lock:
             return bool(self._commands) or self._in_hand is not None
 
@@ -229,11 +229,11 @@ class Mailbox:
             return any(isinstance(one.command, Play | RunProfile) for one in self._commands)
 
     def target_of(self, axis: str) -> float | None:
-        """Return where the latest move that waits, or is being handed over, sends an axis."""
+        """Return the target of the latest queued or executing move of an axis."""
         return next((each[axis] for each in reversed(self.pending()) if axis in each), None)
 
     def pending(self) -> list[Mapping[str, float]]:
-        """Return where all moves that wait, or are being handed over, send axes, oldest first."""
+        """Return the targets of all queued or executing moves, oldest first."""
         found: list[Mapping[str, float]] = []
         for command in self._unfinished():
             if isinstance(command, Move):
@@ -243,7 +243,7 @@ class Mailbox:
         return found
 
     def drives(self) -> list[Drive]:
-        """Return the speeds that wait, or are being handed over, oldest first."""
+        """Return the queued or executing speeds, oldest first."""
         return [command for command in self._unfinished() if isinstance(command, Drive)]
 
     def _unfinished(self) -> list[Command]:

@@ -102,7 +102,7 @@ class PlaybackRecorder:
         self._metadata[name] = text
 
     def add(self, samples: Samples, answers: ModelOutputs | None = None, memory: int = 0) -> None:
-        """Take what belongs to the trajectory, and what models say of it.
+        """Add the samples of the trajectory, with the models' answers.
 
         ``memory`` is the number of the memory of commands that these samples are in.
 

@@ -48,5 +48,5 @@ class Reservations:
         self._link.worker.ownership.set_free(owner)
 
     def take_over(self, axes: Sequence[str], owner: str) -> None:
-        """Make axes an owner's that another one drives; they continue until told otherwise."""
+        """Give axes that another owner drives to an owner; they continue until commanded."""
         self._link.worker.ownership.take_over(axes, owner)

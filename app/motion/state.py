@@ -191,7 +191,7 @@ class PlaybackFinished:
 
 @dataclass(frozen=True, slots=True)
 class ModelChanged:
-    """Another model is in use; ``why`` says so where nobody asked for it."""
+    """Another model is in use; ``why`` gives the reason if it was not requested."""
 
     model: ModelInUse
     why: str = ""

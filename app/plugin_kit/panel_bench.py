@@ -33,7 +33,7 @@ _ALL_EVENTS = QEventLoop.ProcessEventsFlag.AllEvents
 
 
 class PanelBench:
-    """A panel on a workbench whose machine stands, connected, with its first sample taken.
+    """A panel on a workbench with a connected machine at rest, with its first sample.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ class PanelBench:
         return run
 
     def refresh(self) -> None:
-        """Tell the panel how the machine stands, as the window does once a frame."""
+        """Update the panel with the machine's state, as the window does once a frame."""
         state = self._session.snapshot()
         self.workbench.refreshed.emit(state)
         self.workbench.shown.emit(state)

@@ -33,7 +33,7 @@ _AT_A_TIME = 50  # files that are looked into before what is known of them is ke
 
 
 class Library:
-    """What is known of all records; :attr:`entries` may be read by any thread.
+    """The library of all records; :attr:`entries` may be read by any thread.
 
     Methods that touch the disk are for a thread that may wait. The library never deletes a record
     by itself.

@@ -111,7 +111,7 @@ class AxisTraces:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunReport:
-    """All that the page tells.
+    """The content of the page.
 
     Attributes
     ----------

@@ -66,7 +66,7 @@ class RecordStore:
             return [self._entry(*row) for row in base.execute(_ALL)]
 
     def put(self, entries: Iterable[Entry]) -> list[Entry]:
-        """Keep entries: new ones, or what is known now of others; return them with their ids.
+        """Store new entries, or updates of others; return them with their ids.
 
         What others are called is left alone: another program may have just changed it.
         """

@@ -32,7 +32,7 @@ class Camera:
 
     @property
     def eye(self) -> FloatArray:
-        """Where it stands, (3,), m."""
+        """The position of the camera, (3,), m."""
         return self.target + self.offset
 
     @cached_property

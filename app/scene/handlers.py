@@ -32,12 +32,12 @@ _POLICY = (
 
 
 class Guarded(RequestHandler):
-    """Refuses whoever was not given the address by this program."""
+    """Refuses clients that did not get the address from this program."""
 
     needs_origin = False
 
     def set_default_headers(self) -> None:
-        """Keep other pages from reading, framing or guessing, and everybody from storing."""
+        """Prevent reading, framing and guessing by other pages, and any storing."""
         self.clear_header("Server")
         socket = self.settings["origin"].replace("http:", "ws:")
         self.set_header("Cache-Control", "no-store")

@@ -10,7 +10,7 @@ _STEP_S = 0.5  # in which an age is told, so that not every frame tells another 
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """What is written, in the language of whoever looks; fields in braces are filled.
+    """The texts of the notes, in the viewer's language; fields in braces are filled.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Words:
 
 
 class Old:
-    """Tells an age in steps, and only once it is old.
+    """An age in steps, reported only when old.
 
     Parameters
     ----------

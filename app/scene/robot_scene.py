@@ -29,7 +29,7 @@ class Ghost(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Colours:
-    """``#rrggbb`` by what is painted."""
+    """Colours as ``#rrggbb``, by painted part."""
 
     background: str
     fixed: str
@@ -40,7 +40,7 @@ class Colours:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """Where the two ghosts are: by axis, m or rad, as a session tells it; empty where unknown."""
+    """Positions of the two ghosts by axis, m or rad; empty where unknown."""
 
     measured: Mapping[str, float]
     model: Mapping[str, float]
@@ -109,7 +109,7 @@ class RobotScene:
         self.show(self._reading)
 
     def alive(self, time_s: float) -> None:
-        """Let viewers know that the program is alive: a picture that stands may be a true one."""
+        """Signal to viewers that the program is alive although nothing moves."""
         self.scene.put({"type": "alive", "second": int(time_s)})
 
     def exaggerate(self, factor: float) -> None:

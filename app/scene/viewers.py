@@ -65,7 +65,7 @@ class Viewer:
         self.tell()
 
     def end(self) -> None:
-        """Send nothing any more."""
+        """End all sending."""
         if self._timer is not None:
             self._timer.cancel()
         self._drawing = True

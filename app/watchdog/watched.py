@@ -18,7 +18,7 @@ _AT_REST = (DeviceState.CLOSED, DeviceState.IDLE, DeviceState.FAULT)
 
 
 class Watched:
-    """Tells a separate process that the program lives.
+    """Reports to a separate process that the program is alive.
 
     Parameters
     ----------

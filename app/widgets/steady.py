@@ -11,7 +11,7 @@ from rotemina.app.widgets.controls import plain_tip
 
 
 class Steady:
-    """What leaves the wheel to what scrolls; stands before Qt's class."""
+    """A mixin that passes wheel events to the scroll area; precedes Qt's class."""
 
     def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
         """Leave the wheel to what scrolls."""

@@ -103,7 +103,7 @@ class Actuation:
             self._play(lambda: conditioning(self._workbench.robot, inverse.model, start))
 
     def try_it(self, begun: Callable[[], None]) -> None:
-        """Play swings that fade; what is left is shown beside what other states left.
+        """Play decaying swings, and show the error beside those of other states.
 
         ``begun`` is called if they are played.
         """

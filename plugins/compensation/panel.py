@@ -147,7 +147,7 @@ class CompensationPanel(Panel):
     # --- act and tune -----------------------------------------------------------------------------
 
     def try_it(self) -> None:
-        """Play swings that fade; what is left is shown beside what other states left."""
+        """Play decaying swings, and show the error beside those of other states."""
         self.actuation.try_it(lambda: self.tabs.setCurrentIndex(LIVE))
 
     def tune(self) -> None:

@@ -22,7 +22,7 @@ _MOST_ROWS_SHOWN = 6
 
 
 class ParameterSection(Section):
-    """A table of what differs, and the two ways to settle it."""
+    """A table of the differences, and the two ways to settle them."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(translate("connection", "Parameters"))

@@ -52,7 +52,7 @@ class Confirmation:
         return self._pending.permit
 
     def withdraw(self) -> None:
-        """Wait for nothing any more."""
+        """Cancel the pending question."""
         self._pending.withdraw()
 
     def follow(self, command: float | None) -> None:

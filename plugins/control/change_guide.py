@@ -19,7 +19,7 @@ _THERE = 1e-9  # m or rad
 
 
 class Step(NamedTuple):
-    """What is to be done, by which word; why not now; and whether it has been."""
+    """A step: its action, its button, why it is unavailable, and whether it is done."""
 
     text: str
     word: str

@@ -130,7 +130,7 @@ def is_little(position: float | None, ends: Range) -> bool:
 
 
 def range_tip(axis: str, position: float | None, ends: Range, scale: Scale) -> str:
-    """Return the range of an axis, and what is left of it on both sides."""
+    """Return the range of an axis, and the travel left on both sides."""
     low, high = ends
     text = translate("control", "{label} range: {low} … {high}").format(
         label=label(axis), low=scale.text(low), high=scale.text(high)

@@ -149,7 +149,7 @@ def effect_title(effect: Effect) -> str:
 
 
 def effect_summary(effect: Effect) -> str:
-    """Return by what an effect is known."""
+    """Return the characteristic of an effect."""
     return translate("effects", effect.summary)
 
 

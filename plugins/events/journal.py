@@ -84,7 +84,7 @@ class Journal:
         self._told_lock: str | None = None
 
     def tell(self, level: Level, text: str) -> None:
-        """Add an entry of what is logged already."""
+        """Add an entry for an already logged message."""
         self.entries.append(Entry(self._clock(), level, text))
         self.count += 1
 

@@ -19,7 +19,7 @@ TAKES_COMMANDS = os.name == "posix"
 
 
 class BoardProcess(QObject):
-    """Starts ``rotemina board``, tells its ports, and hands fault commands to it.
+    """Starts ``rotemina board``, reports its ports, and sends it fault commands.
 
     Signals
     -------
@@ -82,7 +82,7 @@ class BoardProcess(QObject):
         self._process.start(sys.executable, words)
 
     def inject(self, command: str) -> None:
-        """Hand a fault command over; what is wrong with it, it says itself."""
+        """Send a fault command; the process reports errors."""
         self._process.write(f"{command}\n".encode())
 
     def end(self) -> None:

@@ -23,7 +23,7 @@ _RETELL_MS = 500
 
 
 class StoppedError(Exception):
-    """The operator wants no answer any more."""
+    """The operator has cancelled the request."""
 
 
 class Diagnosing(QObject):
@@ -102,7 +102,7 @@ class Diagnosing(QObject):
         )
 
     def stop(self) -> None:
-        """Want no answer any more; the work ends at its next step, and nobody waits for it."""
+        """Discard the answer; the work ends at its next step, without waiting."""
         self._stopped.set()
         self._clock.stop()
 

@@ -49,7 +49,7 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Unwanted:
-    """Says that no answer to a request is wanted any more."""
+    """Cancels a request."""
 
     number: int
 

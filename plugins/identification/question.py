@@ -69,7 +69,7 @@ class Question:
         return signals_of(self.record, [(self.axis, self.drive)], [(self.axis, self.answer)])
 
     def check(self) -> None:
-        """Refuse a pair that is none, or that the record lacks.
+        """Refuse an invalid pair, or one that the record lacks.
 
         Raises
         ------

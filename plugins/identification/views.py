@@ -14,7 +14,7 @@ from rotemina.plugins.identification.staircase import step_findings
 
 
 class View(StrEnum):
-    """A way to look, as files name it."""
+    """A view, as named in files."""
 
     FREQUENCY = marked("identification", "Frequency response")
     LOOP = marked("identification", "Loop")

@@ -122,7 +122,7 @@ class Calibrating:
         self.cancel()
 
     def cancel(self) -> None:
-        """Measure no more."""
+        """Cancel the measurement."""
         self._run = None
         self.step = Step.EDIT
 

@@ -78,7 +78,7 @@ class DeviceList(Section):
 
 
 class Troubles(QWidget):
-    """What is wrong, each in a frame."""
+    """Problems, each in a frame."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -88,7 +88,7 @@ class Troubles(QWidget):
         self._shown: tuple[Trouble, ...] = ()
 
     def show_troubles(self, troubles: tuple[Trouble, ...]) -> None:
-        """Show what is wrong now."""
+        """Show the present problems."""
         if troubles == self._shown:
             return
         self._shown = troubles

@@ -123,7 +123,7 @@ class MappingSection(Section):
     # --- finding a control ------------------------------------------------------------------------
 
     def cancel(self) -> None:
-        """Look for no control any more."""
+        """Cancel the search for a control."""
         self._finding = self._row = None
         self._tell(translate("inputs", HINT))
 

@@ -207,7 +207,7 @@ class InputsPanel(Panel):
     # --- setting up -------------------------------------------------------------------------------
 
     def leave(self) -> None:
-        """Set up no more: what the devices ask for is sent again, after all were at rest."""
+        """Leave the set-up: devices act again once all were seen at rest."""
         self.set_up.setChecked(False)
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)

@@ -60,7 +60,7 @@ class ProfileChoice:
         self.look()
 
     def begin(self) -> str | None:
-        """Use what was chosen when the program ran last; return what is wrong with that."""
+        """Use the profile of the last start; return its problem, if any."""
         name = self._settings.get(SETTING, AUTOMATIC)
         if name == AUTOMATIC:
             return None

@@ -152,7 +152,7 @@ def entries(view: DevicesView, hub: InputHub) -> tuple[Entry, ...]:
 
 
 def troubles(view: DevicesView, hub: InputHub) -> tuple[Trouble, ...]:
-    """Return what is wrong with sources, devices and the profile."""
+    """Return the problems of sources, devices and the profile."""
     names = {one.key: one.name for one in hub.devices}
     found = [
         Trouble(

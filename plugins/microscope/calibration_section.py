@@ -64,7 +64,7 @@ class CalibrationSection(Section):
         self.known.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
 
     def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
-        """Show how it goes, and what is known."""
+        """Show the progress, and the stored results."""
         why = against_moving(status, state)
         allow(
             self.micro,

@@ -83,7 +83,7 @@ class CameraSection(Section):
         self.said = self.add_text()
 
     def refresh(self, status: MicroscopeStatus) -> None:
-        """Show what is there and in use."""
+        """Show the available cameras and the one in use."""
         listed = [(spoken(one.name), one.key) for one in status.cameras]
         _offer(self.choice, listed, None if status.camera is None else status.camera.key)
         _offer(self.objective, [(name, name) for name in status.objectives], None)

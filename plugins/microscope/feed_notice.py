@@ -55,7 +55,7 @@ class FeedNotice:
 
 
 def feed_notice(view: FeedView) -> FeedNotice:
-    """Return what is to be said of a camera's moment."""
+    """Return the text for the present state of a camera."""
     state, tone = view.state, TONES[view.state]
     if state is FeedState.LIVE and view.frame is None:
         return FeedNotice(

@@ -21,7 +21,7 @@ STAMP = "%Y-%m-%d_%H-%M-%S-%f"
 def circumstances(
     status: MicroscopeStatus, state: SessionState, now: datetime, recording: str = ""
 ) -> Circumstances:
-    """Return what is known beside a picture at this moment."""
+    """Return the present circumstances of a picture."""
     return Circumstances(
         taken=now.isoformat(timespec="milliseconds"),
         camera="" if status.camera is None else f"{status.camera.name} ({status.camera.key})",
@@ -92,7 +92,7 @@ class VideoCapture:
 
     @property
     def status(self) -> VideoStatus | None:
-        """How the present film does; None: there is none."""
+        """The status of the running video, or None."""
         return None if self.video is None else self.video.status
 
     def begin(

@@ -32,7 +32,7 @@ _PHASES = {
 
 
 def stage_text(name: str, stage: StageCalibration | None) -> str:
-    """Return what is known of a stage, in a few lines."""
+    """Return the calibration of a stage, in a few lines."""
     if stage is None:
         return translate("microscope", "{name}: not calibrated").format(name=spoken(name))
     found, when = stage.map.geometry, stage.date[:16].replace("T", " ")
@@ -87,7 +87,7 @@ def residual_lines(fit: StageFit | None) -> list[str]:
 
 
 def visit_text(status: VisitStatus | None) -> str:
-    """Return what became of the latest move to a clicked place."""
+    """Return the outcome of the latest move to a clicked point."""
     if status is None:
         return ""
     if status.visit is Visit.FAILED:

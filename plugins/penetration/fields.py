@@ -57,7 +57,7 @@ class NumberField(QObject):
         self.complaint()
 
     def complaint(self) -> str | None:
-        """Return what is wrong with the text, and mark the field; None: nothing."""
+        """Return the problem of the text and mark the field, or None."""
         wrong = None
         try:
             self.value  # noqa: B018 (whether it can be read)

@@ -142,7 +142,7 @@ class PlatePanel(Panel):
         self._show_state()
 
     def end(self) -> None:
-        """Want no answer any more."""
+        """Discard the answer."""
         self.solving.stop()
         self.doing.setText(translate("plate", "Stopped."))
         self._show_state()

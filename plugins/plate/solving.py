@@ -55,7 +55,7 @@ class Solving(QObject):
         self._job.start(work)
 
     def stop(self) -> None:
-        """Want no answer any more; nobody waits for the thread."""
+        """Discard the answer without waiting for the thread."""
         self._job.stop()
 
     def close(self) -> None:

@@ -52,7 +52,7 @@ def room_text(free: int | None, written: int, since_s: float) -> str:
 
 
 def scarce(free: int | None, written: int) -> str | None:
-    """Return what is to be done about too little room; None where there is enough."""
+    """Return the remedy for too little disk space, or None."""
     if free is None or free > written + _SPARE_BYTES:
         return None
     return translate(

@@ -12,7 +12,7 @@ BEGIN, END = marked("recorder", "start"), marked("recorder", "end")
 
 
 class SpanError(InputError):
-    """A stretch of a recording that is none."""
+    """An invalid time span of a recording."""
 
 
 def unfinished_text(unfinished: Sequence[Unfinished]) -> str:

@@ -191,7 +191,7 @@ def without(scales: Scales, mode: str) -> Scales:
 
 
 def texts(scale: Scale, coordinate: Coordinate) -> Mapping[str, str]:
-    """Return what stands in each field."""
+    """Return the text of each field."""
     return {
         field.name: shown(field, coordinate).number(getattr(scale, field.name)) for field in FIELDS
     }

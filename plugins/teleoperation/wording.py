@@ -33,7 +33,7 @@ _TIP_SCALE = scale_in("mm", decimals=5)
 
 
 class Choice(NamedTuple):
-    """A choice that a button offers: what stands on it, and one sentence about it."""
+    """A choice of a button: its text, and one sentence about it."""
 
     text: str
     tip: str
@@ -167,7 +167,7 @@ def trust_text(view: DevicesView) -> str:
 
 
 def standing(view: DevicesView, state: TeleoperationState, *, stale: bool) -> tuple[str, Tone]:
-    """Return how it stands in one word, and how grave that is."""
+    """Return the state in one word, and its severity."""
     if stale:
         return translate("teleoperation", "no answer"), Tone.DANGER
     if state.driving:

@@ -39,7 +39,7 @@ class Adjustment:
         """What changed, by how much, and why."""
         asked = exact(self.asked, self.unit)
         used = exact(self.used, self.unit, size=self.asked)
-        factor = f"{self.used / self.asked:.4g}"
+        factor = rounded(self.used / self.asked)
         return f"axis {self.axis}: {self.parameter} {asked} → {used} (× {factor}), for {self.cause}"
 
 
@@ -160,7 +160,7 @@ class Draft:
         share = isinstance(asked, Share)
         value = self.low + asked.of_whole * self.span if isinstance(asked, Share) else asked
         if not (isfinite(value) and self.low < value < self.high):
-            stated = f"{100 * asked.of_whole:.6g} %" if isinstance(asked, Share) else value
+            stated = f"{rounded(100 * asked.of_whole, 6)} %" if isinstance(asked, Share) else value
             said = stated if share else exact(value, self.unit, size=self.high)
             raise ExcitationError(
                 message(

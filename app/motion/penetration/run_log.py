@@ -29,7 +29,7 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PenetrationRun:
-    """One run; SI units, positions as commanded, None for what did not come to pass.
+    """One run; SI units, positions as commanded, None for what did not happen.
 
     Attributes
     ----------

@@ -91,7 +91,7 @@ class AxisCalibration:
         return shaped if (offset > 0) is not self.inverted else -shaped
 
     def at_end(self, raw: float) -> bool:
-        """Whether it stands at an end that is not its rest."""
+        """Whether it is at an end that is not its rest."""
         return abs(self.deflection(raw)) == 1.0
 
 

@@ -46,7 +46,7 @@ class Button:
 
 
 class Threshold:
-    """Tells of an axis whether it is beyond a threshold; it comes back a little further in.
+    """A threshold with hysteresis that makes an axis a button.
 
     Parameters
     ----------

@@ -161,11 +161,11 @@ class InputArbiter:
 
     @property
     def mapping_open(self) -> bool:
-        """Whether mappings are made or sticks calibrated: nothing is sent, but for stops."""
+        """Whether devices are being set up: only stops are sent."""
         return self._mapping_open
 
     def open_mapping(self) -> None:
-        """Send nothing but stops from now on; what drove, drives no more."""
+        """Send only stops from now on; the device in control loses it."""
         if not self._mapping_open:
             self._mapping_open = True
             self._lost.append(marked("engine", "input devices are being set up"))
@@ -236,7 +236,7 @@ class InputArbiter:
         )
 
     def travel_m(self, drives: str) -> float | None:
-        """Return the way of the driving stick for a deflection of 1, m, where it is known."""
+        """Return the travel of the controlling stick for a deflection of 1, m, if known."""
         ways = (device.travel_m(drives) for device in self._of(self.driving))
         return next((way for way in ways if way is not None), None)
 

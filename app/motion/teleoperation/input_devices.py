@@ -94,7 +94,7 @@ class InputDevices:
 
     @property
     def profiles(self) -> tuple[ListedProfile, ...]:
-        """The profiles that the user has kept, the bad ones with what is wrong."""
+        """The user's saved profiles, invalid ones with their problem."""
         return listed_profiles(self._profiles)
 
     def use(self, profile: Profile | None) -> None:
@@ -148,14 +148,14 @@ class InputDevices:
 
     @property
     def view(self) -> DevicesView:
-        """What to show of it: of a step at most ``VIEW_S`` before the latest. It waits for nobody.
+        """The state for display, at most ``VIEW_S`` old; never waits.
 
         Sources and devices that cannot be used are in :attr:`InputHub.problems`.
         """
         return self._view
 
     def listen(self, tell: Callable[[InputSnapshot], None]) -> Callable[[], None]:
-        """Have every step told, on its thread, until what is returned is called.
+        """Call ``listener`` with every step, on its thread; return how to end that.
 
         ``tell`` must neither wait nor raise; that of a queue is good.
         """
@@ -170,7 +170,7 @@ class InputDevices:
 
     @property
     def problems(self) -> tuple[str, ...]:
-        """What is wrong with sources, devices and the profile, in words."""
+        """Problems of sources, devices and the profile, as text."""
         with self._lock:
             return (*self.hub.problems.values(), *self.arbiter.problems)
 
@@ -307,7 +307,7 @@ class InputDevices:
 
 
 def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:
-    """Return a profile of what is plugged in: the first device drives, the pad may take over.
+    """Return a profile of the connected devices; the first drives, the pad may take over.
 
     None where no device has anything that could be mapped.
     """

@@ -111,7 +111,7 @@ class MappedDevice:
 
     @property
     def deflections(self) -> Mapping[str, float]:
-        """What its trusted axes ask for, by what they drive."""
+        """Deflections of the trusted axes, by driven coordinate."""
         found: dict[str, float] = {}
         for mapping in self.mapping.axes if self.mapping is not None else ():
             if self._trust[mapping.control].reason is None and mapping.control in self._raw:
@@ -120,7 +120,7 @@ class MappedDevice:
         return found
 
     def travel_m(self, drives: str) -> float | None:
-        """Return the way of the grip that is a deflection of 1, m; None if nobody measured it."""
+        """Return the grip travel for a deflection of 1, m; None if not measured."""
         for mapping in self.mapping.axes if self.mapping is not None else ():
             if mapping.drives == drives:
                 return self._calibrations[mapping.control].travel_m

@@ -109,7 +109,7 @@ class Profile:
 
 @plain_dataclass(frozen=True, slots=True)
 class ListedProfile:
-    """A file of a folder of profiles: its profile, or what is wrong with it."""
+    """A file in the folder of profiles: its profile, or its problem."""
 
     path: Path
     profile: Profile | None

@@ -42,7 +42,7 @@ class RecentringError(InputError):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recentring:
-    """A way of the joints on which the tip stays.
+    """A path of the joints that keeps the tip in place.
 
     ``trajectory`` is what to play, from the present commands on; ``strayed_m`` (3,) is how far the
     tip leaves its place meanwhile, by the model.

@@ -81,7 +81,7 @@ class Bounds:
         return Motion(position, min(max(velocity, -fastest, -down), fastest, up))
 
     def stopping_place(self, motion: Motion) -> float:
-        """Return where a motion comes to rest if it brakes as hard as it may."""
+        """Return where a motion comes to rest under full braking."""
         position, velocity = motion
         return position + velocity * abs(velocity) / (2.0 * self.max_acceleration)
 
