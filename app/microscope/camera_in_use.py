@@ -129,7 +129,7 @@ class CameraInUse:
             )
         )
 
-    def let_go(self) -> None:
+    def close_and_forget(self) -> None:
         """Close the camera, also for the next start; raises as :meth:`open_address`."""
         self._refuse_in_use()
 

@@ -212,7 +212,7 @@ class Executor:
 
     def _next_segment(self, permit: Permit) -> None:
         segment = self._route.popleft()
-        targets, speeds = self._inverses.told(segment.targets, segment.speeds)
+        targets, speeds = self._inverses.commands_for(segment.targets, segment.speeds)
         self._driver.move_to(targets, speeds, permit=permit)
         self.targets = MappingProxyType({**self.targets, **segment.targets})
 

@@ -78,7 +78,7 @@ class HeldInverses:
         self.forget()
         self._sent = None
 
-    def told(
+    def commands_for(
         self, targets: Mapping[str, float], speeds: Mapping[str, float]
     ) -> tuple[Mapping[str, float], Mapping[str, float]]:
         """Return the commands that bring axes to targets, no faster than requested."""

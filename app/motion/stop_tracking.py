@@ -30,7 +30,7 @@ class StopTracking:
             self._failure = failure
         self._to_tell.append(request)
 
-    def untold(self) -> Iterator[StopRequest]:
+    def unreported(self) -> Iterator[StopRequest]:
         """Yield each stop that has not been reported yet."""
         while self._to_tell:
             yield self._to_tell.popleft()

@@ -139,7 +139,7 @@ class Worker:
 
     def run_once(self) -> None:
         """Do one cycle. Whatever the driver raises ends in the failed state, never in here."""
-        for request in self._stops.untold():
+        for request in self._stops.unreported():
             self._emit(Stopped(request))
         try:
             self._cycle()
@@ -193,10 +193,10 @@ class Worker:
 
     def shut_down(self) -> None:
         """Stop and release the device."""
-        self._let_go()
+        self._release_device()
         self._publish()
 
-    def _let_go(self) -> None:
+    def _release_device(self) -> None:
         self._gate.reconnected()
         self._mailbox.clear()
         self._executor.forget()
@@ -218,7 +218,7 @@ class Worker:
         request = self._mailbox.take_connection_request()
         if request is not None:
             if request.driver is not self.driver:
-                self._let_go()
+                self._release_device()
             if request.driver is not None:
                 self._use(request.driver)
                 self._connect()

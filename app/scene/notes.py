@@ -45,7 +45,7 @@ class Old:
     def __init__(self, from_s: float) -> None:
         self._from_s = from_s
 
-    def told(self, age_s: float | None) -> float | None:
+    def shown(self, age_s: float | None) -> float | None:
         """Return the age, s, in steps; None of what is new."""
         if age_s is None or age_s <= self._from_s:
             return None

@@ -97,7 +97,7 @@ class RobotScene:
             if place is not None and seen:
                 commands += self._pose(ghost, place)
         unknown = frozenset(ghost for ghost, place in joints.items() if place is None)
-        age_s = self._old.told(reading.age_s)
+        age_s = self._old.shown(reading.age_s)
         colours = {"model": self._colours.model, "real": self._colours.real}
         unseen = unknown & self.shown
         commands.append(note(self.shown, unseen, age_s, self.factor, colours, self._words))

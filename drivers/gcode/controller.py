@@ -185,7 +185,7 @@ class Controller:
         if self._lost is not None:
             raise ConnectionLostError(self._lost)
         self._follow_stops()
-        for told, asked_s, fresh in self.dialogue.hear():
+        for told, asked_s, fresh in self.dialogue.received():
             self._take(told, asked_s, fresh)
         self._empty_at_rest()
         self._go_on()

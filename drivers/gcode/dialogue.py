@@ -80,7 +80,7 @@ class Dialogue:
         self._sent += 1
         self.asked_s, self._asked_acts = now_s, self._acts
 
-    def hear(self) -> Iterator[tuple[Message, float | None, bool]]:
+    def received(self) -> Iterator[tuple[Message, float | None, bool]]:
         """Yield what has come, for a status also when it was requested, and whether it is fresh.
 
         A fresh one was requested after everything that was said. Where the answer took too long to

@@ -127,7 +127,7 @@ class Opening:
             self._dialogue.ask(_ASK_S, self._last_s)
             self._last_s = self._dialogue.asked_s or self._last_s
             self._pause(_STEP_S)
-            for told, _, fresh in self._dialogue.hear():
+            for told, _, fresh in self._dialogue.received():
                 if isinstance(told, Status) and fresh:
                     return told
             if not reset and self._clock() - began_s > deaf_s:
@@ -145,7 +145,7 @@ class Opening:
         began_s, heard = self._clock(), list[Message]()
         while self._clock() - began_s < limit_s:
             self._pause(_STEP_S)
-            for told, _, _ in self._dialogue.hear():
+            for told, _, _ in self._dialogue.received():
                 heard.append(told)
                 if ends(told):
                     return heard

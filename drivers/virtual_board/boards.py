@@ -49,7 +49,7 @@ class Port:
             If the motion leaves what a number can hold.
         """
         self._boards.live(at_s)
-        self._line.hear(data, self._boards.now_s)
+        self._line.receive(data, self._boards.now_s)
 
     def advance(self, to_s: float) -> bytes:
         """Advance until this time; return what has reached the host by then.

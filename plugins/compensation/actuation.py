@@ -115,7 +115,7 @@ class Actuation:
         self.trials.clear()
         self._live.clear()
 
-    def heard(self, event: Event) -> None:
+    def on_event(self, event: Event) -> None:
         """Take what a trial left from its record."""
         if not isinstance(event, PlaybackFinished) or event.record is None or not event.completed:
             return

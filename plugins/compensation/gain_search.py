@@ -113,7 +113,7 @@ class GainSearch(QObject):
             done,
         )
 
-    def enough(self) -> None:
+    def stop(self) -> None:
         """End the search; it keeps what it found."""
         self._enough.set()
 

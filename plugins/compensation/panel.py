@@ -160,7 +160,7 @@ class CompensationPanel(Panel):
     def stop(self) -> None:
         """Stop the machine's trial, or end what is worked on; a search keeps what it found."""
         if self.search.running:
-            self.search.enough()
+            self.search.stop()
         elif self.job.running:
             self.job.stop()
             self.controls.tell(translate("compensation", "Stopped; nothing was replaced."), None)
@@ -316,7 +316,7 @@ class CompensationPanel(Panel):
         self.job.finished.connect(self._finished)
         self.job.failed.connect(self._failed)
         self.search.failed.connect(self._failed)
-        self._happened.connect(self.actuation.heard)
+        self._happened.connect(self.actuation.on_event)
         self._unsubscribe = self.workbench.session.subscribe(self._happened.emit)
         self.follow(self._refresh)
         self.workbench.theme_changed.connect(self._use_theme)

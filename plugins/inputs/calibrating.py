@@ -96,7 +96,7 @@ class Calibrating:
         self._run = CalibrationRun(self.device.axes, wanted, sides, last)
         self.step, self._begun_s, self.problems = Step.REST, now_s, {}
 
-    def hear(self, readings: Sequence[InputReading]) -> None:
+    def receive(self, readings: Sequence[InputReading]) -> None:
         """Take in what the device has said since the measurement began."""
         if self._run is not None:
             for reading in readings:

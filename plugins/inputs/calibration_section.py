@@ -118,11 +118,11 @@ class CalibrationSection(Section):
         raw = next((a.raw for a in device.axes if a.control == self.axis.currentData()), None)
         self.curve.show_curve(self._shown, raw)
 
-    def hear(self, snapshot: InputSnapshot) -> None:
+    def receive(self, snapshot: InputSnapshot) -> None:
         """Take in what the devices have said."""
         for key, readings in snapshot.readings.items():
             if key in self._all:
-                self._all[key].hear(readings)
+                self._all[key].receive(readings)
 
     def leave(self) -> None:
         """Forget what was not kept; someone is told of it."""

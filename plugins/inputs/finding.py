@@ -31,7 +31,7 @@ class Finding:
             for detection in self._detections.values():
                 detection.feed(self._key, view.newest)
 
-    def hear(self, snapshot: InputSnapshot) -> None:
+    def receive(self, snapshot: InputSnapshot) -> None:
         """Take in what a step has read; what was said before is known already."""
         for reading in snapshot.readings.get(self._key, ()):
             if self._newest is not None and reading.host_time_s < self._newest.host_time_s:

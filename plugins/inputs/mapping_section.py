@@ -115,10 +115,10 @@ class MappingSection(Section):
         for row in self._rows:
             row.show_edited(edited, self.message.text() if row is self._row else None)
 
-    def hear(self, snapshot: InputSnapshot) -> None:
+    def receive(self, snapshot: InputSnapshot) -> None:
         """Take in what the devices have said."""
         if self._finding is not None:
-            self._finding.hear(snapshot)
+            self._finding.receive(snapshot)
 
     # --- finding a control ------------------------------------------------------------------------
 

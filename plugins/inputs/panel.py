@@ -163,8 +163,8 @@ class InputsPanel(Panel):
         mapping, calibration = self._make_set_up()
         while self._snapshots:
             snapshot = self._snapshots.popleft()
-            mapping.hear(snapshot)
-            calibration.hear(snapshot)
+            mapping.receive(snapshot)
+            calibration.receive(snapshot)
         page = self.page
         mapping.setVisible(page is Page.MAPPING and device is not None)
         mapping.message.setVisible(page is Page.MAPPING and device is not None)

@@ -57,7 +57,7 @@ class CameraSection(Section):
         self.open.setProperty("primary", True)
         self.close_button = button(
             translate("microscope", "Close"),
-            lambda: workbench.ask(microscope.camera.let_go),
+            lambda: workbench.ask(microscope.camera.close_and_forget),
             translate("microscope", "Close the camera"),
         )
         self.objective = SteadyChoice(

@@ -129,7 +129,7 @@ class PadArea(QWidget):
         elif key not in _KEYS:
             super().keyReleaseEvent(event)
         elif not event.isAutoRepeat():
-            self._stick.let_go(_KEYS[key])
+            self._stick.release(_KEYS[key])
         self._follow()
 
     # --- pointer ----------------------------------------------------------------------------------

@@ -80,7 +80,7 @@ class VirtualStick:
         self._keys.add(key)
         self._tell()
 
-    def let_go(self, key: Key) -> None:
+    def release(self, key: Key) -> None:
         """Release a key."""
         self._keys.discard(key)
         self._tell()

@@ -131,7 +131,7 @@ class Teleoperator:
 
         def change() -> None:
             self._scales = scales
-            self._let_go(
+            self._release_axes(
                 marked("engine", "the scales were changed") if self.state.driving else None
             )
 
@@ -152,7 +152,7 @@ class Teleoperator:
         if before.epoch != self._permit.epoch:
             self._reason = self._reason or _STOPPED
         if self._reason is not None:
-            self._let_go(None)
+            self._release_axes(None)
         else:
             self._steer(intent, state, now_s, dt)
         channel = self._channels.get(self._mode)
@@ -231,7 +231,7 @@ class Teleoperator:
             for channel in channels:
                 channel.steering.rescale(factor)
         except InputError as error:
-            self._let_go(str(error))
+            self._release_axes(str(error))
             return
         for channel in channels:
             steering, driving = channel.steering, any(channel.sent.values())
@@ -262,7 +262,7 @@ class Teleoperator:
             return
         lost = channel.following.lost(speeds, state)
         if lost is not None:
-            self._let_go(
+            self._release_axes(
                 message("engine", "axis {axis} does not follow the stick").fill(axis=AxisName(lost))
             )
             return
@@ -270,7 +270,7 @@ class Teleoperator:
             used = self._session.move_velocity(speeds, LEASE_S, JOYSTICK, permit=self._permit)
         except InputError as error:
             if not self._permit.valid:  # the next step says that a stop has come
-                self._let_go(None)
+                self._release_axes(None)
                 return
             self._refused = str(error)
             channel.steering.hold_back(before, 0.0)
@@ -387,8 +387,8 @@ class Teleoperator:
             channels[name] = replace(channel, following=old.following, sent=old.sent)
         self._law, self._channels = kind, channels
 
-    def _let_go(self, reason: str | None) -> None:
-        """Halt what it moves, and begin again where the machine then stands."""
+    def _release_axes(self, reason: str | None) -> None:
+        """Halt the moving axes; steering restarts from where the machine is then."""
         if reason is not None:
             self._refused = reason
         self._drop_all()

@@ -65,7 +65,7 @@ class HidDevice(InputDevice):
             state = self._decoder.decode(report)
             if state is not None:
                 reading = InputReading(self._clock(), *state)
-                self._streaming.hear(reading)
+                self._streaming.receive(reading)
                 readings.append(reading)
         self.streams = self._streaming.found
         return tuple(readings)

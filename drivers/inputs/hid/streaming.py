@@ -20,7 +20,7 @@ class Streaming:
         self._newest: InputReading | None = None
         self._since_s = 0.0
 
-    def hear(self, reading: InputReading) -> None:
+    def receive(self, reading: InputReading) -> None:
         """Take in what it said."""
         before, self._newest = self._newest, reading
         time_s = reading.host_time_s

@@ -127,7 +127,7 @@ def test_who_closed_it_is_asked_anew(used):
     first = used("a")
     first.open("fake:a")
     first.step(0.1)
-    first.let_go()
+    first.close_and_forget()
     first.step(0.2)
     assert used("a").camera.identity.key == "simulated:microscope"
 

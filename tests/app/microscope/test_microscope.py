@@ -40,7 +40,7 @@ def test_nothing_is_opened_before_somebody_looks_and_then_by_itself(tmp_path, ma
     assert status.camera.key == "simulated:microscope"
     assert status.feed.frame is not None
     assert status.scale_source is ScaleSource.ROBOT_FILE
-    work.microscope.camera.let_go()
+    work.microscope.camera.close_and_forget()
     work.step(40)
     assert work.microscope.status.camera is None  # who closed it wants none
 
