@@ -269,7 +269,7 @@ class ProfileRunner(Driver, ABC):
 
     @final
     def upload(self, profile: Profile, *, permit: Permit | None = None) -> None:
-        """Hand over a profile, from where its axis is; it waits for :meth:`trigger`.
+        """Upload a profile that begins at the axis' position; it waits for :meth:`trigger`.
 
         Raises
         ------

@@ -89,7 +89,7 @@ class Driver(ABC):
 
     @final
     def open(self) -> None:
-        """Connect to the device, which holds where it stands.
+        """Connect to the device, which holds its position.
 
         Raises
         ------
@@ -116,7 +116,7 @@ class Driver(ABC):
 
     @property
     def stop_pending(self) -> bool:
-        """Whether the device has yet to confirm a stop; one that cannot tell confirms at once."""
+        """Whether the device has not yet confirmed a stop; without reports it confirms at once."""
         return False
 
     @property
@@ -174,13 +174,13 @@ class Driver(ABC):
 
     @final
     def halt(self) -> None:
-        """Tell the device to stop, where the gate has been told already; as :meth:`stop`."""
+        """Stop the device after the gate has been closed; as :meth:`stop`."""
         if self._is_open:
             self._stop()
 
     @final
     def clear_fault(self, *, permit: Permit | None = None) -> None:
-        """Acknowledge a fault: the device holds where it stands. Nothing happens without one.
+        """Acknowledge a fault: the device holds its position. No effect without a fault.
 
         Raises
         ------

@@ -91,7 +91,7 @@ class Gate:
             self._epoch = self._epoch._replace(stops=self._epoch.stops + 1)
 
     def release(self) -> None:
-        """End a latch; what was requested before does not pass any more."""
+        """End a latch; earlier requests remain blocked."""
         with self._lock:
             self._latched = None
             self._epoch = self._epoch._replace(releases=self._epoch.releases + 1)

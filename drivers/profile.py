@@ -54,7 +54,7 @@ class ProfileSegment:
             yield c / q
 
     def greatest_speed(self) -> float:
-        """Return the greatest speed on the way, m/s or rad/s."""
+        """Return the greatest speed, m/s or rad/s."""
         places = [0.0, 1.0]
         if self.c3:
             places.append(float(np.clip(-self.c2 / (3.0 * self.c3), 0.0, 1.0)))
@@ -69,7 +69,7 @@ class ProfileSegment:
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A motion of one axis, from where it stands."""
+    """A motion of one axis from its present position."""
 
     axis: str
     segments: tuple[ProfileSegment, ...]

@@ -58,7 +58,7 @@ class CameraHub:
 
     @property
     def problems(self) -> Mapping[str, str]:
-        """What is wrong, by name of the source, as of the latest :meth:`look`."""
+        """Problems by source name, as of the latest :meth:`look`."""
         return MappingProxyType({**self._broken, **self._failed})
 
     def look(self) -> tuple[CameraIdentity, ...]:

@@ -80,7 +80,7 @@ class OpenCvSource(CameraSource):
         self._capture = capture
 
     def devices(self) -> Sequence[CameraIdentity]:
-        """Return what is plugged in, where the system tells."""
+        """Return the connected cameras, where the system lists them."""
         return tuple(
             CameraIdentity(f"opencv:{number}", name, "opencv")
             for number, name in self._listed().items()

@@ -5,7 +5,7 @@ from rotemina.drivers.clock import Clock
 
 
 class Pace:
-    """Beats at a steady rate, by the clock; a beat that nobody waited for is counted."""
+    """Steady beats by the clock; beats without a waiter are counted."""
 
     def __init__(self, rate_hz: float, *, clock: Clock, wait: Wait) -> None:
         self._clock = clock

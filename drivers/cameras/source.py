@@ -39,7 +39,7 @@ class CameraSource(ABC):
 
     @abstractmethod
     def devices(self) -> Sequence[CameraIdentity]:
-        """Return what is there now; may take some ms, never raises for none."""
+        """Return the available cameras; may take some ms, never raises for none."""
 
     def addressed(self, address: str) -> CameraIdentity:
         """Return which camera an operator means; whether it is there is found out by opening it.

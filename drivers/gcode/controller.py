@@ -89,7 +89,7 @@ class Controller:
 
     @property
     def stop_pending(self) -> bool:
-        """Whether it has yet to come to rest and to be emptied after a stop."""
+        """Whether it must still come to rest and be emptied after a stop."""
         return bool(self._stops) or self._braking or self._reset_s is not None
 
     @property

@@ -149,6 +149,6 @@ def check_stage(robot: Robot, letters: str) -> None:
 
 
 def feed_of(way: Mapping[StageAxis, float], seconds: float) -> float:
-    """Return F for a way, mm or degrees of each axis, in a time: per minute, rounded down."""
+    """Return F for a distance, mm or degrees of each axis, in a time: per minute, rounded down."""
     length = sqrt(sum(part * part for part in way.values()))
     return max(floor(60e3 * length / seconds) / 1e3, _DIGIT)

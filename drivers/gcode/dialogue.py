@@ -58,11 +58,11 @@ class Dialogue:
         self._port.write(byte)
 
     def invalidate_reports(self) -> None:
-        """Trust no report any more that was requested before now."""
+        """Invalidate all reports requested before now."""
         self._acts += 1
 
     def forget(self) -> None:
-        """Wait no more for answers: the controller has been reset."""
+        """Stop waiting for answers: the controller has been reset."""
         self.awaited = self.asked_s = None
         self.invalidate_reports()
 

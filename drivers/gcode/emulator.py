@@ -128,7 +128,7 @@ class EmulatedStage:
             self._alarm(1, critical=True)
 
     def cut_power(self) -> None:
-        """Take the supply away and give it back: nothing of what it knew is left."""
+        """Interrupt the supply: the controller loses its whole state."""
         self._power_on()
 
     # --- bytes and lines -----------------------------------------------------------------------

@@ -98,7 +98,7 @@ Message = Status | Answer | Alarm | Welcome | Setting | Note
 
 
 def parse_report(line: str) -> Message | None:
-    """Return what a line says; None where it is none that a controller says."""
+    """Return the message of a line; None if it is not a controller's."""
     if line == "ok":
         return Answer()
     if line.startswith("Grbl"):

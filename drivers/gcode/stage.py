@@ -103,7 +103,7 @@ class GcodeStage(Homer, Linked):
 
     @property
     def descriptions(self) -> tuple[AxisDescription, ...]:
-        """The axes, with the steps that the controller tells."""
+        """The axes, with the controller's step sizes."""
         told = super().descriptions
         if not self._axes:
             return told
@@ -121,7 +121,7 @@ class GcodeStage(Homer, Linked):
 
     @property
     def stop_pending(self) -> bool:
-        """Whether the controller has yet to come to rest and to be emptied after a stop."""
+        """Whether the controller must still come to rest and be emptied after a stop."""
         return self._controller is not None and self._controller.stop_pending
 
     def link_quality(self) -> LinkQuality:

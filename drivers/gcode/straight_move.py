@@ -49,7 +49,7 @@ class StraightMove:
         targets: Mapping[str, float],
         speeds: Mapping[str, float],
     ) -> Self | None:
-        """Return the way from a report's position to targets, m or rad; None where it is none."""
+        """Return the move from a report's position to targets, m or rad, or None."""
         moved, seconds, braking_s = [], 0.0, 0.0
         for axis in axes:
             if axis.name not in targets:

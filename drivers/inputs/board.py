@@ -21,7 +21,7 @@ Told = tuple[tuple[float, ...], tuple[bool, ...]]
 
 
 class BoardInputs(InputSource):
-    """What stands on the controller's desk, if the driver in use has it.
+    """The source of the joystick at the controller, if the driver in use has one.
 
     The driver belongs to a worker that alone talks to the device. Nothing is asked of the device
     here: its driver's latest status and readings are looked at, as any thread may.
@@ -43,7 +43,7 @@ class BoardInputs(InputSource):
         self._driver = driver
 
     def devices(self) -> Sequence[InputIdentity]:
-        """Return the one device, if the driver in use has it and tells of it."""
+        """Return the device, if the driver in use has and reports it."""
         driver = self._driver()
         if not isinstance(driver, AnalogInputs):
             return ()

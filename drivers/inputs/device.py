@@ -17,7 +17,7 @@ from rotemina.sim.plugin_points import API_VERSIONS
 
 
 class InputLostError(DriverError, ConnectionError):
-    """The input device was unplugged, or does not answer any more."""
+    """The input device was unplugged, or no longer responds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,7 @@ class Rumbler(InputDevice, ABC):
 
     @abstractmethod
     def rumble(self, strength: float) -> None:
-        """Shake with a strength of 0 (not) to 1 until told otherwise; never waits."""
+        """Rumble with a strength of 0 (off) to 1 until changed; never waits."""
 
 
 class InputSource(ABC):

@@ -104,7 +104,7 @@ class InputHub:
 
     @property
     def problems(self) -> Mapping[str, str]:
-        """What is wrong, by name of the source or key of the device."""
+        """Problems by source name or device key."""
         with self._lock:
             return MappingProxyType(
                 {**self._broken, **self._source_problems, **self._device_problems}

@@ -133,7 +133,7 @@ class Pad(InputSource):
         return (self.identity,) if self._there else ()
 
     def open(self, identity: InputIdentity) -> "PadDevice":
-        """Open the device, which first tells how it stands; see :class:`InputSource`."""
+        """Open the device, which first reports its state; see :class:`InputSource`."""
         with self._lock:
             if not self._there or identity != self.identity:
                 raise InputLostError(
@@ -147,7 +147,7 @@ class Pad(InputSource):
         return device
 
     def readings(self, device: "PadDevice") -> tuple[InputReading, ...]:
-        """Return what a device has not yet told; a lease that ran out is told too.
+        """Return the unreported readings of a device, including an expired lease.
 
         Raises
         ------
@@ -165,7 +165,7 @@ class Pad(InputSource):
         return readings
 
     def forget(self, device: "PadDevice") -> None:
-        """Tell a device nothing any more: it was closed."""
+        """Stop reporting to a closed device."""
         with self._lock:
             if device in self._devices:
                 self._devices.remove(device)

@@ -21,7 +21,7 @@ class ScriptError(InputError):
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """How the device stands from ``time_s`` on; while it is not ``plugged`` nobody can read it."""
+    """The device's state from ``time_s`` on; unreadable while not ``plugged``."""
 
     time_s: float
     axes: tuple[float, ...]

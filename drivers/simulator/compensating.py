@@ -64,7 +64,7 @@ class Compensating:
         return rest.command
 
     def lend(self, index: int, model: InverseModel | None, at: float) -> float:
-        """Let a loop have the inverse of an axis that stands at ``at``; return its command there.
+        """Lend the inverse of an axis at ``at`` to a loop; return its command there.
 
         Raises
         ------
@@ -108,7 +108,7 @@ class Compensating:
         return low, high
 
     def sent(self, command: FloatArray) -> FloatArray:
-        """Return what the actuators (n, axes) are told at the next n ticks."""
+        """Return the commands (n, axes) to the actuators at the next n ticks."""
         if not self._inverses or not len(command):
             return command
         sent = command.copy()

@@ -189,7 +189,7 @@ class SimulatedDevice:
         return self._compensating.rest(model, float(self._sent[index]))
 
     def compensate(self, index: int, model: InverseModel | None, rest: Rest) -> None:
-        """Send an axis, by its number, through an inverse, or as it is told; it rests so.
+        """Apply an inverse to an axis, by its number, or remove it; the axis rests.
 
         Raises
         ------

@@ -136,7 +136,7 @@ class Simulator(
 
     @property
     def stop_pending(self) -> bool:
-        """Whether a stop was requested that the simulated time has not come to."""
+        """Whether a requested stop lies ahead of the simulated time."""
         return bool(self._stops_s)
 
     @property

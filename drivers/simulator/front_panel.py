@@ -41,7 +41,7 @@ class FrontPanel(Display, AnalogInputs, ABC):
         return self._inputs
 
     def set_analog_inputs(self, readings: Sequence[float], buttons: Sequence[bool]) -> None:
-        """Let the potentiometers stand there, 0 to 1, and the buttons be held or not.
+        """Set the potentiometers, 0 to 1, and the held buttons.
 
         Raises
         ------

@@ -28,7 +28,7 @@ class Chunk(NamedTuple):
 
 
 def selected(samples: Samples, which: BoolArray) -> Samples:
-    """Return those (n,) of all ticks that are handed out."""
+    """Return which (n,) of all ticks are sampled."""
     if which.all():
         return samples
     return Samples(

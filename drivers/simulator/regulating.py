@@ -48,7 +48,7 @@ class Regulating:
 
     @property
     def tick_s(self) -> float:
-        """Interval between ticks: that of the loops, or the samples' where there are none."""
+        """Interval between ticks: that of the loops, or the samples' without loops."""
         intervals = [one.interval_s for one in self.regulations.values()]
         return intervals[0] if intervals else self._sample_s
 
@@ -123,7 +123,7 @@ class Regulating:
         self.regulations = MappingProxyType(left)
 
     def hold(self, bounds: FloatArray) -> None:
-        """Keep every loop's output within bounds (axes,), m or rad, of what it is now.
+        """Keep every loop's output within bounds (axes,), m or rad, of its present value.
 
         So a loop that holds a stopped axis cannot lead it away, whatever its sensor says.
         """
@@ -149,7 +149,7 @@ class Regulating:
         sent: FloatArray,
         chance: Chance,
     ) -> tuple[Motion, PlantState, FloatArray]:
-        """Sample the plant at n ticks; return motion, state and what actuators (n, axes) are told.
+        """Sample the plant at n ticks; return motion, state and actuator commands (n, axes).
 
         Raises
         ------

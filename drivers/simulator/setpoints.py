@@ -38,7 +38,7 @@ class SetpointGenerator:
 
     @property
     def moving(self) -> bool:
-        """Whether any axis has yet to arrive or to stop."""
+        """Whether any axis is still moving or stopping."""
         return bool((self._velocity != 0).any() or (self._position != self._target).any())
 
     @property
@@ -57,7 +57,7 @@ class SetpointGenerator:
             self._stopping[index] = False
 
     def drive(self, index: int, velocity: float) -> None:
-        """Let an axis go at a speed until it is told otherwise, or meets an end of its range."""
+        """Move an axis at a speed until commanded otherwise, or up to an end of its range."""
         if velocity == 0.0:
             self.stop(index)
         else:

@@ -35,7 +35,7 @@ class Channel:
         return b"".join(self._one(byte) for byte in data)
 
     def noise(self, count: int) -> bytes:
-        """Return bytes that nobody sent."""
+        """Return spurious bytes."""
         return self._chance.bytes(count)
 
     def _one(self, byte: int) -> bytes:

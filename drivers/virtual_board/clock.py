@@ -14,7 +14,7 @@ def signed(difference_us: int) -> int:
 
 
 class BoardClock:
-    """Counts from ``offset_us`` at ``since_s`` on, and tells ticks of the machine by their times.
+    """Counts from ``offset_us`` at ``since_s``, and converts machine times to ticks.
 
     Parameters
     ----------

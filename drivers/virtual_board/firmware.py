@@ -108,7 +108,7 @@ class Firmware:
         drive.bound(*kept.limits(axis), kept.speed(axis), kept.acceleration(axis))
 
     def reset(self, fault: Fault) -> None:
-        """Begin again, as after power came: nobody knows where the steppers are."""
+        """Restart as after power-up: the positions of the steppers are unknown."""
         self.kept.recall(self.now_s)
         for axis, drive in enumerate(self.drives):
             self.rebound(axis, drive)
@@ -316,7 +316,7 @@ class Firmware:
             self.ways[axis] = float(change) or self.ways[axis]
 
     def preview(self, ticks: int) -> FloatArray | None:
-        """Return the commands (ticks, axes) to come if no frame does; None if nobody knows.
+        """Return the coming commands (ticks, axes) if no frame arrives, or None if unknown.
 
         While set-points play, these are fewer: up to the last one that waits.
         """

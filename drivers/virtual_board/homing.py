@@ -16,7 +16,7 @@ class _Phase(Enum):
 
 
 class HomingAxis:
-    """One stepper that is being homed; ``step`` follows its switch and tells when it counts."""
+    """One stepper during homing; ``step`` follows its switch."""
 
     def __init__(self, axis: int, drive: AxisDrive, kept: ParameterMemory) -> None:
         self.axis = axis

@@ -122,7 +122,7 @@ class SerialLine:
                 self._send(encoded(board.framed(message)), at_s, board)
 
     def disturb(self, data: bytes, at_s: float, *, towards_host: bool) -> None:
-        """Let bytes be on the line that nobody sent."""
+        """Put spurious bytes on the line."""
         if towards_host:
             self._send(data, at_s, None)
         else:

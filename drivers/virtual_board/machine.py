@@ -83,12 +83,12 @@ class Machine:
         self.command_origin[index] -= steps * self.step[index]
 
     def freeze(self, index: int) -> None:
-        """Let a sensor say the same from now on."""
+        """Freeze a sensor."""
         self.simulate()
         self._frozen[index] = float(self.reading[index])
 
     def thaw(self, index: int) -> None:
-        """Let a sensor tell the truth again."""
+        """Release a frozen sensor."""
         self._frozen.pop(index, None)
 
     def set_effects(self, effects: tuple[AxisEffect, ...]) -> None:

@@ -65,7 +65,7 @@ class Profile:
         self.since, self._from, self.trigger = tick, position, None
 
     def end(self) -> None:
-        """Move no more; it may be armed again."""
+        """End the motion; it may be armed again."""
         self.since = self.trigger = None
 
     def clear(self) -> None:

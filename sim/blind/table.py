@@ -39,7 +39,7 @@ HALVES = {
 
 
 def shown(figure: Figure, form: str) -> str:
-    """Return a figure with its interval, or a dash where no case tells."""
+    """Return a figure with its interval, or a dash without a case."""
     if figure.value is None or figure.low is None or figure.high is None:
         return "–"
     if form == "share":

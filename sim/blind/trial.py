@@ -140,7 +140,7 @@ def residual_difference(
 
 
 def beyond(values: FloatArray, shapes: Sequence[FloatArray]) -> FloatArray:
-    """Return what is left of ``values`` (rows,) beside the best sum of ``shapes``."""
+    """Return the residual of ``values`` (rows,) after the best sum of ``shapes``."""
     if not shapes:
         return values
     matrix = np.column_stack(shapes)

@@ -46,7 +46,7 @@ class Figure(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Calibration:
-    """What the runs tell of one axis' sensor.
+    """The calibration of one axis' sensor from runs.
 
     Attributes
     ----------

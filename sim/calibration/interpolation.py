@@ -55,7 +55,7 @@ class _Stretches(NamedTuple):
 
 
 def found_period(runs: list[Run], remainders: list[FloatArray]) -> float:
-    """Return the period, m or rad, of what repeats over position; 0 where nothing does."""
+    """Return the period over position, m or rad, or 0 if nothing repeats."""
     stretches = _stretches(runs, remainders)
     if stretches is None:
         return 0.0

@@ -37,7 +37,7 @@ class Part(NamedTuple):
 
 
 class Comparison(NamedTuple):
-    """What a record tells of one axis' sensor.
+    """A record's comparison of one axis' sensor with the reference.
 
     ``sound`` (n,) are the rows at which the laser was there; ``losses`` are words.
     """

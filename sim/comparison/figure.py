@@ -23,7 +23,7 @@ _ROW_INCHES = 2.1
 
 
 def save_figure(comparison: Comparison, path: Path) -> None:
-    """Write the picture, completely or not at all; the name's ending tells its format.
+    """Write the picture, completely or not at all; the name's ending sets its format.
 
     Raises
     ------

@@ -28,7 +28,7 @@ _SLACK = 1e-3  # of the span
 
 
 def conditioning(robot: Robot, model: InverseModel, start: float) -> Record:
-    """Return a way from ``start`` (m or rad) to the high end, to the low end, and to it again.
+    """Return a path from ``start`` (m or rad) to the high end, the low end, and back.
 
     It is to be played with the inverse on. It turns as near to the ends of what the inverse saw
     as commands stay inside the machine's range; the axis' speed and acceleration are kept.

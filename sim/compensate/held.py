@@ -83,7 +83,7 @@ class HeldInverse:
         return out
 
     def rate(self, target: float) -> float:
-        """Return by what a speed on the way to a target is to be multiplied.
+        """Return the factor for a speed on the way to a target.
 
         It is the least slope of the map there: the axis goes nowhere faster than is wanted.
         """

@@ -25,7 +25,7 @@ NAMES: dict[Kind, str] = {
 
 @dataclass(frozen=True, slots=True)
 class Residual:
-    """What is left between the command of an inverse and the one that was given.
+    """The difference between the command of an inverse and the recorded one.
 
     Attributes
     ----------

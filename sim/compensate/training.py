@@ -31,7 +31,7 @@ _FAR = 0.2  # of the range: so far outside it a position has an origin of its ow
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trained:
-    """What came of a training.
+    """The result of a training.
 
     Attributes
     ----------

@@ -81,7 +81,7 @@ class View(Protocol):
 
     @property
     def answers(self) -> Sequence[Signals]:
-        """What the model says of each record (n,) so far, SI: takes a simulation."""
+        """The model's answer for each record (n,), SI; runs a simulation."""
 
     @property
     def unbent(self) -> tuple[Sequence[Signals], Sequence[Signals]]:

@@ -45,7 +45,7 @@ class Adjustment:
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """What one axis is told: positions (n,) at the rate, m or rad.
+    """The commands of one axis: positions (n,) at the rate, m or rad.
 
     ``period`` is the rows after which it repeats, or None; ``parameters`` are those used.
     """
@@ -178,7 +178,7 @@ class Draft:
     def amplitude(
         self, asked: Amount | None, offset: float, allowed: Mapping[str, float] | None = None
     ) -> float:
-        """Return the way to each side of ``offset``, m or rad, within the range and ``allowed``.
+        """Return the amplitude about ``offset``, m or rad, within the range and ``allowed``.
 
         Raises
         ------

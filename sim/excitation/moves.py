@@ -32,7 +32,7 @@ def longest_stroke(duration_s: float, speed: float, acceleration: float) -> floa
 
 
 def shortest_duration(stroke: float, speed: float, acceleration: float) -> float:
-    """Return the least time for a way (>= 0) from rest to rest, s; 0 where nothing binds."""
+    """Return the least time for a distance (>= 0) from rest to rest, s; 0 without limits."""
     if speed == inf or stroke * acceleration <= speed**2:
         return 2.0 * sqrt(stroke / acceleration)
     return stroke / speed + speed / acceleration

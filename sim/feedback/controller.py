@@ -21,7 +21,7 @@ _ANY = float(np.finfo(np.float64).max)  # of finite errors
 
 
 class Controller:
-    """Gives what to ask of an axis, sample by sample; begin with :meth:`start`.
+    """Computes the request to an axis, sample by sample; begin with :meth:`start`.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class Controller:
         self.begun_at = self.integral
 
     def hold(self, most: float) -> None:
-        """Keep the output within ``most`` (m or rad) of what it is now, until :meth:`lead`.
+        """Keep the output within ``most`` (m or rad) of its present value, until :meth:`lead`.
 
         A reading that is farther from the reference is not answered at all.
         """

@@ -54,7 +54,7 @@ class FeedForward:
         self._before = [0.0] * (len(self._taps) - 1)
 
     def start(self, reference: float) -> float:
-        """Rest at a reference and return what is asked there."""
+        """Rest at a reference, and return the output there."""
         self._before = [reference] * (len(self._taps) - 1)
         if self._inverse is None:
             return reference

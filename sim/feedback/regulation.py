@@ -13,7 +13,7 @@ from rotemina.sim.robot.model import Robot
 
 
 class Regulation:
-    """A loop that may be closed around an axis: there is none that was not found stable.
+    """A loop approved for an axis, always found stable.
 
     Parameters
     ----------

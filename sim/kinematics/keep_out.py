@@ -147,7 +147,7 @@ class KeepOutZone:
         )
 
     def check_sweep(self, low: FloatArray, high: FloatArray) -> Box:
-        """Return :meth:`swept`; refuse what might leave the bounds on the way.
+        """Return :meth:`swept`; refuse if the path may leave the bounds.
 
         Raises
         ------
@@ -164,7 +164,7 @@ class KeepOutZone:
         return box
 
     def beyond(self, present: Box) -> Self:
-        """Return bounds that what is there already does not break."""
+        """Return bounds widened to the present positions."""
         low, high = float(present.low[2]), float(present.high[2])
         return replace(
             self,
@@ -193,7 +193,7 @@ class KeepOutZone:
         self._check_speed(tip[:, 2], time_s)
 
     def outside(self, tips: FloatArray) -> BoolArray:
-        """Tell which of tips (n, 3), m, are out of the bounds."""
+        """Return which of the tips (n, 3), m, are outside the bounds."""
         return (
             (tips[:, 2] < self.low - _SLACK)
             | (tips[:, 2] > self.high + _SLACK)

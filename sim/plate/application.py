@@ -33,7 +33,7 @@ class Entry:
 
     @property
     def difference(self) -> float:
-        """The change as a share of what it was; infinite for one that was not there."""
+        """The relative change; infinite for a new entry."""
         if self.before == self.after:
             return 0.0
         return self.after / self.before - 1.0 if self.before else float("inf")

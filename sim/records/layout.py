@@ -36,7 +36,7 @@ class Column:
 
     @property
     def heading(self) -> str:
-        """What a header row says of it: ``x.cmd [mm]``."""
+        """The heading of the column: ``x.cmd [mm]``."""
         return f"{self} [{self.unit}]"
 
 
@@ -59,7 +59,7 @@ class Layout:
 
     @property
     def per_si(self) -> tuple[float, ...]:
-        """By what each column is divided to become SI."""
+        """The divisor of each column to SI."""
         return tuple(per_si(column.unit) for column in self.columns)
 
     @property
@@ -80,7 +80,7 @@ def split_fields(line: str, separator: str) -> list[str]:
 
 
 def looks_like_header(line: str) -> bool:
-    """Tell a header from a row of numbers, by its first field."""
+    """Return whether a line is a header rather than numbers, by its first field."""
     first = re.split(r"[\s;,]", line.strip(BLANKS), maxsplit=1)[0]
     return '"' in first or (first[:1].isalpha() and _NOT_FINITE.fullmatch(first) is None)
 

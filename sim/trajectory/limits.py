@@ -34,7 +34,7 @@ def controller_of(axis: Axis) -> CascadeController | None:
 
 
 def is_finite(value: object) -> bool:
-    """Whether something that a program hands over is a number, and a finite one."""
+    """Whether a value is a finite number."""
     return isinstance(value, Real) and isfinite(value)
 
 

@@ -66,7 +66,7 @@ class Violation:
 
     @property
     def message(self) -> Message:
-        """What is wrong, where, value, bound and what to do."""
+        """The problem with place, value, bound and remedy."""
         value = exact(self.value, self.unit, size=self.bound)
         bound = exact(self.bound, self.unit)
         what = "position" if self.quantity is Quantity.RANGE else self.quantity

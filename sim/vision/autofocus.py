@@ -114,7 +114,7 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
 
 @dataclass(frozen=True, slots=True)
 class Autofocus:
-    """A search for the sharpest place; go to :attr:`target`, look, and tell it.
+    """A search for the sharpest position; move to :attr:`target`, measure, and report.
 
     Make one by :meth:`between`; each :meth:`with_sharpness` returns the search after one more look.
 

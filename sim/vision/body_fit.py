@@ -152,7 +152,7 @@ class _Fitting:
         self.level, self.variance, self.weights = float(np.median(seen)), 0.0, self.counted
 
     def settle(self, pipette: Pipette, depth: float, contrast: float) -> bool:
-        """Iterate; return whether it has come to rest."""
+        """Iterate; return whether it has converged."""
         self.pipette, self.depth = pipette, depth
         moved = np.inf
         for turn in range(_TURNS):

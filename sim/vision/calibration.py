@@ -53,7 +53,7 @@ class Demands:
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """A map told in words of optics; each uncertainty is a standard deviation.
+    """A map in terms of optics; each uncertainty is a standard deviation.
 
     Attributes
     ----------

@@ -57,7 +57,7 @@ class CellOutline:
 
 @dataclass(frozen=True, slots=True)
 class MembraneAhead:
-    """The membrane on the way of a tip; each with its standard deviation.
+    """The membrane in a tip's path; each with its standard deviation.
 
     Attributes
     ----------

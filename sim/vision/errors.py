@@ -8,7 +8,7 @@ class VisionError(InputError):
 
 
 class RegistrationError(VisionError):
-    """Two images whose shift cannot be told."""
+    """Two images whose shift cannot be determined."""
 
 
 class CalibrationError(VisionError):

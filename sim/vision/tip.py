@@ -44,7 +44,7 @@ def fit_depths(
     *,
     turning: bool = True,
 ) -> TipFit | None:
-    """Fit from several depths, m, and from the mirror image of the best; tell whether it differs.
+    """Fit from several depths, m, and from the mirror image of the best.
 
     This is what finds the sign of the depth; a tracker then keeps it.
     """

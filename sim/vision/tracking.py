@@ -46,7 +46,7 @@ _JUMP = 5.0  # standard deviations beyond which it was moved by something else
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TipTrack:
-    """What is known of a tip after a frame.
+    """The tracking state of a tip after a frame.
 
     Attributes
     ----------

@@ -67,12 +67,12 @@ class Field:
 
     @property
     def is_relative(self) -> bool:
-        """Whether it tells a change since the report before."""
+        """Whether it reports a change since the previous report."""
         return bool(self.flags & _RELATIVE)
 
     @property
     def has_null(self) -> bool:
-        """Whether a value outside of its range means: nothing to tell."""
+        """Whether a value outside its range means "no value"."""
         return bool(self.flags & _NULL_STATE)
 
 

@@ -48,7 +48,7 @@ class HidDevice(InputDevice):
 
     @property
     def ignored(self) -> Ignored:
-        """How much of what came in was not as its descriptor says."""
+        """Counts of data that contradict the descriptor."""
         return self._decoder.ignored
 
     def read(self) -> tuple[InputReading, ...]:

@@ -16,7 +16,7 @@ class DescriptorError(DriverError):
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """One item: where it stands, its type and tag, and 0 to 4 bytes of data."""
+    """One item: its position, type and tag, and 0 to 4 bytes of data."""
 
     at: int
     type: int
@@ -35,7 +35,7 @@ class Item:
 
 
 def items(descriptor: bytes) -> Iterator[Item]:
-    """Yield the short items of a descriptor; long ones are skipped, as nobody has defined any.
+    """Yield the short items of a descriptor; long ones are skipped, because none is defined.
 
     Raises
     ------

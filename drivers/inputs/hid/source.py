@@ -53,7 +53,7 @@ class _Plugged:
 
     @classmethod
     def of(cls, entry: Mapping[str, Any], port: Callable[[bytes], str]) -> "_Plugged":
-        """Take what is needed out of what hidapi tells."""
+        """Return the needed entries of hidapi's description."""
         path = bytes(entry["path"])
         model = f"{int(entry['vendor_id']):04x}:{int(entry['product_id']):04x}"
         maker = str(entry.get("manufacturer_string") or "").strip()
