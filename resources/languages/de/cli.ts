@@ -595,5 +595,9 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
         <source>clock</source>
         <translation>Uhr</translation>
     </message>
+    <message>
+        <source>simulated {seconds} s</source>
+        <translation>{seconds} s simuliert</translation>
+    </message>
 </context>
 </TS>
