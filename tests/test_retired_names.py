@@ -11,7 +11,7 @@ LAYERS = ("app", "drivers", "plugins", "sim")
 RETIRED = {
     "Acting", "Arm", "Course", "Filming", "Hand", "Hands", "Happening", "Heard", "Hiding", "Known",
     "Leg", "Left", "Lever", "Looking", "Met", "OperatorDesk", "Place", "Prospect", "Seat", "Sight",
-    "Told", "Tour", "Using", "Visits", "Wish", "bell", "cry", "farewell", "hear", "hush",
+    "Told", "Tour", "Using", "Visits", "Wish", "bell", "cry", "farewell", "hush",
     "looked_at", "sight_of", "told_of",
 }  # fmt: skip
 MODULES = {

@@ -25,7 +25,7 @@ def test_an_outline_is_found_from_any_place_inside(make_view, tip_m, off):
 
 def test_an_empty_place_has_no_outline(make_view):
     view = make_view()
-    with pytest.raises(VisionError, match="takes"):
+    with pytest.raises(VisionError, match="absorbs"):
         find_cell(view.image(AWAY), np.array([250.0, 200.0]), (20.0, 90.0))
 
 
