@@ -119,8 +119,8 @@ class VirtualBoards:
             raise InputError(
                 message(
                     "engine",
-                    "robot {name}: its {count} axes take one board, which has one port; leave out "
-                    "the second one",
+                    "robot {name}: its {count} axes need only one board, which has one port; "
+                    "leave out the second one",
                 ).fill(name=repr(robot.name), count=len(robot.axes))
             )
         self.tick_s = tick_s

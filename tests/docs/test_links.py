@@ -76,4 +76,4 @@ def test_physics_has_the_equations_of_every_effect_as_they_are(effect, root):
     for one in effect.formulations:
         line = f"- **{one.name}**: `{one.equation}`."
         assert line in section
-        assert section.partition(line)[2].partition("Source: ")[2].startswith(f"{one.source}.\n")
+        assert section.partition(line)[2].partition("Source: ")[2].startswith(f"{one.source}.")

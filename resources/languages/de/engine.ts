@@ -1662,7 +1662,7 @@
         <translation>baud {baud}: muss eine von {names} sein</translation>
     </message>
     <message>
-        <source>robot {name}: its {count} axes take one board, which has one port; leave out the second one</source>
+        <source>robot {name}: its {count} axes need only one board, which has one port; leave out the second one</source>
         <translation>Roboter {name}: seine {count} Achsen brauchen eine Karte, und die hat einen Anschluss; den zweiten weglassen</translation>
     </message>
     <message>

@@ -99,5 +99,5 @@ def test_noise_is_no_peak():
 
 
 def test_a_range_that_is_none_is_refused():
-    with pytest.raises(VisionError, match="no range"):
+    with pytest.raises(VisionError, match="is not a range"):
         Autofocus.between(1e-6, 1e-6)
