@@ -5234,5 +5234,33 @@
         <source>Command, model in use and measured of {axis}, and the gap</source>
         <translation>Sollwert, Modell im Einsatz und Messwert von {axis}, und die Abweichung</translation>
     </message>
+    <message>
+        <source>axis {axis}: {parameter} {asked} → {used} (× {factor}), for {cause}</source>
+        <translation>Achse {axis}: {parameter} {asked} → {used} (× {factor}), wegen: {cause}</translation>
+    </message>
+    <message>
+        <source>{range} of the motion that the model predicts</source>
+        <translation>{range} der Bewegung, die das Modell vorhersagt</translation>
+    </message>
+    <message>
+        <source>the limits</source>
+        <translation>die Grenzen</translation>
+    </message>
+    <message>
+        <source>the speed limit {limit}</source>
+        <translation>die Geschwindigkeitsgrenze {limit}</translation>
+    </message>
+    <message>
+        <source>the acceleration limit {limit}</source>
+        <translation>die Beschleunigungsgrenze {limit}</translation>
+    </message>
+    <message>
+        <source>the range {low} to {high}</source>
+        <translation>der Bereich {low} bis {high}</translation>
+    </message>
+    <message>
+        <source>{limits} and the jerk</source>
+        <translation>{limits} und der Ruck</translation>
+    </message>
 </context>
 </TS>

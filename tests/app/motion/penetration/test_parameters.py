@@ -22,7 +22,7 @@ from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParame
         ({"shaping": 3}, "shaping = 3"),
         ({"direction": "left"}, "'down', 'up'"),
         ({"axis": ""}, "axis = ''"),
-        ({"table": ((0.0, 0.0), (1.0, 1.0))}, "for no other"),
+        ({"table": ((0.0, 0.0), (1.0, 1.0))}, "permitted only for"),
         ({"shape": "table"}, "permitted only for a thrust of shape 'table'"),
         ({"shape": "table", "table": [[0, 0], [2, 1]]}, "point 2, time = 2: must be 0 to 1"),
         ({"shape": "table", "table": [[0, 0], [1]]}, "point 2 = "),
