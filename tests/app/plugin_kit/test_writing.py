@@ -72,7 +72,7 @@ def test_a_bad_name_is_refused(tmp_path, name):
 
 
 def test_a_name_that_is_taken_is_refused_for_that_kind_alone(tmp_path):
-    with pytest.raises(PluginNameError, match=r"effect 'delay' is there already.*package rotemina"):
+    with pytest.raises(PluginNameError, match=r"effect 'delay' already exists.*package rotemina"):
         new_plugin(Kind.EFFECT, "delay", tmp_path)
     assert new_plugin(Kind.PANEL, "delay", tmp_path).is_dir()
 

@@ -187,7 +187,7 @@ def test_a_software_trigger_takes_one_picture(camera):
 def test_unplugged_while_live(bench, camera):
     grabbed(camera)
     bench.unplug()
-    with pytest.raises(CameraLostError, match=r"(?i)open it again|or gone"):
+    with pytest.raises(CameraLostError, match=r"(?i)open it again|or missing"):
         grab_often(camera)
     camera.close()
     camera.close()

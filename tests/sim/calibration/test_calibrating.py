@@ -178,5 +178,5 @@ def test_a_laser_with_a_clock_of_its_own_is_joined(robot, plain):
     other = Record.from_signals(
         own_s, {("zn", Tap.REF): 3e-5 + 1e-5 * np.sin(9.0 * own_s)}, {"zn": "m"}
     )
-    with pytest.raises(CalibrationError, match="not alike"):
+    with pytest.raises(CalibrationError, match="does not match"):
         joined(plain, other, "zn")

@@ -74,7 +74,7 @@ def test_each_bound_refuses_what_leaves_it_and_allows_the_rest(bounds, axis, to,
             continue
         with pytest.raises(OutOfLimitsError, match=message):
             bound.check_sweep(*sweep)
-        with pytest.raises(OutOfLimitsError, match=rf"{message}|goes down"):
+        with pytest.raises(OutOfLimitsError, match=rf"{message}|descends"):
             bound.check_path(path, time_s)
 
 
