@@ -63,7 +63,7 @@ def identity(version=2, axes=3):
         (lambda _: b"ok\r\n\x00ok\r\n\x00", ProtocolError, "whether an MC68HC11 board"),
         (identity(version=3), ProtocolError, "version 3 .* this program 2; update the program"),
         (identity(version=1), ProtocolError, "update the board's program"),
-        (identity(axes=2), DriverError, "has 2 axes.*wants 3.*robot file"),
+        (identity(axes=2), DriverError, "has 2 axes.*has 3.*robot file"),
     ],
 )
 def test_the_wrong_end_is_told_apart_and_the_port_let_go(robot, answer, error, match):
