@@ -260,7 +260,9 @@ class Operation:
                 way = planned(state.command, period_s)
                 now = {**state.command, **self.session.snapshot().command}
                 if any(now[axis] != state.command[axis] for axis in JOINTS):
-                    raise RefusedError(message("engine", "the machine has moved since; try again"))
+                    raise RefusedError(
+                        message("engine", "the machine has moved in the meantime; try again")
+                    )
                 self.session.play(way.trajectory, permit=permit)
             except InputError as error:
                 self._told(message("engine", "{what}: {error}").fill(what=what, error=str(error)))

@@ -19,7 +19,7 @@ class PlaybackNotes:
         self._noted: list[str] = []
 
     def begin(self) -> None:
-        """Clear earlier notes before a playback."""
+        """Forget what was noted before a playback."""
         self._noted.clear()
 
     def add(self, *what: str) -> None:

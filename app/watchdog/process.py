@@ -94,7 +94,7 @@ class Watchdog:
         self.tell("\n".join(["RoTeMiNa has ended without letting go of the machine.", *sent]))
 
     def tell(self, text: str) -> None:
-        """Report on the terminal, in the log and on the screen, wherever possible."""
+        """Say something on the terminal, in the log and on the screen, wherever that can be."""
         line = f"{datetime.now():%Y-%m-%d %H:%M:%S}  watchdog: {text}\n"
         with contextlib.suppress(OSError, ValueError):
             sys.stderr.write(line)

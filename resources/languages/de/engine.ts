@@ -4745,7 +4745,7 @@
         <translation>die Eingabegeräte werden losgelassen</translation>
     </message>
     <message>
-        <source>the machine has moved since; try again</source>
+        <source>the machine has moved in the meantime; try again</source>
         <translation>die Maschine hat sich inzwischen bewegt; erneut versuchen</translation>
     </message>
     <message>
