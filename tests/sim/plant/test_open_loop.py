@@ -184,7 +184,7 @@ def test_an_unknown_history_starts_from_the_first_measured_samples():
 
 def test_an_axis_that_the_robot_lacks_is_named():
     record = Record.from_signals(np.arange(3.0), {("q", Tap.CMD): np.zeros(3)}, {"q": "m"})
-    with pytest.raises(PlantError, match=r"'q'.*'RoTeMiNa' has x, y, z"):
+    with pytest.raises(PlantError, match=r"'q'.*'RoTeMiNa' has only x, y, z"):
         nominal_response(ROBOT, record)
 
 
