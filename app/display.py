@@ -1,4 +1,4 @@
-"""How numbers and names of axes are shown to people: units, digits, labels. Free of Qt."""
+"""How numbers and axis names are displayed: units, digits, labels. Free of Qt."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Settings of drivers as people write them: typed by their defaults, and kept between starts."""
+"""Driver settings as users type them: types from the defaults, stored between starts."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -71,10 +71,10 @@ def assigned(kind: type[Driver], assignments: Iterable[str]) -> dict[str, Settin
                 )
             )
         if name not in defaults:
-            known = ", ".join(defaults) or "none at all"
+            known = ", ".join(defaults) or "none"
             raise SettingError(
                 message(
-                    "engine", "driver {driver} has no setting {setting}; it knows {known}"
+                    "engine", "driver {driver} has no setting {setting}; available: {known}"
                 ).fill(driver=repr(kind.name), setting=repr(name), known=known)
             )
         values[name] = typed(name, defaults[name], value)
@@ -90,7 +90,7 @@ def kept(settings: Settings, kind: type[Driver]) -> dict[str, SettingValue]:
 
 
 def keep(settings: Settings, kind: type[Driver], values: Mapping[str, SettingValue]) -> None:
-    """Remember settings of a driver for the next start; what has not changed is not written."""
+    """Store the settings of a driver for the next start, if they changed."""
     before = kept(settings, kind)
     for name, value in values.items():
         if before[name] != value:

@@ -1,4 +1,4 @@
-"""Files that the program writes: whole or not at all."""
+"""Writing files completely or not at all."""
 
 import json
 from pathlib import Path
@@ -8,12 +8,12 @@ from rotemina.sim.whole_files import replaced
 
 
 def json_text(value: dict[str, Any]) -> str:
-    """Return JSON for people: indented, every letter as it is; NaN has no place in it."""
+    """Return indented JSON with unescaped letters; NaN is not allowed."""
     return json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False)
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file, whole or not at all.
+    """Write a text file, completely or not at all.
 
     Raises
     ------

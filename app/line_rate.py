@@ -1,4 +1,4 @@
-"""Whether a serial adapter makes the rate of the boards' line: 125 000 baud is no usual one."""
+"""Whether a serial adapter supports the boards' bit rate, the unusual 125 000 baud."""
 
 import array
 import struct

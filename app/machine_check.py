@@ -1,7 +1,7 @@
-"""What ``rotemina doctor`` looks at: whether this machine can do what the program asks of it.
+"""The checks of ``rotemina doctor``: whether this computer can run the program.
 
 :mod:`rotemina.app.system_check` is what must be there before an installation; this is the rest.
-Nothing here moves, opens or resets a board: of serial ports only the permission is looked at.
+Nothing here moves, opens or resets a board: of serial ports only the permission is examined.
 """
 
 import os
@@ -54,7 +54,7 @@ class State(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What was looked at, what was seen there, and what to do; no advice where all is well."""
+    """A finding: subject, observation, and advice if something is wrong."""
 
     name: str
     state: State
@@ -63,7 +63,7 @@ class Finding:
 
 
 def examine(environment: Mapping[str, str]) -> Iterator[Finding]:
-    """Look at everything, one finding after the other.
+    """Run all checks, and yield one finding after the other.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def qt_libraries(platform: str) -> Finding:
 
 
 def qt(platform: str, program: str = _TRY_QT) -> Iterator[Finding]:
-    """Start Qt in a process of its own, for it aborts where it cannot; tell how it draws."""
+    """Start Qt in a separate process, because it may abort; report how it renders."""
     windowless = platform == "offscreen"  # as the program itself does without a display
     try:
         done = subprocess.run(
@@ -251,7 +251,7 @@ def writable(folders: Mapping[str, Path]) -> Finding:
 
 
 def free_disk(folder: Path) -> Finding:
-    """Tell how much can be recorded where recordings go."""
+    """Return how much can be recorded where recordings go."""
     free = shutil.disk_usage(_present(folder)).free
     seen = message("engine", "{free} GB free for {folder}").fill(
         free=fixed(free / 1e9, 1), folder=folder

@@ -1,4 +1,4 @@
-"""What a panel plugin may use: the base class, and the workbench that all panels share.
+"""The interface of panel plugins: the base class, and the workbench shared by all panels.
 
 A panel is a :class:`Panel` subclass named by an entry point of the group ``rotemina.panels``.
 It is made with the :class:`~rotemina.app.shell.workbench.Workbench` of the window: the robot, the
@@ -23,7 +23,7 @@ HIDDEN_S = 0.2  # between two looks of a panel that is out of sight
 
 
 class Area(StrEnum):
-    """Where a panel stands when the window is first opened."""
+    """The initial area of a panel in the window."""
 
     CENTRE = "centre"
     LEFT = "left"

@@ -1,4 +1,4 @@
-"""Narrowed ranges of axes, kept between starts: of one robot file, by its fingerprint."""
+"""Narrowed axis ranges, stored between starts for one robot file by its fingerprint."""
 
 import json
 

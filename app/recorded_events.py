@@ -1,4 +1,4 @@
-"""What happened in a recording, in the words of operators. Free of Qt."""
+"""Events of a recording in the operator's words. Free of Qt."""
 
 import json
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ from rotemina.app.motion.recording.backlog import RecordedEvent
 
 
 class Severity(StrEnum):
-    """How much an event matters to somebody who looks for what happened."""
+    """How much an event matters to someone who looks for what happened."""
 
     GRAVE = "grave"
     WARNING = "warning"

@@ -1,4 +1,4 @@
-"""Preferences of the screen, kept between starts. A bad value falls back; start never fails.
+"""Display preferences, stored between starts. A bad value falls back; start never fails.
 
 A file that cannot be read is set aside under a name of its own before anything is written.
 """
@@ -86,7 +86,7 @@ class Settings:
             values = parse_json(text, str(self._path), InputError)
             if not isinstance(values, dict):
                 raise InputError(
-                    message("engine", "{path}: it holds no table of preferences").fill(
+                    message("engine", "{path} contains no table of preferences").fill(
                         path=self._path
                     )
                 )

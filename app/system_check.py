@@ -1,4 +1,4 @@
-"""What the operating system must provide before the program can start.
+"""Prerequisites of the operating system for starting the program.
 
 Qt aborts when a library of its platform is missing, so the libraries are looked for first. The
 same file runs as a script before any environment exists (``python3 app/system_check.py``): it
@@ -153,7 +153,7 @@ def complaint(packages: Sequence[Package]) -> str:
 
 
 def install(packages: Sequence[Package]) -> bool:
-    """Install packages where that needs no password; tell whether it worked."""
+    """Install packages where that needs no password; return whether it worked."""
     root = _as_root()
     if root is None or not shutil.which("apt-get"):
         return False

@@ -1,4 +1,4 @@
-"""Tables of an operator's files (TOML): strict reading, whole writing.
+"""TOML files of an operator: strict reading, complete writing.
 
 Every error names the file, the key, the value and the bound.
 """
@@ -29,7 +29,7 @@ T = TypeVar("T")
 
 
 class Format(Generic[T]):
-    """One kind of file: its schema, and the error that tells what is wrong with it.
+    """A kind of file: its schema, and the error class for problems.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ class Format(Generic[T]):
         return tomli_w.dumps(_filled(self._adapter.dump_python(value, mode="json")))
 
     def save(self, path: Path, value: T) -> None:
-        """Write a file, whole or not at all; its folder is made.
+        """Write a file, completely or not at all; its folder is made.
 
         Raises
         ------
@@ -79,7 +79,7 @@ class Format(Generic[T]):
         except OSError as error:
             raise FileWriteError(
                 message(
-                    "engine", "{parent}: the folder cannot be made ({strerror}); choose another"
+                    "engine", "{parent}: the folder cannot be created ({strerror}); choose another"
                 ).fill(parent=path.parent, strerror=str(error.strerror))
             ) from error
         write_text(path, self.text(value))

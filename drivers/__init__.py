@@ -1,1 +1,1 @@
-"""How devices are reached: the driver contract and the built-in drivers. Free of Qt."""
+"""Access to devices: the driver contract and the built-in drivers. Free of Qt."""

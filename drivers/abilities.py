@@ -1,4 +1,4 @@
-"""What only some devices can do: each ability is a base class to be inherited beside others.
+"""Optional abilities of devices: each is a base class to be inherited beside others.
 
 The rules are those of :class:`rotemina.drivers.driver.Driver`: final methods check, hooks do.
 """
@@ -28,7 +28,7 @@ DISPLAY_ROWS, DISPLAY_COLUMNS = 2, 20
 
 
 class VelocityMover(Driver, ABC):
-    """A device that moves axes at a speed for as long as somebody vouches for it."""
+    """A device that moves axes at a speed while its lease is renewed."""
 
     @final
     def move_velocity(
@@ -36,7 +36,7 @@ class VelocityMover(Driver, ABC):
     ) -> None:
         """Let axes move at these speeds (m/s or rad/s) until the lease runs out. Returns at once.
 
-        Renewed before its end it goes on without a jump; not renewed, the axes come to a halt by
+        Renewed before its end it continues without a jump; not renewed, the axes come to a halt by
         themselves, without a fault, whatever has become of the host. At an end of its range an axis
         halts. Zero halts it at once. Other axes are left to what they do.
 
@@ -61,7 +61,7 @@ class VelocityMover(Driver, ABC):
             raise LimitError(
                 message(
                     "engine",
-                    "{name}: a lease of {lease} s: must be more than 0 s, at most {longest} s",
+                    "{name}: lease {lease} s: must be more than 0 s and at most {longest} s",
                 ).fill(name=self.name, lease=lease_s, longest=rounded(LONGEST_LEASE_S, 6))
             )
         for axis, speed in velocities.items():
@@ -76,12 +76,12 @@ class VelocityMover(Driver, ABC):
                 bound = (
                     marked("engine", "a finite number")
                     if most is None
-                    else message("engine", "{most} at most").fill(most=most)
+                    else message("engine", "at most {most}").fill(most=most)
                 )
                 raise LimitError(
                     message(
                         "engine",
-                        "{name}: axis {axis}: a speed of {speed} {unit}/s: must be {bound}",
+                        "{name}: axis {axis}: speed {speed} {unit}/s: must be {bound}",
                     ).fill(
                         name=self.name,
                         axis=AxisName(axis),
@@ -156,7 +156,7 @@ class VoltageOutput(Driver, ABC):
 
     @final
     def set_voltage(self, axis: str, voltage: float, *, permit: Permit | None = None) -> None:
-        """Put out a voltage, V, within `VOLTAGE_SLEW`; the next move takes over from it.
+        """Set a voltage, V, within `VOLTAGE_SLEW`; the next move takes over from it.
 
         Raises
         ------
@@ -166,12 +166,12 @@ class VoltageOutput(Driver, ABC):
             As :meth:`Driver.move_to`.
         """
         permit = self._permitted(permit)
-        state = self._require_sound("put out a voltage")
+        state = self._require_sound("set a voltage")
         if state is not DeviceState.IDLE:
             raise StateError(
                 message(
                     "engine",
-                    "{name}: cannot put out a voltage while it is {state}; stop it or wait",
+                    "{name}: cannot set a voltage while it is {state}; stop it or wait",
                 ).fill(name=self.name, state=state)
             )
         bounds = getattr(self.robot.axes.get(axis), "voltage_range", None)
@@ -230,7 +230,7 @@ class Capturer(Driver, ABC):
                 )
         if not 1 <= len(axes) <= rates.axes:
             raise LimitError(
-                message("engine", "{name}: a capture of {axes} axes: 1 to {most}").fill(
+                message("engine", "{name}: capture of {axes} axes: must be 1 to {most}").fill(
                     name=self.name, axes=len(axes), most=rates.axes
                 )
             )
@@ -238,7 +238,8 @@ class Capturer(Driver, ABC):
         if not 0.0 < rate_hz <= most:
             raise LimitError(
                 message(
-                    "engine", "{name}: a capture of {axes} axes at {rate_hz} Hz: {most} Hz at most"
+                    "engine",
+                    "{name}: capture of {axes} axes at {rate_hz} Hz: must be at most {most} Hz",
                 ).fill(
                     name=self.name,
                     axes=len(axes),
@@ -248,7 +249,7 @@ class Capturer(Driver, ABC):
             )
         if not 1 <= count <= rates.samples:
             raise LimitError(
-                message("engine", "{name}: a capture of {count} samples: 1 to {most}").fill(
+                message("engine", "{name}: capture of {count} samples: must be 1 to {most}").fill(
                     name=self.name, count=count, most=rates.samples
                 )
             )
@@ -256,7 +257,7 @@ class Capturer(Driver, ABC):
 
     @abstractmethod
     def captured(self) -> Captured | None:
-        """Return what has come of the present or latest capture since it was last asked for."""
+        """Return the samples of the latest capture since the last call."""
 
     @abstractmethod
     def _capture(self, axes: tuple[str, ...], rate_hz: float, count: int) -> None:
@@ -268,7 +269,7 @@ class ProfileRunner(Driver, ABC):
 
     @final
     def upload(self, profile: Profile, *, permit: Permit | None = None) -> None:
-        """Hand over a profile, from where its axis is; it waits for :meth:`trigger`.
+        """Upload a profile that begins at the axis' position; it waits for :meth:`trigger`.
 
         Raises
         ------
@@ -278,10 +279,10 @@ class ProfileRunner(Driver, ABC):
             If the device is closed, faulty or not at rest.
         """
         permit = self._permitted(permit)
-        state = self._require_sound("take a profile")
+        state = self._require_sound("accept a profile")
         if state is not DeviceState.IDLE:
             raise StateError(
-                message("engine", "{name}: cannot take a profile while it is {state}").fill(
+                message("engine", "{name}: cannot accept a profile while it is {state}").fill(
                     name=self.name, state=state
                 )
             )
@@ -349,10 +350,10 @@ class Display(Driver, ABC):
         StateError
             If the device is closed.
         """
-        self._require_open("show a text")
+        self._require_open("show text")
         if not 0 <= row < DISPLAY_ROWS:
             raise LimitError(
-                message("engine", "{name}: row {row} of the display: 0 or {last}").fill(
+                message("engine", "{name}: row {row} of the display: must be 0 or {last}").fill(
                     name=self.name, row=row, last=DISPLAY_ROWS - 1
                 )
             )
@@ -414,7 +415,7 @@ class Linked(Driver, ABC):
 
     @abstractmethod
     def link_quality(self) -> LinkQuality:
-        """Return how well the line does; asks nothing, never waits, any thread."""
+        """Return the quality of the line; sends nothing, never waits, any thread."""
 
 
 class TrajectoryPlayer(Driver, ABC):
@@ -462,9 +463,9 @@ class TrajectoryPlayer(Driver, ABC):
         state = self._require_sound("play")
         if state is not DeviceState.IDLE:
             raise StateError(
-                message(
-                    "engine", "{name}: it is still {state}; stop it or wait before playing"
-                ).fill(name=self.name, state=state)
+                message("engine", "{name} is still {state}; stop it or wait before playing").fill(
+                    name=self.name, state=state
+                )
             )
         self._play(self.accept(trajectory).commands, permit)
 

@@ -1,4 +1,4 @@
-"""What an axis is to whoever moves it: kind, role, range, unit and resolution."""
+"""Descriptions of axes: kind, role, range, unit and resolution."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -44,7 +44,7 @@ class AxisDescription:
 
     @classmethod
     def of(cls, robot: Robot, name: str) -> Self:
-        """Return what a robot file says of an axis."""
+        """Return the description of an axis from its robot file."""
         axis = robot.axes[name]
         stage = next((stage for stage, axes in robot.stages.items() if name in axes), None)
         role = Role(stage) if stage in tuple(Role) else Role.NONE

@@ -1,4 +1,4 @@
-"""Clocks of the host, real or set by hand; both give ``host_time_s``."""
+"""Clocks of the host, real or manual; both give ``host_time_s``."""
 
 from collections.abc import Callable
 
@@ -6,7 +6,7 @@ Clock = Callable[[], float]
 
 
 class VirtualClock:
-    """A clock that stands still until it is moved: tests and fast playback run on it."""
+    """A clock that is advanced manually, for tests and fast playback."""
 
     def __init__(self, host_time_s: float = 0.0) -> None:
         self._host_time_s = host_time_s

@@ -1,4 +1,4 @@
-"""The driver contract: the base class owns the rules, a driver fills small hooks.
+"""The driver contract: the base class enforces the rules, a driver fills small hooks.
 
 A driver is made without touching its device, opened, used by one thread, and closed. ``stop`` is
 the exception: any thread may call it at any time. What only some devices can do is a small base
@@ -89,7 +89,7 @@ class Driver(ABC):
 
     @final
     def open(self) -> None:
-        """Connect to the device, which holds where it stands.
+        """Connect to the device, which holds its position.
 
         Raises
         ------
@@ -100,7 +100,7 @@ class Driver(ABC):
         """
         if self._is_open:
             raise StateError(
-                message("engine", "{name}: it is open already; close it first").fill(name=self.name)
+                message("engine", "{name} is already open; close it first").fill(name=self.name)
             )
         self._last_time_s = float("-inf")
         self._open()
@@ -108,7 +108,7 @@ class Driver(ABC):
 
     @final
     def close(self) -> None:
-        """Let go of the device; safe to call twice. It counts as closed even if this raises."""
+        """Release the device; safe to call twice. It counts as closed even if this raises."""
         if not self._is_open:
             return
         self._is_open = False
@@ -116,7 +116,7 @@ class Driver(ABC):
 
     @property
     def stop_pending(self) -> bool:
-        """Whether the device has yet to confirm a stop; one that cannot tell confirms at once."""
+        """Whether the device has not yet confirmed a stop; without reports it confirms at once."""
         return False
 
     @property
@@ -167,20 +167,20 @@ class Driver(ABC):
         """Bring every axis to a halt and hold it there; ends a trajectory too.
 
         Any thread may call it at any time. It never waits and is not queued behind anything. What
-        was asked for before does not pass the gate any more, on a closed driver too.
+        was requested before does not pass the gate any more, on a closed driver too.
         """
         self.gate.stop()
         self.halt()
 
     @final
     def halt(self) -> None:
-        """Tell the device to stop, where the gate has been told already; as :meth:`stop`."""
+        """Stop the device after the gate has been closed; as :meth:`stop`."""
         if self._is_open:
             self._stop()
 
     @final
     def clear_fault(self, *, permit: Permit | None = None) -> None:
-        """Acknowledge a fault: the device holds where it stands. Nothing happens without one.
+        """Acknowledge a fault: the device holds its position. No effect without a fault.
 
         Raises
         ------
@@ -221,8 +221,8 @@ class Driver(ABC):
                 raise ProtocolError(
                     message(
                         "engine",
-                        "{name}: device time went from {last_time_s} s back to "
-                        "{device_time_s} s; was the device reset?",
+                        "{name}: the device time went back from {last_time_s} s to "
+                        "{device_time_s} s; check whether the device was reset",
                     ).fill(
                         name=self.name,
                         last_time_s=rounded(self._last_time_s, 9),
@@ -253,15 +253,15 @@ class Driver(ABC):
             raise StateError(
                 message(
                     "engine",
-                    "{name}: cannot {action}: the device has said nothing for {silent} "
-                    "s; wait until it answers",
+                    "{name}: cannot {action}: the device has been silent for {silent} s; "
+                    "wait until it answers",
                 ).fill(name=self.name, action=action, silent=rounded(status.silent_s, 2))
             )
         if status.state is DeviceState.FAULT:
             raise StateError(
-                message("engine", "{name}: cannot {action} in a fault ({fault}); clear it").fill(
-                    name=self.name, action=action, fault=status.fault or ""
-                )
+                message(
+                    "engine", "{name}: cannot {action} during a fault ({fault}); clear it"
+                ).fill(name=self.name, action=action, fault=status.fault or "")
             )
         if not status.position_known:
             unknown = message(

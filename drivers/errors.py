@@ -1,4 +1,4 @@
-"""What can go wrong with a device. Each error is also the builtin that fits it."""
+"""Errors of devices. Each is also the matching builtin error."""
 
 from rotemina.sim.errors import InputError, ToldError
 

@@ -1,4 +1,4 @@
-"""The gate before a device: nothing passes that was asked for before the latest stop.
+"""The gate before a device: it blocks everything requested before the latest stop.
 
 A request draws a :class:`Permit` before its first check. The permit goes with the request to the
 last place before the device, the write of a frame or the change of a simulated target. There it is
@@ -84,14 +84,14 @@ class Gate:
         return Permit(self, self._epoch, purpose)
 
     def stop(self, latch: str | None = None) -> None:
-        """Let nothing through that was asked for before; with ``latch`` nothing at all."""
+        """Let nothing through that was requested before; with ``latch`` nothing at all."""
         with self._lock:
             if latch is not None:
                 self._latched = latch
             self._epoch = self._epoch._replace(stops=self._epoch.stops + 1)
 
     def release(self) -> None:
-        """End a latch; what was asked for before does not pass any more."""
+        """End a latch; earlier requests remain blocked."""
         with self._lock:
             self._latched = None
             self._epoch = self._epoch._replace(releases=self._epoch.releases + 1)
@@ -111,7 +111,7 @@ class Gate:
     def _compare(self, permit: "Permit", *, begins: bool) -> None:
         """Refuse a permit that does not pass now; the lock is held."""
         if permit.epoch.connections != self._epoch.connections:
-            raise OvertakenError(message("engine", "the connection is another one now; ask again"))
+            raise OvertakenError(message("engine", "the connection has changed; try again"))
         if permit.purpose is Purpose.ENQUIRY:
             return
         if self._latched is not None:
@@ -119,11 +119,11 @@ class Gate:
                 message("engine", "{stop} is active; release it first").fill(stop=self._latched)
             )
         if permit.epoch != self._epoch:
-            raise OvertakenError(
-                message("engine", "a stop came after this was asked for; ask again")
-            )
+            raise OvertakenError(message("engine", "a stop came after this request; try again"))
         if self.clock() > permit.until_s:
-            raise OvertakenError(message("engine", "its lease has run out; ask again"))
+            raise OvertakenError(
+                message("engine", "the lease of the request has expired; try again")
+            )
         why = self.locks(permit) if begins else None
         if why is not None:
             raise GateError(message("engine", "motion is locked: {locked}").fill(locked=why))
@@ -173,7 +173,7 @@ class Permit:
     def passing(self, *, begins: bool = True) -> Iterator[None]:
         """Hold the gate open for one write that cannot block.
 
-        ``begins`` is False where a motion goes on that has begun, a playback's next set-point:
+        ``begins`` is False where a motion continues that has begun, a playback's next set-point:
         then stop, latch and connection count, and nothing else.
 
         Raises

@@ -1,4 +1,4 @@
-"""How well a line to a device does."""
+"""The quality of a device's line."""
 
 from dataclasses import dataclass
 
@@ -18,7 +18,7 @@ class LinkQuality:
     round_trip_s : float or None
         From a frame to its answer, smoothed; None before the first.
     stop_s : float
-        How long a stop that is asked for now would take until its last byte is out.
+        How long a stop that is requested now would take until its last byte is out.
     load : float
         Share of the line that was used lately, 0 to 1.
     """

@@ -1,4 +1,4 @@
-"""Abilities by which a device takes a model with it: effects, an inverse, a loop.
+"""Abilities of devices that apply a model: effects, an inverse, a loop.
 
 The rules are those of :class:`rotemina.drivers.driver.Driver`: final methods check, hooks do.
 """
@@ -42,7 +42,7 @@ class EffectCarrier(Driver, ABC):
 
     @final
     def set_effects(self, effects: Sequence[AxisEffect], *, permit: Permit | None = None) -> None:
-        """Put effects in place of those before; the axes go on from where they are.
+        """Put effects in place of those before; the axes continue from where they are.
 
         Raises
         ------
@@ -106,7 +106,7 @@ class Compensator(Driver, ABC):
             )
         if model is not None and model.axis != axis:
             raise LimitError(
-                message("engine", "{name}: an inverse of axis {axis} is none of {other}").fill(
+                message("engine", "{name}: the inverse is for axis {axis}, not for {other}").fill(
                     name=self.name, axis=model.axis, other=axis
                 )
             )
@@ -132,7 +132,7 @@ class Regulator(Driver, ABC):
     @property
     @abstractmethod
     def regulation_limited(self) -> tuple[str, ...]:
-        """The axes whose loop asks for more than a limit allows just now; any thread may ask."""
+        """The axes whose loop asks for more than a limit allows at present; any thread may ask."""
 
     @final
     def regulate(
@@ -167,7 +167,7 @@ class Regulator(Driver, ABC):
         if regulation is not None:
             if regulation.axis != axis:
                 raise LimitError(
-                    message("engine", "{name}: a loop of axis {axis} is none of {other}").fill(
+                    message("engine", "{name}: the loop is for axis {axis}, not for {other}").fill(
                         name=self.name, axis=regulation.axis, other=axis
                     )
                 )

@@ -1,4 +1,4 @@
-"""Parameters that a device keeps, beside those of the robot file."""
+"""Parameters stored in a device, beside those of the robot file."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""A short motion that a device runs by itself: cubic segments, one after the other."""
+"""A short motion executed by the device itself: consecutive cubic segments."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -54,7 +54,7 @@ class ProfileSegment:
             yield c / q
 
     def greatest_speed(self) -> float:
-        """Return the greatest speed on the way, m/s or rad/s."""
+        """Return the greatest speed, m/s or rad/s."""
         places = [0.0, 1.0]
         if self.c3:
             places.append(float(np.clip(-self.c2 / (3.0 * self.c3), 0.0, 1.0)))
@@ -69,7 +69,7 @@ class ProfileSegment:
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A motion of one axis, from where it stands."""
+    """A motion of one axis from its present position."""
 
     axis: str
     segments: tuple[ProfileSegment, ...]
@@ -91,7 +91,7 @@ class Profile:
         if not 1 <= len(self.segments) <= MOST_SEGMENTS:
             raise InputError(
                 message(
-                    "engine", "profile of {axis}: {segments} segments: 1 to {most_segments}"
+                    "engine", "profile of {axis}: {segments} segments: must be 1 to {most_segments}"
                 ).fill(axis=self.axis, segments=len(self.segments), most_segments=MOST_SEGMENTS)
             )
         axis, unit = robot.axes[self.axis], robot.unit(self.axis) or ""
@@ -116,7 +116,7 @@ class Profile:
             if axis.max_speed is not None and speed > axis.max_speed * _SLACK:
                 most = exact(axis.max_speed, f"{unit}/s")
                 raise InputError(
-                    message("engine", "{where}: {speed}: at most {most}").fill(
+                    message("engine", "{where}: {speed}: must be at most {most}").fill(
                         where=where, speed=exact(speed, f"{unit}/s"), most=most
                     )
                 )
@@ -124,7 +124,7 @@ class Profile:
             if axis.max_acceleration is not None and acceleration > axis.max_acceleration * _SLACK:
                 most = exact(axis.max_acceleration, f"{unit}/s²")
                 raise InputError(
-                    message("engine", "{where}: {acceleration}: at most {most}").fill(
+                    message("engine", "{where}: {acceleration}: must be at most {most}").fill(
                         where=where, acceleration=exact(acceleration, f"{unit}/s²"), most=most
                     )
                 )

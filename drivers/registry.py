@@ -1,4 +1,4 @@
-"""Finding drivers and other plugins: installed entry points, the built-in ones among them."""
+"""Discovery of drivers and other plugins among the installed entry points."""
 
 import inspect
 from dataclasses import dataclass
@@ -71,7 +71,7 @@ def driver_named(name: str) -> type[Driver]:
 
 
 def load_class(point: EntryPoint, base: type) -> type[Any] | str:
-    """Return the class, or what is wrong with the entry point."""
+    """Return the class, or the problem of the entry point."""
     try:
         loaded = load(point)
         if not isinstance(loaded, type) or not issubclass(loaded, base):

@@ -1,4 +1,4 @@
-"""What a device reports: its samples since it was last read, and its state."""
+"""A device's reports: samples since the last reading, and its state."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Settings of a driver: named, typed by their defaults, and refused where unknown."""
+"""Driver settings: named, typed by their defaults, unknown ones refused."""
 
 from collections.abc import Mapping
 from math import isfinite
@@ -25,9 +25,9 @@ def resolve(
     """
     unknown = [name for name in given if name not in defaults]
     if unknown:
-        known = ", ".join(defaults) or marked("engine", "none at all")
+        known = ", ".join(defaults) or marked("engine", "none")
         raise SettingError(
-            message("engine", "{owner}: unknown setting {unknown}; it knows {known}").fill(
+            message("engine", "{owner}: unknown setting {unknown}; available: {known}").fill(
                 owner=owner, unknown=repr(unknown[0]), known=known
             )
         )
@@ -43,7 +43,7 @@ def _typed(where: str, default: SettingValue, value: object) -> SettingValue:
         value = float(value)
     if type(value) is not wanted or not isinstance(value, (bool, int, float, str)):
         raise SettingError(
-            message("engine", "{where}: {value} is no {name}, like its default {default}").fill(
+            message("engine", "{where}: {value} must be a {name}, like its default {default}").fill(
                 where=where, value=repr(value), name=wanted.__name__, default=repr(default)
             )
         )

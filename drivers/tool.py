@@ -1,4 +1,4 @@
-"""A device with a tool on it that is on or off: a pump that injects, a valve, a light."""
+"""A switchable tool on a device: an injection pump, a valve, a light."""
 
 from abc import ABC, abstractmethod
 from typing import final
@@ -11,7 +11,7 @@ class ToolOutput(Driver, ABC):
     """A device with one output that switches a tool.
 
     The tool is off when the device is opened, and after a stop: what nobody watches any more does
-    not go on flowing into a cell.
+    not continue flowing into a cell.
     """
 
     @property

@@ -1,4 +1,4 @@
-"""Errors that a user of the program can cause by a file or a request."""
+"""Errors that a user can cause by a file or a request."""
 
 
 class ToldError(Exception):

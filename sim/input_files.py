@@ -50,14 +50,14 @@ def open_file(
         size = os.fstat(file.fileno()).st_size
     except FileNotFoundError as cause:
         raise error(
-            message("engine", "{name}: it cannot be read (there is no such file){then}").fill(
+            message("engine", "{name} cannot be read (file not found){then}").fill(
                 name=name, then=then
             )
         ) from cause
     except (OSError, ValueError) as cause:
         reason = str(getattr(cause, "strerror", None) or cause)
         raise error(
-            message("engine", "{name}: it cannot be read ({reason}){then}").fill(
+            message("engine", "{name} cannot be read ({reason}){then}").fill(
                 name=name, reason=reason, then=then
             )
         ) from cause
@@ -78,7 +78,7 @@ def read_bytes(
             data = file.read(most_bytes + 1)
         except OSError as cause:
             raise error(
-                message("engine", "{name}: it cannot be read ({reason}){then}").fill(
+                message("engine", "{name} cannot be read ({reason}){then}").fill(
                     name=name, reason=str(cause.strerror), then=then
                 )
             ) from cause
@@ -166,7 +166,7 @@ def _require_regular(found: os.stat_result) -> None:
     if stat.S_ISDIR(found.st_mode):
         raise OSError(marked("engine", "it is a folder"))
     if not stat.S_ISREG(found.st_mode):
-        raise OSError(marked("engine", "it is a pipe or a device and no file"))
+        raise OSError(marked("engine", "it is a pipe or a device, not a file"))
 
 
 def _too_large(name: str, most_bytes: int, then: str) -> str:
@@ -178,7 +178,7 @@ def _too_large(name: str, most_bytes: int, then: str) -> str:
 def _too_deep(source: str) -> str:
     return message(
         "engine",
-        "{source}: tables or lists are nested too deeply, more than {deepest} in each other",
+        "{source}: tables or lists are nested more than {deepest} levels deep",
     ).fill(source=source, deepest=_DEEPEST)
 
 
@@ -195,7 +195,8 @@ def _check(value: object, source: str, error: Refusal) -> None:
             elif isinstance(one, int) and abs(one) >= _GREATEST:
                 raise error(
                     message(
-                        "engine", "{source}: a whole number of {count} digits; 18 at most"
+                        "engine",
+                        "{source}: an integer has {count} digits; at most 18 are permitted",
                     ).fill(source=source, count=len(str(one)))
                 )
         if not inner:

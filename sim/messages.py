@@ -116,7 +116,7 @@ class Wording:
         return name
 
     def effect(self, effect: EffectName) -> str:
-        """Return an effect's name as it stands within a sentence; its id if it has no title."""
+        """Return an effect's name within a sentence; its id if it has no title."""
         if not effect.english:
             return str(effect)
         shown = self.text("effects", effect.english)
@@ -127,7 +127,7 @@ class Wording:
         return text
 
     def conjunction(self, *, one_of_them: bool) -> str:
-        """Return what stands before the last one of several."""
+        """Return the conjunction before the last item of a list."""
         return "or" if one_of_them else "and"
 
     def of(self, message: Message) -> str:
@@ -145,7 +145,7 @@ class Wording:
         return text.format_map({name: self.shown(value) for name, value in fields})
 
     def shown(self, value: Field) -> str:
-        """Return what stands in a field."""
+        """Return the text of a field."""
         match value:
             case Message():
                 return self.of(value)

@@ -1,4 +1,4 @@
-"""Whether a plugin can be imported at all, tried in a process of its own.
+"""Whether a plugin can be imported at all, tried in a separate process.
 
 An import that never ends cannot be broken off from within, and one that ends the process takes the
 program with it. So a plugin of another package is first imported by a process beside this one,
@@ -53,7 +53,7 @@ def import_fault(
     """Return why the module of an entry point must not be imported; None if it may be.
 
     Our own modules and those that belong to no package are not tried; those that are imported
-    already only ``anew``.
+    already only ``again``.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def import_fault(
         How long the import may take.
     kept_in : Path, optional
         The file of what came of earlier tries; by default in the user's cache.
-    anew : bool
+    again : bool
         Try again, whatever came of it before.
     """
     if point.value.startswith("rotemina.") or (not anew and point.module in sys.modules):

@@ -65,7 +65,7 @@ def require_version(point: EntryPoint, version: object, wanted: int | None) -> N
         raise PluginError(
             message(
                 "engine",
-                "{value} is made for version {version} of the interface, this program has version "
-                "{wanted}: install a version of the plugin that is made for it",
+                "{value} is made for version {version} of the interface, but this program "
+                "has version {wanted}: install a matching version of the plugin",
             ).fill(value=point.value, version=str(version), wanted=str(wanted))
         )

@@ -36,7 +36,7 @@ _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 
 
 class Number(str):
-    """A number as text, with or without its unit; it can be told with another decimal sign."""
+    """A number as text, with or without its unit, convertible to another decimal sign."""
 
     __slots__ = ()
 
@@ -60,7 +60,7 @@ def decimal_sign() -> str:
 
 
 def parsed(text: str, sign: str | None = None) -> float | None:
-    """Return a number as somebody typed it, with the decimal sign or a point; None for no number.
+    """Return a number as someone typed it, with the decimal sign or a point; None for no number.
 
     There are no separators of thousands: ``1,500`` is no number where the sign is the point.
     ``sign`` is the process's unless given.
@@ -111,7 +111,7 @@ def formatted(value: float, spec: str) -> str:
 
 
 def decimals_of(step: float) -> int:
-    """Return how many decimals tell a step; at most 9."""
+    """Return how many decimals show a step; at most 9."""
     if not 0.0 < step < 1.0:
         return 0
     return min(-floor(log10(step) + 1e-9), 9)

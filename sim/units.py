@@ -56,7 +56,7 @@ def units_of(si_unit: str) -> tuple[str, ...]:
     """
     if si_unit not in PER_SI:
         raise UnitError(
-            message("engine", "{si_unit} is no SI unit of a record; use one of {names}").fill(
+            message("engine", "{si_unit} is not an SI unit of a record; use one of {names}").fill(
                 si_unit=repr(si_unit), names=" ".join(PER_SI)
             )
         )

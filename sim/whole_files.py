@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all."""
+"""Files that appear completely or not at all."""
 
 import os
 from collections.abc import Iterator
@@ -31,11 +31,11 @@ def replaced(path: str | PathLike[str]) -> Iterator[BinaryIO]:
     try:
         if place.is_dir():
             raise FileWriteError(
-                message("engine", "{name}: it is a folder; name a file in it").fill(name=name)
+                message("engine", "{name} is a folder; name a file in it").fill(name=name)
             )
         if place.exists() and not place.is_file():
             raise FileWriteError(
-                message("engine", "{name}: it is a device and no file; name a file").fill(name=name)
+                message("engine", "{name} is a device, not a file; name a file").fill(name=name)
             )
         with draft.open("xb") as file:
             yield file
@@ -46,7 +46,7 @@ def replaced(path: str | PathLike[str]) -> Iterator[BinaryIO]:
         raise FileWriteError(
             message(
                 "engine",
-                "{name}: it cannot be written ({reason}); choose another folder or make room",
+                "{name} cannot be written ({reason}); choose another folder, or free disk space",
             ).fill(name=name, reason=str(error.strerror or error))
         ) from error
     finally:

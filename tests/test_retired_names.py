@@ -11,8 +11,8 @@ LAYERS = ("app", "drivers", "plugins", "sim")
 RETIRED = {
     "Acting", "Arm", "Course", "Filming", "Hand", "Hands", "Happening", "Heard", "Hiding", "Known",
     "Leg", "Left", "Lever", "Looking", "Met", "OperatorDesk", "Place", "Prospect", "Seat", "Sight",
-    "Told", "Tour", "Using", "Visits", "Wish", "bell", "cry", "farewell", "hush", "looked_at",
-    "sight_of", "told_of",
+    "Told", "Tour", "Using", "Visits", "Wish", "bell", "cry", "farewell", "hush",
+    "looked_at", "sight_of", "told_of",
 }  # fmt: skip
 MODULES = {
     "acting", "ahead", "chance", "connected", "course", "far", "fast", "finely", "ground",

@@ -1,1 +1,1 @@
-"""Machines whose causes are known: the diagnosis of each, beside what is known."""
+"""Machines with known causes: the diagnosis of each, beside the truth."""

@@ -1,4 +1,4 @@
-"""A machine in a folder: its robot file, its records, and what is known of it."""
+"""A machine in a folder: its robot file, its records, and its known causes."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class BenchError(InputError):
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """What is known of a machine.
+    """Known causes of a machine.
 
     Attributes
     ----------

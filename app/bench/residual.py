@@ -1,4 +1,4 @@
-"""What a model leaves of records that no fit saw."""
+"""The residual of a model on records that no fit used."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple

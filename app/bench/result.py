@@ -1,4 +1,4 @@
-"""What the diagnosis of one machine came to, and which levels it reaches."""
+"""The outcome of one machine's diagnosis, and the levels it reaches."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
@@ -16,7 +16,7 @@ LONGEST_S = 60.0
 
 @dataclass(frozen=True, slots=True)
 class NamedCause:
-    """A cause: effect and axis, with what it cannot be told from."""
+    """A cause: effect and axis, with the effects that cannot be distinguished from it."""
 
     axis: str
     effect: str
@@ -31,7 +31,7 @@ class NamedCause:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """The diagnosis of a machine; ``not_run`` says why there is none.
+    """The diagnosis of a machine; ``not_run`` gives the reason for a missing one.
 
     ``before`` and ``after``: what the model leaves of the test records as it was, and corrected.
     """
@@ -99,7 +99,7 @@ class Result:
 
     @property
     def not_reached(self) -> list[str]:
-        """What is not as it should be, in words."""
+        """The levels that are not reached, as text."""
         return list(self._not_reached())
 
     def _not_reached(self) -> Iterator[str]:
@@ -121,7 +121,7 @@ class Result:
             yield f"it takes {self.seconds:.0f} s, more than {LONGEST_S:.0f} s"
 
     def as_json(self) -> dict[str, Any]:
-        """Return what is written of it."""
+        """Return the result as JSON."""
         truth = self.machine.truth
         return {
             "machine": self.machine.name,

@@ -1,4 +1,4 @@
-"""The bench as the command line runs it: machine by machine, each diagnosis in its own process."""
+"""The bench run by the command line: one machine after another, each diagnosis in a process."""
 
 import json
 import subprocess
@@ -28,7 +28,7 @@ _PROGRAM = (sys.executable, "-m", "rotemina.app.cli.main")
 
 
 def run_bench(options: Namespace) -> None:
-    """Diagnose every machine, print a line each, and write what was asked for."""
+    """Diagnose every machine, print one line each, and write the requested files."""
     found = machines(options.folders)
     results = []
     for machine in found:

@@ -1,4 +1,4 @@
-"""The bench in words: one line a machine, and a page."""
+"""Text of the bench: one line per machine, and a page."""
 
 from collections.abc import Sequence
 

@@ -1,1 +1,1 @@
-"""Runs the sealed self-test: the diagnosis as a process of its own, on records alone."""
+"""The sealed self-test: the diagnosis as a separate process that sees only records."""

@@ -1,4 +1,4 @@
-"""Cases of the blind test: made by the generator, or anyone's own withheld ones."""
+"""Cases of the blind test: from the generator, or withheld ones supplied by the user."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping

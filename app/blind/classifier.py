@@ -1,4 +1,4 @@
-"""A naive contestant: the nearest known residuals, by numbers that describe them."""
+"""A naive contestant: the nearest known residuals by numerical descriptors."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""How much of the gap a prediction closes on the record that the diagnosis never saw."""
+"""The share of the gap that a prediction closes on the withheld record."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -24,7 +24,7 @@ UNPREDICTABLE = frozenset(
 
 
 class Gap(NamedTuple):
-    """Rms of what is left, offset removed, of the nominal and the corrected model; the floor."""
+    """Rms residuals without offset of the nominal and the corrected model, and the floor."""
 
     before: float
     after: float

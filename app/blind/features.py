@@ -1,4 +1,4 @@
-"""What a residual looks like, in numbers: the view of a naive classifier."""
+"""Numerical descriptors of a residual, for a naive classifier."""
 
 from collections.abc import Sequence
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""A machine with a secret: the blind generator's equations behind the simulator's contract."""
+"""A hidden machine: the blind generator's equations behind the simulator's contract."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ class HiddenMachineError(InputError):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Secret:
-    """What a hidden machine has; ``case`` is None where it has nothing."""
+    """The effects of a hidden machine; ``case`` is None if it has none."""
 
     seed: int
     case: Case | None
@@ -68,7 +68,7 @@ def draw_secret(robot: Robot, seed: int) -> Secret:
 
 
 class HiddenMachine(Simulator):
-    """The simulator with a secret in the place of its plant; nothing tells what it has."""
+    """The simulator with a hidden plant; nothing reveals its effects."""
 
     name = "hidden machine"
 
@@ -78,12 +78,12 @@ class HiddenMachine(Simulator):
 
     @property
     def effects(self) -> tuple[AxisEffect, ...]:
-        """None that anybody is told of."""
+        """None: the effects are hidden."""
         return ()
 
     @property
     def effects_text(self) -> str:
-        """What records say of them."""
+        """The text about effects in records."""
         return "hidden"
 
     def _set_effects(self, effects: tuple[AxisEffect, ...], permit: Permit) -> None:
@@ -99,5 +99,5 @@ class HiddenMachine(Simulator):
 
 
 def is_right(secret: Secret, named: Collection[Cause]) -> bool:
-    """Whether a diagnosis names what is there, all of it and nothing else."""
+    """Whether a diagnosis names all effects of the machine and no others."""
     return secret.causes == frozenset(named)

@@ -1,4 +1,4 @@
-"""Three naive contestants that answer the same cases, to compare the diagnosis with."""
+"""Three naive contestants that answer the same cases, for comparison with the diagnosis."""
 
 from collections.abc import Mapping, Sequence
 from math import log
@@ -31,7 +31,7 @@ Answer = dict[str, Any]
 
 
 def contest(case: SealedCase, classifier: Classifier) -> dict[str, Answer]:
-    """Return what each contestant says of a case; where one of them fails, all have."""
+    """Return each contestant's answer to a case; if one fails, all fail."""
     try:
         robot = load_robot(case.robot)
         records = [read_record(path, robot=robot) for path in case.records]

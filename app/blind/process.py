@@ -1,4 +1,4 @@
-"""The diagnosis as a process of its own, in a folder that holds records and nothing else."""
+"""The diagnosis as a separate process, in a folder that contains only records."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""The sealed self-test, case by case: one result file each, so that it can go on later."""
+"""The sealed self-test, case by case, with one result file each, so that it can be resumed."""
 
 import secrets
 from collections.abc import Callable, Iterator, Mapping
@@ -25,7 +25,7 @@ Contest = Callable[[SealedCase], Mapping[str, Any]]
 
 
 class BlindRun:
-    """A folder of results: what is in it is not done again.
+    """A folder of results; finished cases are not repeated.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The sealed self-test as the command line runs it: what is not done yet, then the score."""
+"""The sealed self-test run by the command line: unfinished cases first, then the score."""
 
 import sys
 from argparse import Namespace
@@ -28,7 +28,7 @@ _CASES = 300
 
 
 def run_test(options: Namespace) -> None:
-    """Do what is not done yet, then score all that is."""
+    """Run the unfinished cases, then score all."""
     _check_seed(options)
     cases, folder = _cases(options)
     blind = BlindRun(folder, cases)

@@ -1,4 +1,4 @@
-"""A share of the cases, for a test that is run in several sittings or on several machines."""
+"""A share of the cases, for a test split over several sessions or machines."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

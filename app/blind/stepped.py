@@ -1,4 +1,4 @@
-"""A machine of the blind generator under way, sample by sample, as the simulator wants its plant.
+"""A running machine of the blind generator, stepped sample by sample like a simulator's plant.
 
 The generator runs a machine over whole motions. Some of its parts can go on from where they were:
 forces, whose memory the generator keeps by load, and hysteresis without creep, which remembers
@@ -28,7 +28,7 @@ _MEMORY = 12  # numbers of a load
 
 @numba.njit(cache=True)  # type: ignore[untyped-decorator]
 def _go_on(free, forced, drive, targets, loads, state, memory, first, step_s):  # type: ignore[no-untyped-def]
-    """As ``mechanics.move``, from a state and a memory that go on."""
+    """As ``mechanics.move``, from a state and a memory that continue."""
     n, m = targets.shape
     d = len(state) // 2
     after, force, out = state.copy(), np.zeros(d), np.empty((n, m))
@@ -157,7 +157,7 @@ class SteppedState:
 
 
 class SteppedMotion(NamedTuple):
-    """Positions, readings, and inputs that nobody tells, each (n, axes)."""
+    """Positions, readings, and hidden inputs, each (n, axes)."""
 
     position: FloatArray
     reading: FloatArray
@@ -212,6 +212,6 @@ class SteppedPlant:
 
 
 def can_go_on(case: Case) -> bool:
-    """Whether every part of a case can go on from where it was."""
+    """Whether every part of a case can continue from where it was."""
     effects: list[Any] = case.label()["effects"]
     return case.remainder is None and all(one["effect"] in STEPPED for one in effects)

@@ -1,1 +1,1 @@
-"""Calibrations of sensors as a user makes, keeps and applies them, and the axes' health. No Qt."""
+"""Sensor calibrations made, stored and applied by a user, and the axes' health. No Qt."""

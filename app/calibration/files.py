@@ -1,4 +1,4 @@
-"""A sensor's calibration as a file (TOML): strict, dated, and saying where it comes from."""
+"""The TOML file of a sensor's calibration: strict, dated, with its origin."""
 
 import hashlib
 from datetime import datetime
@@ -30,7 +30,7 @@ Line = Annotated[str, Field(strict=True, max_length=400)]
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Source:
-    """A record that a calibration comes from, with the digest of what is in it."""
+    """A source record of a calibration, with the digest of its content."""
 
     name: Text
     digest: Digest
@@ -164,7 +164,7 @@ FORMAT = Format(
 def kept(
     calibration: Calibration, robot: str, sources: tuple[Source, ...], date: datetime
 ) -> CalibrationFile:
-    """Return what is kept of a calibration.
+    """Return the stored form of a calibration.
 
     Raises
     ------
@@ -214,7 +214,7 @@ def kept(
 
 
 def source_of(record: Record, name: str) -> Source:
-    """Return how a record is named in a calibration: by what is in it, wherever its file goes."""
+    """Return a record's name in a calibration, derived from its content."""
     parts = [np.ascontiguousarray(record.time_s).tobytes()]
     for channel in record.columns:
         parts += [str(channel).encode(), np.ascontiguousarray(record.signal(*channel)).tobytes()]

@@ -1,4 +1,4 @@
-"""An axis' health card: the figures that a record tells, beside those of the last time.
+"""An axis' health card: figures from a record, beside those of the previous card.
 
 A figure counts as changed where both 95 % intervals lie apart.
 """
@@ -40,7 +40,7 @@ class Compared(NamedTuple):
 
 
 def card_of(record: Record, axis: str) -> tuple[Figure, ...]:
-    """Return what a record tells of an axis: those figures that it excites.
+    """Return the health figures of an axis that a record excites.
 
     From ``cmd`` to ``meas``: static gain, resonance and damping of a fitted model of second order;
     the width of the loop over its stroke. Of rests after a move: how long the reading takes to stay
@@ -95,7 +95,7 @@ def _model(record: Record, axis: str) -> list[Figure]:
     model = identify_oe(signals, Orders(2, 2, _LAG_ROWS))
     if model.fit_percent < _GOOD_FIT:
         raise IdentificationError(
-            message("engine", "a model of second order fits {fit_percent} % alone").fill(
+            message("engine", "a second-order model fits only {fit_percent} %").fill(
                 fit_percent=fixed(model.fit_percent, 0)
             )
         )
@@ -121,7 +121,7 @@ def _holds(record: Record, axis: str) -> list[Figure]:
     holds = find_holds(record.time_s, command)
     if not len(holds):
         raise IdentificationError(
-            message("engine", "{axis}.cmd rests nowhere after a move").fill(axis=axis)
+            message("engine", "{axis}.cmd never rests after a move").fill(axis=axis)
         )
     unit = record.units[axis]
     ends: dict[tuple[float, bool], list[float]] = {}

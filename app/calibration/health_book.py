@@ -1,4 +1,4 @@
-"""Health cards over time: a small file for each axis, one line a card, only ever added to."""
+"""Health cards over time: one append-only file per axis, one line per card."""
 
 import json
 import re
@@ -23,7 +23,7 @@ class HealthBookError(InputError):
 
 
 class Card(NamedTuple):
-    """The figures of one day, and the record that they come from."""
+    """The figures of one day, and their source record."""
 
     date: str
     record: str
@@ -90,9 +90,9 @@ class HealthBook:
                 file.write(line + "\n")
         except OSError as error:
             raise FileWriteError(
-                message("engine", "{path}: the card cannot be kept ({strerror}); make room").fill(
-                    path=path, strerror=str(error.strerror)
-                )
+                message(
+                    "engine", "{path}: the card cannot be stored ({strerror}); free disk space"
+                ).fill(path=path, strerror=str(error.strerror))
             ) from error
 
 

@@ -1,4 +1,4 @@
-"""A calibration's motion played through a session, with sensor and laser recorded."""
+"""Plays a calibration motion through a session and records sensor and laser."""
 
 import threading
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged
-from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.app.motion.stop import PROGRAM
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import Samples
 from rotemina.sim.messages import marked, message
@@ -18,8 +18,8 @@ from rotemina.sim.trajectory.checked import CheckedTrajectory
 
 NO_LASER = marked(
     "engine",
-    "the device tells no laser's readings; record the laser with its own program, play the motion "
-    "from its file, and fit both records (rotemina calibrate fit --laser)",
+    "the device provides no laser readings; record the laser with its own program, play the "
+    "motion from its file, and fit both records (rotemina calibrate fit --laser)",
 )
 
 
@@ -76,7 +76,7 @@ class CalibrationRun:
 
     @property
     def record(self) -> Record | None:
-        """What was recorded, once the run is done."""
+        """The record, once the run is done."""
         with self._lock:
             return self._record
 
@@ -93,7 +93,9 @@ class CalibrationRun:
         permit = self._session.permit() if permit is None else permit
         with self._lock:
             if self._state.phase is not Phase.IDLE:
-                raise RefusedError(message("engine", "this run was begun before; plan another one"))
+                raise RefusedError(
+                    message("engine", "this run was already started; plan a new one")
+                )
             self._state = RunState(Phase.MOVING)
         self._session.corrections.pause(self._axis)
         try:
@@ -104,8 +106,8 @@ class CalibrationRun:
 
     def stop(self, *, by: str = PROGRAM) -> None:
         """Stop the machine, and give the run up; ``by`` as of :meth:`MotionSession.stop`."""
-        self._session.stop(message("engine", "the calibration is given up"), by=by)
-        self._end(Phase.FAILED, marked("engine", "stopped; nothing of it is kept"))
+        self._session.stop(message("engine", "the calibration was cancelled"), by=by)
+        self._end(Phase.FAILED, marked("engine", "stopped; the data are discarded"))
 
     def close(self) -> None:
         """Have nothing more to do with the session; a run that moves is stopped."""
@@ -131,7 +133,7 @@ class CalibrationRun:
             Connection.DISCONNECTED,
         ):
             self._end(
-                Phase.FAILED, marked("engine", "the connection was lost; nothing of it is kept")
+                Phase.FAILED, marked("engine", "the connection was lost; the data are discarded")
             )
 
     def _finish(self, completed: bool) -> None:
@@ -144,7 +146,7 @@ class CalibrationRun:
             self._end(Phase.DONE, "")
         else:
             self._end(
-                Phase.FAILED, marked("engine", "the motion ended early; nothing of it is kept")
+                Phase.FAILED, marked("engine", "the motion ended early; the data are discarded")
             )
 
     def _end(self, phase: Phase, message: str) -> None:

@@ -1,4 +1,4 @@
-"""The calibrations of a user's folder: one file for each axis and date, and which are on."""
+"""The calibrations in a user's folder: one file per axis and date, and which are in use."""
 
 import re
 from dataclasses import replace
@@ -51,7 +51,7 @@ class CalibrationStore:
         self.folder = folder / FOLDER / _plain(robot.name)
 
     def listed(self) -> tuple[tuple[Stored, ...], tuple[str, ...]]:
-        """Return what is stored, the newest first, and what is wrong with files that are none."""
+        """Return the stored calibrations, newest first, and the problems of invalid files."""
         try:
             in_use, problems = self._in_use(), []
         except CalibrationError as error:
@@ -83,15 +83,15 @@ class CalibrationStore:
             raise CalibrationError(
                 message(
                     "engine",
-                    "{path}: it is of axis {axis} of robot {robot}, not of {name}; calibrate this "
-                    "one",
+                    "{path}: the calibration belongs to axis {axis} of robot {robot}, not of "
+                    "{name}; calibrate this one",
                 ).fill(
                     path=path, axis=found.axis, robot=repr(found.robot), name=repr(self._robot.name)
                 )
             )
         if found.unit != (self._robot.unit(found.axis) or "m"):
             raise CalibrationError(
-                message("engine", "{path}: unit = {unit}: axis {axis} has another").fill(
+                message("engine", "{path}: unit = {unit}: axis {axis} has another unit").fill(
                     path=path, unit=repr(found.unit), axis=found.axis
                 )
             )
@@ -125,7 +125,7 @@ class CalibrationStore:
         _IN_USE.save(self.folder / IN_USE, replace(InUse(), axes=kept))
 
     def apply(self, corrections: SensorCorrections) -> tuple[str, ...]:
-        """Let a session use what is on, and nothing else; return what is wrong with files."""
+        """Apply the calibrations in use to a session, and no others; return problems of files."""
         stored, problems = self.listed()
         on = {one.calibration.axis: one.calibration for one in stored if one.on}
         for axis in self._robot.axes:

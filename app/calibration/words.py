@@ -1,4 +1,4 @@
-"""A calibration in words and numbers, for the command line and the panel."""
+"""Text of a calibration, for the command line and the panel."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -75,7 +75,7 @@ def iso_rows(
 
 
 def summary(calibration: Calibration, wording: Wording | None = None) -> str:
-    """Return all of a calibration as lines of text, in English unless told otherwise."""
+    """Return a calibration as lines of text, by default in English."""
     wording = wording or Wording()
     unit = calibration.unit
     low, high = (exact(each, unit, size=calibration.travel[1]) for each in calibration.travel)

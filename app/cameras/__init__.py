@@ -1,1 +1,1 @@
-"""Cameras in use: one thread each, and its newest picture for everybody."""
+"""Cameras in use: one thread each, with the newest picture available to all readers."""

@@ -1,4 +1,4 @@
-"""A camera in use: one thread grabs, everybody else has its newest picture without waiting."""
+"""A camera in use: one thread grabs pictures, and readers get the newest one without waiting."""
 
 import logging
 import threading
@@ -26,7 +26,7 @@ _AS_IT_IS = CameraSettings()
 
 
 class FeedState(StrEnum):
-    """How a camera is doing."""
+    """The state of a camera."""
 
     CLOSED = "closed"
     OPENING = "opening"
@@ -72,7 +72,7 @@ class FeedView:
 
 
 class CameraFeed:
-    """Keeps a camera open on a thread of its own. Every method may be called from any thread.
+    """Keeps a camera open on its own thread. Every method may be called from any thread.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ class CameraFeed:
 
     @property
     def view(self) -> FeedView:
-        """How it is doing now, as told by the age of its newest picture; waits for nobody."""
+        """The present state, by the age of the newest picture; never waits."""
         latest = self._latest
         if latest.frame is None:
             return latest
@@ -118,7 +118,7 @@ class CameraFeed:
         return self._latest.frame
 
     def start(self, settings: CameraSettings | None = None) -> None:
-        """Open the camera and go on until :meth:`close`; also after it was lost.
+        """Open the camera and continue until :meth:`close`; also after it was lost.
 
         Raises
         ------
@@ -141,7 +141,7 @@ class CameraFeed:
         self._thread.start()
 
     def close(self, timeout_s: float = 2.0) -> bool:
-        """Let go of the camera; return whether its thread has ended in time.
+        """Release the camera; return whether its thread has ended in time.
 
         One that hangs in its camera is left behind and hinders nobody.
         """
@@ -153,7 +153,7 @@ class CameraFeed:
         return not thread.is_alive()
 
     def configure(self, settings: CameraSettings) -> None:
-        """Have the camera set; the latest wish counts. ``view`` tells what came of it."""
+        """Request settings; the latest request counts, and ``view`` shows the outcome."""
         with self._lock:
             self._wanted = settings
 
@@ -163,7 +163,7 @@ class CameraFeed:
             self._triggers += 1
 
     def listen(self, tell: Callable[[Frame], None]) -> Callable[[], None]:
-        """Have every picture told, on the camera's thread, until what is returned is called.
+        """Call ``listener`` with every picture, on the camera's thread; return how to end that.
 
         ``tell`` must not wait: a recorder puts the frame into a bounded queue.
         """
@@ -212,7 +212,7 @@ class CameraFeed:
         self._publish(state=FeedState.LOST, reason=reason, description=None)
 
     def _obey(self) -> None:
-        """Set what was asked for, and pass on a trigger."""
+        """Set what was requested, and pass on a trigger."""
         with self._lock:
             wanted, self._wanted = self._wanted, None
         if wanted is not None:
@@ -244,8 +244,8 @@ class CameraFeed:
             state = FeedState.FROZEN
             reason = message(
                 "engine",
-                "every picture has been the same for more than {seconds} s; open it "
-                "again, and do not trust what it shows",
+                "every picture has been the same for more than {seconds} s; do not trust it, "
+                "and open the camera again",
             ).fill(seconds=rounded(FROZEN_S, 6))
         if picture_state is PictureState.BLACK:
             state = FeedState.BLACK

@@ -1,4 +1,4 @@
-"""Pictures that come but show nothing: the same one again and again, or black ones."""
+"""Detection of useless pictures: frozen or black."""
 
 from enum import StrEnum
 
@@ -16,7 +16,7 @@ _ROWS = 4
 
 
 class PictureState(StrEnum):
-    """What is to be thought of the pictures."""
+    """The verdict on the pictures."""
 
     LIVE = "live"
     FROZEN = "frozen"
@@ -24,7 +24,7 @@ class PictureState(StrEnum):
 
 
 class FrameCheck:
-    """Looks at every picture; a real camera's noise never gives the same one twice."""
+    """Checks every picture; a real camera's noise never repeats one."""
 
     def __init__(self) -> None:
         self._rows: NDArray[np.generic] | None = None

@@ -1,4 +1,4 @@
-"""A picture kept as a file, with what was known when it was taken."""
+"""A picture saved with its data."""
 
 import json
 from collections.abc import Mapping
@@ -16,7 +16,7 @@ from rotemina.sim.whole_files import replaced
 
 @dataclass(frozen=True, slots=True)
 class Circumstances:
-    """What is known beside a picture.
+    """The circumstances of a picture.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ def program() -> str:
 
 
 def description(frame: Frame, about: Circumstances) -> str:
-    """Return all that is known of a picture as JSON of plain ASCII, as TIFF demands."""
+    """Return the data of a picture as plain ASCII JSON, as TIFF demands."""
     facts = {
         "program": program(),
         "taken": about.taken,
@@ -77,7 +77,7 @@ def frame_facts(frame: Frame) -> dict[str, object]:
 
 
 def write_tiff(path: Path, frame: Frame, about: Circumstances) -> None:
-    """Write the camera's own numbers, 8 or 16 bits, whole or not at all.
+    """Write the camera's own numbers, 8 or 16 bits, completely or not at all.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def write_tiff(path: Path, frame: Frame, about: Circumstances) -> None:
 
 
 def write_png(path: Path, shown: NDArray[np.uint8], frame: Frame, about: Circumstances) -> None:
-    """Write a picture as it is looked at, whole or not at all.
+    """Write a picture as displayed, completely or not at all.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A z-stack as a TIFF of several pages, each with what was known of it."""
+"""A z-stack as a multi-page TIFF, with the data of each page."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -21,7 +21,7 @@ class Page(NamedTuple):
 
 
 def write_stack(path: Path, pages: Sequence[Page], axis: str, about: Circumstances) -> None:
-    """Write the camera's own numbers, a page for each place, whole or not at all.
+    """Write the camera's own numbers, a page for each place, completely or not at all.
 
     A page's description is JSON as that of a snapshot, with ``focus_axis``, ``focus_m``, ``page``
     and ``pages``.

@@ -1,4 +1,4 @@
-"""Pictures of a camera recorded as a film: a bounded queue, and a thread that writes."""
+"""Recording of a camera's pictures as a video: a bounded queue and a writer thread."""
 
 import logging
 import threading
@@ -25,7 +25,7 @@ class VideoError(InputError):
 
 @dataclass(frozen=True, slots=True)
 class VideoStatus:
-    """How a film does.
+    """The status of a video.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ class Video:
         except OSError as error:
             if path.exists():
                 raise VideoError(
-                    message("engine", "{path}: it is there already; record to another name").fill(
+                    message("engine", "{path} already exists; record to another name").fill(
                         path=path
                     )
                 ) from error
@@ -118,11 +118,11 @@ class Video:
 
     @property
     def status(self) -> VideoStatus:
-        """How it does; waits for nobody."""
+        """The status; never waits."""
         return self._status
 
     def take(self, frame: Frame) -> None:
-        """Take a picture to be written; returns at once, on any thread."""
+        """Queue a picture for writing; returns at once, on any thread."""
         size = frame.pixels.nbytes
         with self._changed:
             if self._ending or self._status.failure:
@@ -151,7 +151,7 @@ class Video:
             raise VideoError(
                 message(
                     "engine",
-                    "{path}: the disk has not taken the last pictures within {timeout_s} s; "
+                    "{path}: the last pictures could not be written within {timeout_s} s; "
                     "{pictures} pictures are kept",
                 ).fill(path=self.path, timeout_s=timeout_s, pictures=self._status.pictures)
             )
@@ -206,8 +206,8 @@ class Video:
         kept = self._status.pictures
         failure = message(
             "engine",
-            "{path}: the video has ended ({why}); {kept} pictures are kept. Make room, or choose "
-            "another folder, and begin another one",
+            "{path}: the video has ended ({why}); {kept} pictures are kept. Free disk space, "
+            "or choose another folder, and start another one",
         ).fill(path=self.path, why=why, kept=kept)
         _LOG.warning(failure)
         with self._changed:
@@ -223,13 +223,14 @@ class Video:
             self._tell(
                 message(
                     "engine",
-                    "{name}: the video leaves pictures out: the disk is too slow, or the camera's "
-                    "settings were changed. Use a smaller region, fewer pictures a second, or "
-                    "another disk; begin another video after a change of settings",
+                    "{name}: pictures are missing in the video: the disk is too slow, or the "
+                    "camera's settings were changed. Use a smaller region, fewer pictures "
+                    "per second, or another disk; start another video after a change of "
+                    "settings",
                 ).fill(name=self.path.name)
             )
 
 
 def _alike(one: Frame, other: Frame) -> bool:
-    """Tell whether two pictures can be pages of one film."""
+    """Return whether two pictures can be pages of one film."""
     return one.pixels.shape == other.pixels.shape and one.pixels.dtype == other.pixels.dtype

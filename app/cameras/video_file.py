@@ -1,4 +1,4 @@
-"""A film as a BigTIFF, one page a picture, that can be read at every moment of its growth.
+"""A video as a BigTIFF, one page per picture, readable while it grows.
 
 Lossless and of 16 bits, as measurements need them; ImageJ, tifffile, libtiff and OpenCV read it.
 tifffile links a page before it writes it, so that a kill within a page leaves a file that it cannot
@@ -95,7 +95,7 @@ class VideoFile:
         self.pages += 1
 
     def close(self) -> None:
-        """Let go of it; safe to call twice."""
+        """Release it; safe to call twice."""
         self._file.close()
 
     def _directory(self, frame: Frame, data: int) -> tuple[int, bytes, int]:

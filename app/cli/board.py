@@ -1,4 +1,4 @@
-"""``rotemina board``: the boards and the machine without either, for a host to talk to."""
+"""``rotemina board``: virtual boards with a simulated machine, for a host to connect to."""
 
 import argparse
 import gc
@@ -83,7 +83,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Serve until told to end."""
+    """Serve until termination is requested."""
     if options.seed < 0:
         raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
     if not 0.0 <= options.mishaps <= 1000.0:
@@ -127,15 +127,15 @@ def _count_of_ports(options: argparse.Namespace, boards: int) -> Literal[1, 2]:
     asked = len(options.port) + len(options.tcp)
     if asked > _MOST_PORTS:
         raise InputError(
-            message("cli", "{asked} ports: two boards have {most_ports} at most").fill(
+            message("cli", "{asked} ports: two boards have at most {most_ports}").fill(
                 asked=asked, most_ports=_MOST_PORTS
             )
         )
     if options.bus and asked == _MOST_PORTS:
-        raise InputError(message("cli", "--bus: it is one line; name one port only"))
+        raise InputError(message("cli", "--bus is one line; name only one port"))
     if options.bus and boards == 1:
         raise InputError(
-            message("cli", "--bus: the robot's axes take one board, which shares no line")
+            message("cli", "--bus: the robot's axes need only one board, which shares no line")
         )
     one = options.bus or asked == 1 or (not asked and boards == 1)
     return 1 if one else 2
@@ -209,7 +209,7 @@ class _Server:
         self._line = b""
 
     def serve(self, ended: Callable[[], bool]) -> None:
-        """Go on until ``ended``."""
+        """Continue until ``ended``."""
         sys.setswitchinterval(_SWITCH_S)  # the ears must not wait for what is simulated
         began_s = time.monotonic()
         _tell(f"0.0000 s is {began_s:.6f} s of this machine's monotonic clock")

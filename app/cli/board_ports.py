@@ -35,12 +35,12 @@ class HostPort(Protocol):
         ...
 
     def close(self) -> None:
-        """Let go of it."""
+        """Release it."""
         ...
 
 
 class PseudoTerminal:
-    """A serial device that is none, under a name of its own if it is given one.
+    """A pseudo-terminal, optionally under a name of its own.
 
     Raises
     ------
@@ -99,7 +99,7 @@ class PseudoTerminal:
             self._waiting = self._waiting[-_MOST_WAITING:]  # nobody reads
 
     def close(self) -> None:
-        """Let go of it, and take its name away."""
+        """Release it, and take its name away."""
         if self._link is not None and _leads_to(self._link) == self._device:
             self._link.unlink()
         os.close(self._own)
@@ -179,7 +179,7 @@ class Socket:
             self._hang_up()
 
     def close(self) -> None:
-        """Let go of it."""
+        """Release it."""
         if self._client is not None:
             self._client.close()
         self._listener.close()
@@ -217,7 +217,7 @@ def _loopback(address: str) -> tuple[str, int]:
         raise InputError(
             message(
                 "cli",
-                "--tcp {address}: {value} is not this machine's own loop; anybody who reaches a "
+                "--tcp {address}: {value} is not a loopback address; anyone who reaches a "
                 "board can move it: use 127.0.0.1:PORT",
             ).fill(address=address, value=repr(host or "no host"))
         )
@@ -241,13 +241,12 @@ def _make_link(link: Path, device: str) -> None:
         raise InputError(
             message(
                 "cli",
-                "--port {link}: there is something of this name already; remove it, or take "
-                "another",
+                "--port {link} already exists; remove it, or choose another name",
             ).fill(link=link)
         ) from error
     except OSError as error:
         raise InputError(
-            message("cli", "--port {link}: cannot make a link there: {error}").fill(
+            message("cli", "--port {link}: cannot create a link there: {error}").fill(
                 link=link, error=str(error)
             )
         ) from error

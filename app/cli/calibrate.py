@@ -188,9 +188,9 @@ def _fit(options: argparse.Namespace) -> int:
     if options.laser:
         if len(options.laser) != len(records):
             raise CalibrationError(
-                message("cli", "--laser: {count} files for {records} records; give one each").fill(
-                    count=len(options.laser), records=len(records)
-                )
+                message(
+                    "cli", "--laser: {count} files for {records} records; give one for each"
+                ).fill(count=len(options.laser), records=len(records))
             )
         lasers = [read_record(path, robot=robot) for path in options.laser]
         records = [

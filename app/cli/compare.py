@@ -51,7 +51,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Compare, print a table, and write what was asked for."""
+    """Compare, print a table, and write the requested files."""
     robot = robot_of(options)
     record = read_record(options.record, columns=options.columns, robot=robot)
     comparison, found, text = _compared(options, robot, record)
@@ -75,7 +75,9 @@ def _compared(
         return comparison, comparison.as_json(), table(comparison, options.wording)
     if options.fit:
         raise InputError(
-            message("cli", "--fit: it re-fits the model, which --with leaves out; use one of them")
+            message(
+                "cli", "--fit re-fits the model, which --with does not use; use only one of them"
+            )
         )
     other = read_record(options.other, columns=options.columns, robot=robot)
     runs = compare_runs(robot, record, other)

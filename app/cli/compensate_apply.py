@@ -1,4 +1,4 @@
-"""``rotemina compensate apply``: a trajectory with the commands that bring it about."""
+"""``rotemina compensate apply``: write a trajectory with compensated commands."""
 
 import argparse
 from pathlib import Path
@@ -40,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
     for path in (options.inverse, options.trajectory):
         if options.output.absolute() == path.absolute():
             raise InputError(
-                message("cli", "{path}: it is named twice; give the output a name of its own").fill(
+                message("cli", "{path} is named twice; give the output another name").fill(
                     path=path
                 )
             )

@@ -1,4 +1,4 @@
-"""``rotemina compensate check``: inverses on records that they were not trained on."""
+"""``rotemina compensate check``: check inverses on records not used in training."""
 
 import argparse
 import sys
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(
             message(
                 "cli",
-                "{inverse}: it was trained for robot {robot}, not for {name}; name that one by "
+                "{inverse} was trained for robot {robot}, not for {name}; name that robot by "
                 "--robot",
             ).fill(inverse=options.inverse, robot=repr(provenance.robot), name=repr(robot.name))
         )

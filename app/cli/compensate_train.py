@@ -1,4 +1,4 @@
-"""``rotemina compensate train``: inverses of an axis from records, or from the simulator."""
+"""``rotemina compensate train``: train the inverses of an axis on records or the simulator."""
 
 import argparse
 import hashlib
@@ -119,9 +119,7 @@ def _check(options: argparse.Namespace) -> None:
     if options.simulate and (options.records or options.held_out):
         raise InputError(message("cli", "--simulate takes no records; leave out one or the other"))
     if not options.simulate and not options.records:
-        raise InputError(
-            message("cli", "no record is named; name one, or let the simulator move: --simulate")
-        )
+        raise InputError(message("cli", "no record is named; name one, or use --simulate"))
     if not options.simulate and (options.effects is not None or options.seed is not None):
         raise InputError(
             message("cli", "--effects and --seed belong to --simulate; leave them out, or add it")
@@ -132,16 +130,14 @@ def _check(options: argparse.Namespace) -> None:
         raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
     if not options.output.parent.is_dir():  # told before the work, not after it
         raise InputError(
-            message("cli", "{output}: there is no folder {parent}; make it").fill(
+            message("cli", "{output}: there is no folder {parent}; create it").fill(
                 output=options.output, parent=options.output.parent
             )
         )
     for path in (*options.records, *options.held_out):
         if path.absolute() == options.output.absolute():
             raise InputError(
-                message("cli", "{path}: it is named twice; give each file a name of its own").fill(
-                    path=path
-                )
+                message("cli", "{path} is named twice; give each file its own name").fill(path=path)
             )
 
 

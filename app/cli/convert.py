@@ -49,7 +49,7 @@ def run(options: argparse.Namespace) -> int:
     """Convert one file, and say what resampling does to the speeds."""
     if options.output.exists() and options.output.samefile(options.source):
         raise InputError(
-            message("cli", "{output}: it is the file that is read; name another by -o").fill(
+            message("cli", "{output} is the input file; name another by -o").fill(
                 output=options.output
             )
         )

@@ -1,4 +1,4 @@
-"""``rotemina doctor``: whether this machine can run the program, and what to do where not."""
+"""``rotemina doctor``: check whether this computer can run the program, and suggest remedies."""
 
 import argparse
 import json

@@ -136,9 +136,9 @@ def _settings(driver: type[Driver], given: Iterable[str]) -> dict[str, SettingVa
                 message("cli", "--set {text}: must be KEY=VALUE").fill(text=repr(text))
             )
         if name not in driver.default_settings:
-            known = ", ".join(driver.default_settings) or "none at all"
+            known = ", ".join(driver.default_settings) or "none"
             raise SettingError(
-                message("cli", "{name}: unknown setting {setting}; it knows {known}").fill(
+                message("cli", "{name}: unknown setting {setting}; available: {known}").fill(
                     name=driver.name, setting=repr(name), known=known
                 )
             )

@@ -1,4 +1,4 @@
-"""``rotemina effect``: which effects there are, what they say of themselves, whether it is true."""
+"""``rotemina effect``: list effects, show their descriptions, and check them."""
 
 import argparse
 import time
@@ -122,7 +122,7 @@ def _check(options: argparse.Namespace) -> int:
     for effect_id in options.ids:
         if effect_id not in known:
             raise EffectError(
-                message("cli", "there is no effect {effect_id}; there are {names}").fill(
+                message("cli", "there is no effect {effect_id}; available: {names}").fill(
                     effect_id=repr(effect_id), names=", ".join(known)
                 )
             )

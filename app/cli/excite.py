@@ -37,7 +37,7 @@ def _choice(*names: str) -> Reader:
     def read(text: str, _axis: str, _unit: str) -> tuple[str]:
         if text not in names:
             raise ExcitationError(
-                message("cli", "{text} is none of {names}").fill(
+                message("cli", "{text} is not one of {names}").fill(
                     text=repr(text[:40]), names=", ".join(names)
                 )
             )
@@ -180,7 +180,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Make the trajectory, write it, and say what it is and what was reduced."""
+    """Make the trajectory, write it, and describe it and all reductions."""
     robot = robot_of(options)
     made = excite(
         robot,
@@ -239,7 +239,7 @@ def _by_axis(parameter: Parameter, text: str, names: list[str]) -> dict[str | No
         key = axis.strip() if equals else None
         if key is not None and key not in names:
             raise ExcitationError(
-                message("cli", "--{option}: axis {key} is none of those that move").fill(
+                message("cli", "--{option}: axis {key} is not one of those that move").fill(
                     option=parameter.option, key=repr(key)
                 )
             )

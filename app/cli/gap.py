@@ -38,7 +38,7 @@ def _nothing(_options: argparse.Namespace) -> int:
     raise InputError(
         message(
             "cli",
-            "gap: name what to do: diagnose, predict, twin, blind or bench (--help tells more)",
+            "gap: name a subcommand: diagnose, predict, twin, blind or bench (see --help)",
         )
     )
 
@@ -109,15 +109,15 @@ def run_predict(options: argparse.Namespace) -> int:
     for source in (options.document, options.commands, options.after):
         if source is not None and output.exists() and output.samefile(source):
             raise InputError(
-                message(
-                    "cli", "{output}: it is named twice; give each file a name of its own"
-                ).fill(output=output)
+                message("cli", "{output} is named twice; give each file its own name").fill(
+                    output=output
+                )
             )
     after = None
     if options.after is not None:
         after = read_record(options.after, columns=options.columns, robot=robot)
     elif options.pause:
-        raise InputError(message("cli", "--pause: name the motion that went before by --after"))
+        raise InputError(message("cli", "--pause: name the previous motion by --after"))
     record = predict(robot, commands, document.offsets, after=after, pause_s=options.pause)
     write_record(record, output)
     tell_written(options, output, len(record.time_s), record.duration_s)
@@ -147,6 +147,6 @@ def _free_name(commands: Path) -> Path:
     output = Path(f"{stem}-predicted.csv")
     if output.exists():
         raise InputError(
-            message("cli", "{output}: it exists already; name the record by -o").fill(output=output)
+            message("cli", "{output} already exists; name the record by -o").fill(output=output)
         )
     return output

@@ -1,4 +1,4 @@
-"""``rotemina gap bench``: the diagnosis of machines whose causes are known."""
+"""``rotemina gap bench``: diagnose machines with known causes."""
 
 import argparse
 from pathlib import Path

@@ -77,7 +77,7 @@ def shard(text: str) -> Shard:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Do what is not done yet, then score all that is."""
+    """Run the unfinished cases, then score all."""
     from rotemina.app.blind.self_test import run_test  # takes its time to import
 
     run_test(options)

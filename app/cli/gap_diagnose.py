@@ -59,7 +59,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Diagnose, print a summary, and write what was asked for."""
+    """Diagnose, print a summary, and write the requested files."""
     if options.seed < 0:
         raise InputError(message("cli", "--seed {seed}: must be 0 or more").fill(seed=options.seed))
     document = Path(options.json) if options.json not in (None, "-") else None
@@ -142,15 +142,15 @@ def _check_files(options: argparse.Namespace, document: Path | None) -> None:
             raise InputError(
                 message(
                     "cli",
-                    "{output}: it cannot be written, there is no folder {parent}; make it, or "
+                    "{output} cannot be written: there is no folder {parent}; create it, or "
                     "choose another",
                 ).fill(output=output, parent=output.parent)
             )
         if any(_is_same(output, other) for other in taken):
             raise InputError(
-                message(
-                    "cli", "{output}: it is named twice; give each file a name of its own"
-                ).fill(output=output)
+                message("cli", "{output} is named twice; give each file its own name").fill(
+                    output=output
+                )
             )
         taken.append(output)
     for other in taken:
@@ -160,8 +160,8 @@ def _check_files(options: argparse.Namespace, document: Path | None) -> None:
             raise InputError(
                 message(
                     "cli",
-                    "{other}: a suggested experiment of {document} would take its place; name "
-                    "another file by --json",
+                    "{other} would be overwritten by a suggested experiment of {document}; "
+                    "name another file by --json",
                 ).fill(other=other, document=document)
             )
 

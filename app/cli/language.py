@@ -1,4 +1,4 @@
-"""The language that the command line answers in: the window's, where nothing else is asked for.
+"""The language of the command line: by default that of the window.
 
 Files, logs and JSON are English; names of axes are those of the files.
 """
@@ -42,12 +42,12 @@ class CatalogueWording(Wording):
         return self.text("engine", text) if text else text
 
     def conjunction(self, *, one_of_them: bool) -> str:
-        """Return what stands before the last one of several."""
+        """Return the conjunction before the last item of a list."""
         return self.text("engine", super().conjunction(one_of_them=one_of_them))
 
 
 def wording(asked: str | None = None) -> Wording:
-    """Return how messages read in the language asked for, else in the window's."""
+    """Return the wording of the requested language, else of the window's."""
     language = asked or chosen()
     if language not in LANGUAGES:
         return Wording()

@@ -1,4 +1,4 @@
-"""What several subcommands share: options, and what they print."""
+"""Options and output shared by several subcommands."""
 
 import argparse
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""``rotemina plate``: the plate that holds the pin, computed, and put into a robot file."""
+"""``rotemina plate``: compute the plate that holds the pin, and put it into a robot file."""
 
 import argparse
 from pathlib import Path
@@ -144,7 +144,7 @@ def _target(options: argparse.Namespace, ranges: np.ndarray) -> np.ndarray:
         raise PlateError(
             message(
                 "cli",
-                "the pin's bottom cannot go that far: --zn, --thx, --thy must be within ± "
+                "the pin's bottom cannot move that far: --zn, --thx, --thy must be within ± "
                 "{farthest} µm or µrad",
             ).fill(farthest=1000000.0 * _FARTHEST)
         )

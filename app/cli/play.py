@@ -1,4 +1,4 @@
-"""``rotemina play``: play a trajectory on the simulator and write what was recorded."""
+"""``rotemina play``: play a trajectory on the simulator and write the record."""
 
 import argparse
 import sys
@@ -115,7 +115,7 @@ def _free_name(trajectory: Path) -> Path:
     output = Path(f"{stem}-record.csv")
     if output.exists():
         raise InputError(
-            message("cli", "{output}: it exists already; name the record by -o").fill(output=output)
+            message("cli", "{output} already exists; name the record by -o").fill(output=output)
         )
     return output
 

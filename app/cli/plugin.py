@@ -55,7 +55,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def new(options: argparse.Namespace) -> int:
-    """Write a package and say what to do with it."""
+    """Write a package, and print the next steps."""
     from rotemina.app.plugin_kit.kinds import Kind  # the kinds take their time to import
     from rotemina.app.plugin_kit.writing import new_plugin
 
@@ -114,9 +114,9 @@ def check(options: argparse.Namespace) -> int:
     if not points:
         wanted = options.kind or "plugin"
         raise InputError(
-            message(
-                "cli", "there is no {wanted} {name}; `rotemina plugin list` tells which there are"
-            ).fill(wanted=wanted, name=repr(options.name))
+            message("cli", "there is no {wanted} {name}; `rotemina plugin list` lists all").fill(
+                wanted=wanted, name=repr(options.name)
+            )
         )
     said = {Verdict.PASSED: "ok", Verdict.FAILED: "FAILED", Verdict.SKIPPED: "-"}
     robot = robot_of(options)

@@ -18,7 +18,7 @@ _TO_LINE_END = "\x1b[K"
 
 
 class ProgressLine:
-    """A listener that tells stage, axis, candidate, the candidate that leads and the time left.
+    """A listener that prints stage, axis, candidate, the leading candidate and the time left.
 
     On a terminal it rewrites one line and ends it when its context ends; elsewhere it writes a
     line every few seconds, so that a log stays short.
@@ -53,7 +53,7 @@ class ProgressLine:
             self._open = False
 
     def __call__(self, progress: Progress) -> None:
-        """Tell how far it has come, unless that was just done."""
+        """Return how far it has come, unless that was just done."""
         self._share = max(self._share, progress.share)
         now_s = self._clock()
         pause_s = _BETWEEN_REWRITES_S if self._terminal else _BETWEEN_LINES_S

@@ -1,4 +1,4 @@
-"""``rotemina recording``: look at recordings of sessions, recover and export them."""
+"""``rotemina recording``: inspect, recover and export recordings of sessions."""
 
 import argparse
 import webbrowser
@@ -107,16 +107,16 @@ def info(options: argparse.Namespace) -> int:
 
 def recover(options: argparse.Namespace) -> int:
     """Finish one recording, or all in a folder."""
-    from rotemina.app.motion.recording import merging
+    from rotemina.app.motion.recording import recovery
 
     source = options.source
-    found = merging.unfinished(source) if source.is_dir() else (source,)
+    found = recovery.unfinished(source) if source.is_dir() else (source,)
     if not found:
         tell(options, message("cli", "{source}: nothing to recover").fill(source=source))
     refused = []
     for path in found:
         try:
-            print(merging.recover(path))
+            print(recovery.recover(path))
         except InputError as error:  # one that is being recorded keeps nobody from the others
             refused.append(str(error))
     if refused:
@@ -166,7 +166,7 @@ def report(options: argparse.Namespace) -> int:
     from platformdirs import user_data_path
 
     from rotemina.app.motion.penetration.run_log import RunLog
-    from rotemina.app.motion.recording.merging import SUFFIX
+    from rotemina.app.motion.recording.recovery import SUFFIX
     from rotemina.app.motion.run import Run
     from rotemina.app.records.run_report import RunReport, report_text
     from rotemina.app.records.store import RecordStore
@@ -194,7 +194,5 @@ def report(options: argparse.Namespace) -> int:
 def _require_other(output: Path, read: Path) -> None:
     if output.exists() and output.samefile(read):
         raise InputError(
-            message("cli", "{output}: it is the file that is read; name another by -o").fill(
-                output=output
-            )
+            message("cli", "{output} is the input file; name another by -o").fill(output=output)
         )

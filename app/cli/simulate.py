@@ -1,4 +1,4 @@
-"""``rotemina simulate``: what a machine with its effects would record over given commands."""
+"""``rotemina simulate``: what a machine with its effects would record for given commands."""
 
 import argparse
 import sys
@@ -12,10 +12,10 @@ import numpy as np
 
 from rotemina.app.cli.options import add_columns, add_robot, robot_with_effects, tell_written
 from rotemina.sim.errors import InputError
-from rotemina.sim.messages import Field, Message, message
+from rotemina.sim.messages import Field, Message, Wording, message
 from rotemina.sim.plant.assembly import assemble
 from rotemina.sim.plant.loads import RunningLoads
-from rotemina.sim.quantities import Number, rounded, scale_in
+from rotemina.sim.quantities import Number, fixed, rounded, scale_in
 from rotemina.sim.records.pieces import read_pieces
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
@@ -71,7 +71,9 @@ def run(options: argparse.Namespace) -> int:
     first = next(commands)
     rng = None if options.no_noise else np.random.default_rng(options.seed)
     simulation = Simulation(robot, None, first, rng)
-    run_ = _Run(simulation, _Outside(robot), tell=sys.stderr.isatty())
+    run_ = _Run(
+        simulation, _Outside(robot), wording=options.wording if sys.stderr.isatty() else None
+    )
     # Both files appear together or neither: a failure at one leaves the other's place alone.
     with ExitStack() as files:
         if options.loads is not None:
@@ -105,9 +107,9 @@ def _check_files(options: argparse.Namespace) -> None:
             output.exists() and any(s.exists() and output.samefile(s) for s in sources)
         ):
             raise InputError(
-                message(
-                    "cli", "{output}: it is named twice; give each file a name of its own"
-                ).fill(output=output)
+                message("cli", "{output} is named twice; give each file its own name").fill(
+                    output=output
+                )
             )
         sources.append(output)
 
@@ -149,11 +151,13 @@ def _units(robot: Robot, commands: Record) -> dict[str, str]:
 
 
 class _Run:
-    """A simulation on its way from file to file."""
+    """A simulation from file to file; progress is printed in ``wording``, if any."""
 
-    def __init__(self, simulation: Simulation, outside: "_Outside", *, tell: bool) -> None:
+    def __init__(
+        self, simulation: Simulation, outside: "_Outside", *, wording: Wording | None
+    ) -> None:
         self._simulation = simulation
-        self._tell = tell
+        self._wording = wording
         self._loads: tuple[RunningLoads, LoadsTable] | None = None
         self._since_s: float | None = None
         self.outside = outside
@@ -177,15 +181,16 @@ class _Run:
         if self._loads is not None:
             running, table = self._loads
             table.add(running.last())
-        if self._tell:
+        if self._wording:
             print(file=sys.stderr)
 
     def _count(self, piece: Record) -> None:
         self._since_s = piece.time_s[0] if self._since_s is None else self._since_s
         self.rows += len(piece.time_s)
         self.duration_s = float(piece.time_s[-1] - self._since_s)
-        if self._tell:
-            print(f"\rsimulated {self.duration_s:.1f} s", end="", file=sys.stderr, flush=True)
+        if self._wording:
+            said = message("cli", "simulated {seconds} s").fill(seconds=fixed(self.duration_s, 1))
+            print(f"\r{self._wording.of(said)}", end="", file=sys.stderr, flush=True)
 
 
 class _Outside:

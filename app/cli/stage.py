@@ -36,7 +36,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Serve until told to end."""
+    """Serve until termination is requested."""
     stage = EmulatedStage(robot_of(options), single_homing=not options.all_at_once)
     port = PseudoTerminal(options.port)
     try:

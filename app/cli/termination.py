@@ -1,4 +1,4 @@
-"""Being told to end, by Ctrl-C or by the system, without being interrupted."""
+"""Orderly termination on Ctrl-C or a signal of the system, without interrupting work."""
 
 import signal
 from collections.abc import Callable, Iterator
@@ -8,7 +8,7 @@ from types import FrameType
 
 @contextmanager
 def termination_requested() -> Iterator[Callable[[], bool]]:
-    """Tell whether somebody wants an end, rather than be interrupted."""
+    """Return whether someone wants an end, rather than be interrupted."""
     received: list[int] = []
 
     def note(number: int, _: FrameType | None) -> None:

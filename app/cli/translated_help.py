@@ -1,4 +1,4 @@
-"""Help and errors of the options in another language; both come from the catalogue's ``help``."""
+"""Help and error messages of the options, translated from the catalogue ``help``."""
 
 import argparse
 from collections.abc import Callable, Sequence
@@ -8,7 +8,7 @@ CONTEXT = "help"
 
 
 def language_asked(arguments: Sequence[str] | None) -> str | None:
-    """Return what ``--language`` says, before there is a parser that speaks it."""
+    """Return the value of ``--language`` before the parser is built."""
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--language", nargs="?")
     asked: str | None = parser.parse_known_args(arguments)[0].language
@@ -16,7 +16,7 @@ def language_asked(arguments: Sequence[str] | None) -> str | None:
 
 
 def translate_argparse(text: Callable[[str], str]) -> None:
-    """Translate what argparse itself says, in all parsers made from now on."""
+    """Translate argparse's own texts in all parsers made from now on."""
     vars(argparse).update(_=text, ngettext=lambda one, many, n: text(one if n == 1 else many))
 
 

@@ -1,4 +1,4 @@
-"""``rotemina tune``: gains of a position loop, searched on the simulated axis."""
+"""``rotemina tune``: search the gains of a position loop on the simulated axis."""
 
 import argparse
 import sys
@@ -99,7 +99,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """Search, or choose; write the result and say what it is."""
+    """Search, or choose; write the result, and print it."""
     return _choose(options) if options.choose is not None else _search(options)
 
 
@@ -167,7 +167,7 @@ def _choose(options: argparse.Namespace) -> int:
         raise InputError(
             message(
                 "cli",
-                "{output}: tuned for robot {robot}, and this is {name}; name the robot by --robot",
+                "{output} was tuned for robot {robot}, not for {name}; name the robot by --robot",
             ).fill(
                 output=options.output, robot=repr(tuning.provenance.robot), name=repr(robot.name)
             )
@@ -188,16 +188,16 @@ def _check(options: argparse.Namespace) -> None:
     for number, output in enumerate(written):
         if not output.parent.is_dir():
             raise InputError(
-                message("cli", "{output}: there is no folder {parent}; make it first").fill(
+                message("cli", "{output}: there is no folder {parent}; create it first").fill(
                     output=output, parent=output.parent
                 )
             )
         others = [*written[:number], *read]
         if any(output.absolute() == other.absolute() for other in others):
             raise InputError(
-                message(
-                    "cli", "{output}: it is named twice; give each file a name of its own"
-                ).fill(output=output)
+                message("cli", "{output} is named twice; give each file its own name").fill(
+                    output=output
+                )
             )
 
 
@@ -214,8 +214,8 @@ def _inverse(options: argparse.Namespace) -> Any:
         raise InputError(
             message(
                 "cli",
-                "{inverse}: an inverse of axis {axis}, and {options_axis} is to be tuned; name one "
-                "that was trained on this axis",
+                "{inverse} is an inverse of axis {axis}, but {options_axis} is to be tuned; "
+                "name one that was trained on this axis",
             ).fill(inverse=options.inverse, axis=model.axis, options_axis=options.axis)
         )
     return Inverse(model, 1.0 / options.rate, preview=True)

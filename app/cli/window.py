@@ -1,4 +1,4 @@
-"""``rotemina`` without a subcommand: the operator's window, or its main job where no display is."""
+"""``rotemina`` without a subcommand: the window, or its main job where there is no display."""
 
 import argparse
 from pathlib import Path

@@ -31,7 +31,7 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
 
 @contextmanager
 def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
-    """Make ready for parallel work and tell how many jobs to ask joblib for.
+    """Prepare parallel work, and return the number of jobs for joblib.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
         raise InputError(
             message(
                 "cli",
-                "--cluster {cluster}: it cannot be reached ({error}); name the address of a "
+                "--cluster {cluster} cannot be reached ({error}); name the address of a "
                 "running Dask scheduler",
             ).fill(cluster=cluster, error=str(error))
         ) from error
@@ -74,7 +74,7 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
             raise InputError(
                 message(
                     "cli",
-                    "--cluster {cluster}: it has no workers; start some by dask worker {cluster}",
+                    "--cluster {cluster} has no workers; start some by dask worker {cluster}",
                 ).fill(cluster=cluster)
             ) from error
         try:
@@ -84,8 +84,8 @@ def workers(jobs: int | None, cluster: str | None) -> Iterator[int]:
             raise InputError(
                 message(
                     "cli",
-                    "--cluster: a worker of it died again and again at the same work ({error}); "
-                    "look at its memory and its log",
+                    "--cluster: a worker died repeatedly at the same task ({error}); check "
+                    "its memory and its log",
                 ).fill(error=str(error))
             ) from error
 

@@ -1,1 +1,1 @@
-"""The microscope in the program: calibration, click-to-move and what it measures."""
+"""The microscope in the program: calibration, click-to-move and measurements."""

@@ -1,4 +1,4 @@
-"""Calibration and autofocus: runs whose outcome is kept for camera and objective."""
+"""Calibration and autofocus, whose results are stored for camera and objective."""
 
 from collections.abc import Callable
 from datetime import UTC, datetime
@@ -104,9 +104,9 @@ class Adjustments:
         axis = self._focus_axis(name)
         if axis.position is None:
             raise MicroscopeError(
-                message("engine", "{name}: its place is not known; connect the machine first").fill(
-                    name=name
-                )
+                message(
+                    "engine", "{name}: its position is unknown; connect the machine first"
+                ).fill(name=name)
             )
         begin = max(axis.low, axis.position - FOCUSED_M) if low is None else low
         end = min(axis.high, axis.position + FOCUSED_M) if high is None else high
@@ -130,9 +130,9 @@ class Adjustments:
         axis = self._focus_axis(name)
         if axis.position is None:
             raise MicroscopeError(
-                message("engine", "{name}: its place is not known; connect the machine first").fill(
-                    name=name
-                )
+                message(
+                    "engine", "{name}: its position is unknown; connect the machine first"
+                ).fill(name=name)
             )
         places, back = places_of(first, last, step), axis.position
         for place in (places[0], places[-1]):
@@ -175,7 +175,9 @@ class Adjustments:
             )
         if not isinstance(camera, FocusDrive):
             raise MicroscopeError(
-                message("engine", "this microscope has no motor at its focus; use an axis, or turn")
+                message(
+                    "engine", "this microscope has no focus motor; use an axis, or focus by hand"
+                )
             )
 
         def move(place: float, permit: Permit | None) -> None:
@@ -191,7 +193,7 @@ class Adjustments:
         if found is None:
             known = ", ".join(one.name for one in axes) or "nothing"
             raise MicroscopeError(
-                message("engine", "{name} does not focus here; there is: {known}").fill(
+                message("engine", "{name} cannot focus here; available: {known}").fill(
                     name=repr(name), known=known
                 )
             )

@@ -1,4 +1,4 @@
-"""What is known of a camera behind an objective, kept as a file (TOML) of its own."""
+"""The TOML file of a calibrated camera and objective."""
 
 import re
 from dataclasses import replace
@@ -41,7 +41,7 @@ class View:
         return cls(left=region.left, top=region.top, width=region.width, height=region.height)
 
     def holds(self, pixel: FloatArray) -> bool:
-        """Tell whether a pixel (column, row) of the picture lies in it."""
+        """Return whether a pixel (column, row) of the picture lies in it."""
         column, row = float(pixel[0]), float(pixel[1])
         return -0.5 <= column <= self.width - 0.5 and -0.5 <= row <= self.height - 0.5
 
@@ -75,7 +75,7 @@ class StageCalibration:
 
     @classmethod
     def of(cls, fit: StageFit, date: datetime, tip_m: FloatArray, tip_px: FloatArray) -> Self:
-        """Return what is kept of a fit, with where the tip was and was seen."""
+        """Return the stored form of a fit, with the true and the seen position of the tip."""
         (a, b), (c, d) = fit.map.matrix.tolist()
         (x, y, z), (column, row) = tip_m.tolist(), tip_px.tolist()
         return cls(
@@ -93,7 +93,7 @@ class StageCalibration:
 
     @property
     def map(self) -> StageMap:
-        """The map as the computations take it."""
+        """The map in the form that the computations use."""
         return StageMap(np.array(self.matrix), np.array(self.covariance))
 
     def pixel_of(self, tip_m: FloatArray) -> FloatArray:
@@ -114,7 +114,7 @@ class FocusCalibration:
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class MicroscopeCalibration:
-    """All that is known of one camera behind one objective."""
+    """The calibration of one camera behind one objective."""
 
     version: Annotated[int, Field(strict=True, ge=VERSION, le=VERSION)] = VERSION
     camera: Text
@@ -125,7 +125,7 @@ class MicroscopeCalibration:
     focus: FocusCalibration | None = None
 
     def stage(self, name: str) -> StageCalibration:
-        """Return what is known of ``micro`` or ``nano``.
+        """Return the calibration of ``micro`` or ``nano``.
 
         Raises
         ------
@@ -167,7 +167,7 @@ def file_of(folder: Path, camera: str, objective: str) -> Path:
 
 
 def load(folder: Path, camera: str, objective: str) -> MicroscopeCalibration | None:
-    """Return what is kept of a camera behind an objective; None where nothing is.
+    """Return the stored calibration of a camera behind an objective, or None.
 
     Raises
     ------

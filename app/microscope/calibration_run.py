@@ -1,4 +1,4 @@
-"""A guided calibration: small moves about the present place, a look after each, a fit, and back.
+"""A guided calibration: small moves around the present position, a picture after each, a fit.
 
 Somebody calls :meth:`CalibrationRun.step`; it has no thread and never waits. Every move goes
 through the session, which knows limits, keep-out and owners; a refusal, a stop, a fault or a
@@ -60,7 +60,7 @@ class Observation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CalibrationStatus:
-    """What is to be shown.
+    """Status for display.
 
     Attributes
     ----------
@@ -149,7 +149,7 @@ class CalibrationRun:
 
     @property
     def status(self) -> CalibrationStatus:
-        """What is to be shown."""
+        """Status for display."""
         return self._status
 
     @property
@@ -158,7 +158,7 @@ class CalibrationRun:
         return self._pipette
 
     def step(self, now_s: float) -> CalibrationStatus:
-        """Go on; never raises for what a device or a camera does."""
+        """Advance; never raises for what a device or a camera does."""
         phase = self._status.phase
         if phase not in (Phase.LOOKING, Phase.RETURNING):
             return self._status
@@ -182,7 +182,7 @@ class CalibrationRun:
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
         return self._status.phase in (Phase.DONE, Phase.FAILED)
 
     def abort(self, reason: str = message("engine", "the calibration was stopped")) -> None:
@@ -226,7 +226,7 @@ class CalibrationRun:
         except InputError as error:
             self._end(
                 Phase.FAILED,
-                message("engine", "{reason}; it could not go back: {error}").fill(
+                message("engine", "{reason}; the return failed: {error}").fill(
                     reason=reason or "calibrated", error=str(error)
                 ),
             )
@@ -302,9 +302,9 @@ class CalibrationRun:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the picture drifted by {drift} px during the calibration, must be "
-                    "at most {most} px; let stage and camera settle, see to backlash, "
-                    "and begin again",
+                    "the picture drifted by {drift} px during the calibration; at most "
+                    "{most} px are permitted: let stage and camera settle, reduce backlash, "
+                    "and start again",
                 ).fill(drift=fixed(drift, 1), most=rounded(_MOST_DRIFT_PX, 6))
             )
         first, tip = self._first

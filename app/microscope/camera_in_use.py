@@ -1,4 +1,4 @@
-"""Which cameras there are, and the one that is in use."""
+"""The available cameras, and the one in use."""
 
 import threading
 from collections.abc import Callable
@@ -25,7 +25,7 @@ class CameraInUse:
     """Looks for cameras and keeps one open; wishes from any thread, done by the one that steps.
 
     Where nobody has chosen, the camera that was in use last opens by itself as soon as it is there
-    and somebody looks, or if there is none such, the simulated microscope.
+    and someone looks, or if there is none such, the simulated microscope.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class CameraInUse:
 
     @property
     def view(self) -> FeedView:
-        """How it is doing."""
+        """The state of the camera."""
         feed = self._feed
         if feed is not None:
             return feed.view
@@ -106,7 +106,7 @@ class CameraInUse:
         if found is None:
             known = ", ".join(one.key for one in self.cameras) or "none"
             raise MicroscopeError(
-                message("engine", "there is no camera {key}; there is: {known}").fill(
+                message("engine", "there is no camera {key}; available: {known}").fill(
                     key=repr(key), known=known
                 )
             )
@@ -115,7 +115,7 @@ class CameraInUse:
     def open_address(
         self, source: str, address: str, settings: CameraSettings | None = None
     ) -> None:
-        """Use what no list shows, such as a file; what is wrong with it is in :attr:`view`.
+        """Use an unlisted source, such as a file; :attr:`view` shows problems.
 
         Raises
         ------
@@ -129,8 +129,8 @@ class CameraInUse:
             )
         )
 
-    def let_go(self) -> None:
-        """Use no camera any more, nor at the next start; raises as :meth:`open_address`."""
+    def close_and_forget(self) -> None:
+        """Close the camera, also for the next start; raises as :meth:`open_address`."""
         self._refuse_in_use()
 
         def forget() -> None:
@@ -140,7 +140,7 @@ class CameraInUse:
         self._ask(forget)
 
     def configure(self, settings: CameraSettings) -> None:
-        """Set the camera in use; :attr:`view` tells what came of it.
+        """Configure the camera in use; :attr:`view` shows the outcome.
 
         Raises
         ------
@@ -155,7 +155,7 @@ class CameraInUse:
         self._present().trigger()
 
     def listen(self, tell: Callable[[Frame], None]) -> Callable[[], None]:
-        """Have every picture told, of whatever camera, until what is returned is called.
+        """Call ``listener`` with every picture of any camera; return how to end that.
 
         ``tell`` is called on the camera's thread and must not wait.
         """
@@ -174,7 +174,7 @@ class CameraInUse:
     # --- the thread that steps --------------------------------------------------------------------
 
     def step(self, now_s: float) -> None:
-        """Do what was asked for, and look what is there now and then; may take a while."""
+        """Execute requests, and search for cameras now and then; may take a while."""
         with self._lock:
             wish, self._wish = self._wish, None
         if wish is not None:
@@ -190,7 +190,7 @@ class CameraInUse:
         self._remember()
 
     def close(self) -> None:
-        """Let go of the camera; what hangs is left behind."""
+        """Release the camera; what hangs is left behind."""
         feed, self._feed = self._feed, None
         self._refused = ""
         if feed is not None:
@@ -251,8 +251,8 @@ class CameraInUse:
         else:
             self._refused = message(
                 "engine",
-                "{camera} ({key}), the camera used last, is not there; plug it in, "
-                "or choose another",
+                "{camera} ({key}), the camera used last, is not connected; plug it in, or "
+                "choose another",
             ).fill(camera=last.identity.name, key=last.identity.key)
 
     def _remember(self) -> None:

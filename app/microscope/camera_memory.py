@@ -1,4 +1,4 @@
-"""The camera that was in use last, and how it was set, kept among the preferences."""
+"""The last used camera and its settings, stored among the preferences."""
 
 import logging
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""A planned move made, looked at, and corrected until the tip is where it was clicked."""
+"""Executes a planned move, and corrects it until the tip is at the clicked point."""
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -27,7 +27,7 @@ _COVERED = 0.02  # share of a pixel that a pipette may still shade
 
 
 class Visit(StrEnum):
-    """How a visit to a clicked place goes on."""
+    """The state of a visit to a clicked point."""
 
     UNDER_WAY = "under way"
     ARRIVED = "arrived"
@@ -36,7 +36,7 @@ class Visit(StrEnum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VisitStatus:
-    """What is to be shown: the latest miss (2,), px, seen after so many corrections."""
+    """Status for display: the latest miss (2,), px, seen after so many corrections."""
 
     visit: Visit
     corrections: int = 0
@@ -101,7 +101,7 @@ class ClickRun:
         self.status = VisitStatus(Visit.UNDER_WAY)
 
     def step(self, now_s: float) -> VisitStatus:
-        """Go on; never raises for what a device or a camera does."""
+        """Advance; never raises for what a device or a camera does."""
         if self.ended:
             return self.status
         try:
@@ -114,7 +114,7 @@ class ClickRun:
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
         return self.status.visit is not Visit.UNDER_WAY
 
     def abort(self, reason: str) -> None:
@@ -144,8 +144,8 @@ class ClickRun:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the tip is still {distance} px off after {n} corrections, must be "
-                    "at most {most} px; the stage resolves no finer, or drifts",
+                    "the tip is still {distance} px off after {n} corrections; at most "
+                    "{most} px are permitted: the stage drifts, or its resolution is too coarse",
                 ).fill(
                     distance=fixed(distance, 2),
                     n=self._corrections,
@@ -179,8 +179,8 @@ class ClickRun:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the tip is not seen near {column}, {row} px, where it should be; "
-                    "nothing more is moved: look at the picture",
+                    "the tip is not visible near {column}, {row} px, where it should be; "
+                    "motion has ended: check the picture",
                 ).fill(column=fixed(self._ghost[0], 0), row=fixed(self._ghost[1], 0))
             )
         return np.asarray(fit.pixel + low)

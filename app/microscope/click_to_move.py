@@ -1,4 +1,4 @@
-"""A click in the picture made into a move of the tip.
+"""Conversion of a click in the picture into a move of the tip.
 
 A pixel becomes a displacement of the tip through the calibration, and that becomes targets of the
 stage's axes: the tables' x and y, or thx, thy (and zn, which keeps the height) within their range.
@@ -28,7 +28,7 @@ CONFIRM_M = 100e-6  # moves of the tip beyond this are confirmed first
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlannedMove:
-    """A click thought through; nothing has moved.
+    """The planned move for a click; nothing has moved.
 
     Attributes
     ----------
@@ -97,7 +97,7 @@ class ClickToMove:
         tip_px: FloatArray | None = None,
         frame: Frame | None = None,
     ) -> PlannedMove:
-        """Think a click through.
+        """Plan the move for a click.
 
         Parameters
         ----------
@@ -151,7 +151,7 @@ class ClickToMove:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the tip would go {distance}, more than {confirm_m}; confirm the move first",
+                    "the tip would move {distance}, more than {confirm_m}; confirm the move first",
                 ).fill(distance=exact(move.distance, "m"), confirm_m=exact(self.confirm_m, "m"))
             )
 

@@ -1,4 +1,4 @@
-"""What can be wrong with what somebody asks of the microscope."""
+"""Errors of requests to the microscope."""
 
 from rotemina.sim.errors import InputError
 

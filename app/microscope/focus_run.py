@@ -1,4 +1,4 @@
-"""Autofocus: a search that moves something, looks, and ends at the sharpest place.
+"""Autofocus: moves a drive, evaluates pictures, and ends at the sharpest position.
 
 What moves is the microscope's focus drive or an axis of the machine, such as z through the
 session, which knows its limits.
@@ -25,7 +25,7 @@ class Search(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class FocusStatus:
-    """What is to be shown: the looks so far, the peak, or why there is none."""
+    """Status for display: the pictures so far, and the peak or the reason for none."""
 
     search: Search
     places: tuple[float, ...] = ()
@@ -35,7 +35,7 @@ class FocusStatus:
 
 
 class FocusRun:
-    """Brings something into focus; somebody calls :meth:`step`.
+    """Brings something into focus; someone calls :meth:`step`.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class FocusRun:
         self._go(now_s)
 
     def step(self, now_s: float) -> FocusStatus:
-        """Go on; never raises for what a device or a camera does."""
+        """Advance; never raises for what a device or a camera does."""
         if self.ended:
             return self.status
         try:
@@ -96,7 +96,7 @@ class FocusRun:
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
         return self.status.search is not Search.UNDER_WAY
 
     def abort(self, reason: str) -> None:

@@ -1,4 +1,4 @@
-"""Pictures' times and the tip, written into the recording that runs."""
+"""Writes frame times and the tip into the running recording."""
 
 from collections.abc import Callable
 
@@ -30,7 +30,7 @@ class FrameRecording:
         self._recorder, self._calibration = recorder, calibration
 
     def frame(self, frame: Frame) -> None:
-        """Record that a picture came in, with all numbers that the camera tells of it.
+        """Record the arrival of a picture, with all numbers of the camera.
 
         A camera's own time is among those, where it tells one.
         """

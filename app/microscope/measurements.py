@@ -1,4 +1,4 @@
-"""What the tracker sees, as numbers for recordings, and as an independent ``ref`` for records.
+"""Tracked positions as numbers for recordings, and as an independent ``ref`` for records.
 
 A tip in the picture gives x and y through the calibration, and the depth through its blur. With
 one axis moving and the others as commanded, the kinematics turn that into the axis' true place:
@@ -123,8 +123,8 @@ def axis_reference(chain: Chain, axis: str, tip_m: FloatArray, joints: FloatArra
         raise MicroscopeError(
             message(
                 "engine",
-                "axis {axis}: the tip was seen farther from the pivot than the pin is long; the "
-                "calibration is of another machine or place: calibrate anew",
+                "axis {axis}: the tip appears farther from the pivot than the pin is long; "
+                "the calibration belongs to another machine or place: calibrate again",
             ).fill(axis=axis)
         )
     return np.asarray(np.arcsin(sine))
@@ -159,12 +159,12 @@ def with_reference(
         said = (
             message(
                 "engine",
-                "the record has a reference of axis {axis}; it needs one of {names} without its "
-                "ref",
+                "the record already has a reference of axis {axis}; choose one of {names} "
+                "without ref",
             )
             if axis in record.axes
             else message(
-                "engine", "the record has no axis {axis}; it needs one of {names} without its ref"
+                "engine", "the record has no axis {axis}; choose one of {names} without ref"
             )
         )
         raise MicroscopeError(said.fill(axis=repr(axis), names=", ".join(record.axes)))
@@ -177,7 +177,7 @@ def with_reference(
         raise MicroscopeError(
             message(
                 "engine",
-                "{count} frames show the tip and none of the record's times lies between them; "
+                "{count} frames show the tip, but no time of the record lies between them; "
                 "record frames and samples together, on one clock",
             ).fill(count=len(times))
         )

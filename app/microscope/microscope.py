@@ -1,4 +1,4 @@
-"""The microscope in use: camera, calibration, clicks and vision behind one door."""
+"""The microscope in use: one facade for camera, calibration, clicks and vision."""
 
 import time
 from collections.abc import Callable
@@ -23,7 +23,7 @@ from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.app.motion.stop import PROGRAM
 from rotemina.app.motion.ticker import Ticker
 from rotemina.app.settings import Settings
 from rotemina.drivers.cameras.camera import Camera
@@ -138,7 +138,7 @@ class Microscope:
             ticker.start()
 
     def close(self) -> None:
-        """End what is under way, and let go of the camera."""
+        """End what is under way, and release the camera."""
         self.runs.stop(marked("engine", "the program is being closed"))
         for ticker in self._tickers:
             ticker.close()
@@ -152,7 +152,7 @@ class Microscope:
         self.runs.step(now_s)
 
     def keep(self, now_s: float) -> None:
-        """Mind cameras, calibrations and slow looks at pictures; may take a while."""
+        """Maintain cameras, calibrations and slow picture jobs; may take a while."""
         self.camera.step(now_s)
         self.setup.step()
         self.jobs.step(now_s)
@@ -162,7 +162,7 @@ class Microscope:
 
     @property
     def status(self) -> MicroscopeStatus:
-        """All that a view shows now; to be read once a frame, while somebody looks at it.
+        """All that a view shows now; to be read once a frame, while someone looks at it.
 
         Cameras are looked for from the first time on.
         """
@@ -172,7 +172,7 @@ class Microscope:
     # --- what is looked through -------------------------------------------------------------------
 
     def choose_objective(self, name: str) -> None:
-        """Say which objective is in; raises MicroscopeError without a name, or in a run."""
+        """Set the objective; raises MicroscopeError without a name, or during a run."""
         self._refuse_under_way()
         self.positioning.planned = None
         self.setup.choose_objective(name)
@@ -228,7 +228,7 @@ class Microscope:
         self.adjustments.focus_mover(FOCUS)(focus_m, None)
 
     def plan(self, pixel: FloatArray, *, stage: str | None = None) -> PlannedMove:
-        """Think a click or drag through; nothing moves. Its ghost is shown until another is.
+        """Plan the move for a click or drag, and show its ghost; nothing moves.
 
         Raises
         ------
@@ -294,11 +294,11 @@ class Microscope:
     # --- vision -----------------------------------------------------------------------------------
 
     def track(self, on: bool, *, near: FloatArray | None = None) -> None:
-        """Follow the tip, or do not; ``near`` (2,), px, says about where it is."""
+        """Turn tracking on or off; ``near`` (2,), px, is an approximate position."""
         self.tracker.switch(on, near)
 
     def take_background(self) -> None:
-        """Make the background anew of the present picture, but for what the pipette covers."""
+        """Replace the background by the present picture, except under the pipette."""
         self.tracker.take_ground()
 
     def outline_cell(self, near: FloatArray) -> None:
@@ -306,7 +306,7 @@ class Microscope:
         self.jobs.outline(np.asarray(near, dtype=np.float64), self.setup.pixel_m)
 
     def forget_cell(self) -> None:
-        """Show no outline any more."""
+        """Remove the outline."""
         self.jobs.forget()
 
     def measure(self, begin: FloatArray, end: FloatArray) -> None:
@@ -319,11 +319,11 @@ class Microscope:
         self.measured = ends
 
     def forget_measure(self) -> None:
-        """Show no line any more."""
+        """Remove the measured line."""
         self.measured = None
 
     def watch_drift(self, on: bool) -> None:
-        """Tell by how much the background moves from now on, or do not."""
+        """Turn the monitoring of background drift on or off."""
         self.jobs.watch_drift(on)
 
     # --- inside -----------------------------------------------------------------------------------

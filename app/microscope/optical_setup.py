@@ -1,4 +1,4 @@
-"""What is known of the camera and the objective in use: calibration, pipette, scale."""
+"""The camera and objective in use, with calibration, pipette and scale."""
 
 import threading
 from collections.abc import Callable
@@ -77,7 +77,7 @@ class OpticalSetup:
 
     @property
     def scale(self) -> tuple[float | None, ScaleSource]:
-        """The size of a pixel, m, and who says so."""
+        """The size of a pixel, m, and its source."""
         known = self.calibration
         stage = None if known is None else known.micro or known.nano
         if stage is not None:
@@ -136,7 +136,7 @@ class OpticalSetup:
     # --- what changes it --------------------------------------------------------------------------
 
     def step(self) -> None:
-        """Read what is kept of camera and objective, if they are others than before."""
+        """Load the calibration of camera and objective if they have changed."""
         of = self.key, self.objective
         with self._lock:
             if of == self._of:
@@ -153,11 +153,11 @@ class OpticalSetup:
                 self.calibration, self.problem = calibration, problem
 
     def choose_objective(self, name: str) -> None:
-        """Say which objective is in; raises MicroscopeError without a name."""
+        """Set the objective; raises MicroscopeError without a name."""
         name = name.strip()
         if not name:
             raise MicroscopeError(
-                message("engine", 'objective: the name is empty; give one, such as "20x"')
+                message("engine", 'objective: the name is empty; enter one, such as "20x"')
             )
         with self._lock:
             if name != self.objective:
@@ -174,7 +174,7 @@ class OpticalSetup:
         self._keep(lambda known: known.with_stage(name, stage), region)
 
     def keep_focus(self, focus: FocusCalibration, region: Region) -> None:
-        """Keep where it was sharpest; raises as :meth:`keep_stage`."""
+        """Store the sharpest position; raises as :meth:`keep_stage`."""
         self._keep(lambda known: replace(known, focus=focus), region)
 
     def _keep(

@@ -1,4 +1,4 @@
-"""What the robot file says of microscope and tool, as the finder of the tip takes it."""
+"""Microscope and tool of the robot file, as the tip finder needs them."""
 
 import re
 from dataclasses import replace
@@ -33,15 +33,15 @@ def nominal_pixel_m(robot: Robot, objective: str = "") -> float:
         raise MicroscopeError(
             message(
                 "engine",
-                "robot {name}: [microscope] pixel_size and magnification are missing; the tip's "
-                "shape cannot be known without them",
+                "robot {name}: [microscope] pixel_size and magnification are missing; they "
+                "determine the tip's shape in the picture",
             ).fill(name=repr(robot.name))
         )
     return given.pixel_size / (magnification_of(objective) or given.magnification)
 
 
 def as_simulated(robot: Robot) -> Robot:
-    """Return a robot whose file says of microscope and tool what the simulated one takes."""
+    """Return a robot with the simulated microscope and tool."""
     given, angle = robot.microscope, robot.tool.approach_angle
     return replace(
         robot,
@@ -56,7 +56,7 @@ def as_simulated(robot: Robot) -> Robot:
 
 
 def magnification_of(objective: str) -> float | None:
-    """Return what the name of an objective says of its magnification: ``40x``, ``Plan 40x/0.6``."""
+    """Return the magnification in an objective's name: ``40x``, ``Plan 40x/0.6``."""
     found = re.search(r"(\d+(?:\.\d+)?)\s*[x×]", objective, re.IGNORECASE)
     return float(found[1]) if found and float(found[1]) > 0.0 else None
 

@@ -1,4 +1,4 @@
-"""Looks at pictures that take their time: the outline of a cell, the drift of the background."""
+"""Slow evaluations of pictures: the outline of a cell, the drift of the background."""
 
 import threading
 from collections.abc import Callable
@@ -20,7 +20,7 @@ _LEAST_PX = 4.0
 
 
 class PictureJobs:
-    """Done one after the other by the thread that steps; asked for from any.
+    """Jobs executed in turn by the stepping thread, requested from any.
 
     Parameters
     ----------
@@ -55,13 +55,13 @@ class PictureJobs:
         self.cell, self.reason = None, ""
 
     def watch_drift(self, on: bool) -> None:
-        """Tell how far the background is from where it is now."""
+        """Return how far the background is from where it is now."""
         with self._lock:
             self._watching, self._reference = on, None
         self.drift = DriftSeen(watched=on)
 
     def step(self, now_s: float) -> None:
-        """Do what is asked for."""
+        """Execute the requested job."""
         with self._lock:
             wanted, self._wanted = self._wanted, None
             watching = self._watching

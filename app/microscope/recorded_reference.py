@@ -1,4 +1,4 @@
-"""A recording with a tip in it made into a record whose ``ref`` the microscope has seen."""
+"""Converts a recording of the tip into a record with the microscope as ``ref``."""
 
 import numpy as np
 
@@ -33,7 +33,7 @@ def recorded_reference(
         raise MicroscopeError(
             message(
                 "engine",
-                "axis {axis}: the microscope tells the places of {names} only; depth has no zero",
+                "axis {axis}: the microscope measures only {names}; depth has no zero",
             ).fill(axis=repr(axis), names=", ".join(SEEN))
         )
     record, samples = record_of(recording, begin_s, end_s), recording.samples(begin_s, end_s)
@@ -41,7 +41,8 @@ def recorded_reference(
         raise MicroscopeError(
             message(
                 "engine",
-                "{path}: no tip is in it; calibrate, and track the tip while it is recorded",
+                "{path}: the recording contains no tip; calibrate, and track the tip while "
+                "recording",
             ).fill(path=recording.path)
         )
     tips = recording.channel(CHANNEL, samples.host_time_s[0], samples.host_time_s[-1])
@@ -60,7 +61,7 @@ def recorded_reference(
         raise MicroscopeError(
             message(
                 "engine",
-                "{path}: {count} pictures, and none of them tells where the tip is; calibrate the "
+                "{path}: none of the {count} pictures shows where the tip is; calibrate the "
                 "tables before recording",
             ).fill(path=recording.path, count=len(at_s))
         )

@@ -1,4 +1,4 @@
-"""What moves something by what a camera shows: one at a time, ended when that cannot be trusted."""
+"""Procedures that move an axis by camera pictures: one at a time, ended when not trustworthy."""
 
 import threading
 from collections.abc import Callable
@@ -8,7 +8,7 @@ from rotemina.app.cameras.feed import FeedState, FeedView
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.status import Activity
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.app.motion.stop import PROGRAM
 from rotemina.sim.messages import message
 
 _BROKEN = (
@@ -25,10 +25,10 @@ class Run(Protocol):
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
 
     def step(self, now_s: float) -> object:
-        """Go on; never raises for what a device or a camera does."""
+        """Advance; never raises for what a device or a camera does."""
 
     def abort(self, reason: str) -> None:
         """Stop the machine and end."""
@@ -63,7 +63,7 @@ class Runs:
 
     @property
     def activity(self) -> Activity:
-        """What is under way."""
+        """The running activity."""
         return self._activity
 
     def begin(
@@ -104,7 +104,7 @@ class Runs:
         self._session.stop(reason, by=by)
 
     def step(self, now_s: float) -> None:
-        """Go on; on one thread only."""
+        """Advance; on one thread only."""
         with self._lock:
             run, asked, activity = self._run, self._asked, self._activity
         if run is None:

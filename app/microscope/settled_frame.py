@@ -1,4 +1,4 @@
-"""A look at a machine that rests: pictures taken after it came to rest, and where it stood.
+"""Pictures taken after the machine came to rest, with its position.
 
 Whoever moves by what a camera shows waits here. Anything that makes the picture or the place
 doubtful ends the wait with the reason: then nothing is to move.
@@ -32,7 +32,7 @@ REST_PATIENCE_S = 30.0  # with a machine
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SettledFrame:
-    """What was seen of a machine at rest.
+    """Pictures of a machine at rest, with its position.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class SettledFrame:
 
 
 class SettledFrameGrabber:
-    """Waits for one look at a time; somebody calls :meth:`step` at about the camera's rate.
+    """Waits for one settled frame at a time; call :meth:`step` at about the camera's rate.
 
     Parameters
     ----------
@@ -95,12 +95,12 @@ class SettledFrameGrabber:
         self._restart()
 
     def step(self, now_s: float) -> SettledFrame | None:
-        """Return the look as soon as there is one.
+        """Return the settled frame as soon as there is one.
 
         Raises
         ------
         MicroscopeError
-            If somebody stopped the machine, it cannot move any more or does not come to rest, or
+            If someone stopped the machine, it cannot move any more or does not come to rest, or
             the camera stands still, is black, or shows another part of its sensor.
         VisionError
             If the picture is none.
@@ -113,8 +113,8 @@ class SettledFrameGrabber:
                 raise MicroscopeError(
                     message(
                         "engine",
-                        "the machine did not come to rest within {rest_patience_s} s; look what "
-                        "drives it, and begin again",
+                        "the machine did not come to rest within {rest_patience_s} s; check "
+                        "what drives it, and start again",
                     ).fill(rest_patience_s=REST_PATIENCE_S)
                 )
             return None
@@ -126,15 +126,13 @@ class SettledFrameGrabber:
         waited_s = now_s - self._rested_s
         if waited_s > self._settle_s + PATIENCE_S:
             what = (
-                marked("engine", "frozen: it gives the same picture again")
-                if self._same
-                else "stalled"
+                marked("engine", "frozen: it repeats the same picture") if self._same else "stalled"
             )
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the camera is {what}; {count} of {pictures} new pictures came within "
-                    "{waited_s} s. Nothing is moved: see to the camera and begin again",
+                    "the camera is {what}; {count} of {pictures} new pictures arrived within "
+                    "{waited_s} s. Nothing moves: check the camera, and start again",
                 ).fill(
                     what=what,
                     count=len(self._images),
@@ -145,9 +143,9 @@ class SettledFrameGrabber:
         return None
 
     def check(self) -> None:
-        """Refuse if nothing may be moved any more; to be asked right before every move.
+        """Refuse if motion is no longer permitted; to be called right before every move.
 
-        What is computed from a picture takes a while, in which somebody may stop the machine.
+        What is computed from a picture takes a while, in which someone may stop the machine.
 
         Raises
         ------
@@ -178,8 +176,8 @@ class SettledFrameGrabber:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the camera shows {size} now, and {before} when this began; keep its settings "
-                    "and begin again",
+                    "the camera shows {size}, but showed {before} at the start; keep its "
+                    "settings, and start again",
                 ).fill(size=_size(frame.region), before=_size(self._region))
             )
         self._region = frame.region
@@ -187,7 +185,7 @@ class SettledFrameGrabber:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the picture is black; look at lamp, shutter and exposure. Nothing is moved",
+                    "the picture is black; check lamp, shutter and exposure. Nothing moves",
                 )
             )
         self._same = before is not None and np.array_equal(before.pixels, frame.pixels)
@@ -211,15 +209,11 @@ class SettledFrameGrabber:
 
     def _refuse_if_broken(self, state: SessionState) -> None:
         if not self.permit.valid:
-            raise MicroscopeError(
-                message("engine", "somebody stopped the machine; it stays where it is")
-            )
+            raise MicroscopeError(message("engine", "the machine was stopped; it stays in place"))
         if state.connection is not Connection.CONNECTED or state.fault is not None:
             reason = state.fault or state.locked or message("engine", "it is not connected")
             raise MicroscopeError(
-                message("engine", "the machine does not move any more: {reason}").fill(
-                    reason=reason
-                )
+                message("engine", "the machine no longer moves: {reason}").fill(reason=reason)
             )
         if state.locked is not None:
             raise MicroscopeError(

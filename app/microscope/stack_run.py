@@ -1,4 +1,4 @@
-"""A z-stack: pictures at even places of the focus drive or of an axis, and back to where it began.
+"""A z-stack: pictures at equidistant positions of the focus drive or an axis, and the return.
 
 Each is taken once the machine rests, as for autofocus; a stop ends it where it is.
 """
@@ -17,7 +17,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.gate import Permit
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
-from rotemina.sim.quantities import exact
+from rotemina.sim.quantities import exact, fixed
 
 MOST_PAGES = 1000
 MOST_BYTES = 1 << 29  # of pictures that are kept until they are written
@@ -50,23 +50,23 @@ def places_of(first: float, last: float, step: float) -> tuple[float, ...]:
     length = abs(last - first)
     if not (isfinite(length) and isfinite(step) and step > 0.0):
         raise MicroscopeError(
-            message("engine", "z-stack: a step of {step}: must be above 0 µm").fill(
+            message("engine", "z-stack: step {step}: must be above 0 µm").fill(
                 step=exact(step, "m")
             )
         )
     count = floor(length / step + _WHOLE) + 1
     if count > MOST_PAGES:
         raise MicroscopeError(
-            message("engine", "z-stack: {count} pictures: at most {most}; take a larger step").fill(
-                count=count, most=MOST_PAGES
-            )
+            message(
+                "engine", "z-stack: {count} pictures: must be at most {most}; use a larger step"
+            ).fill(count=count, most=MOST_PAGES)
         )
     away = np.copysign(step, last - first)
     return tuple((first + away * np.arange(count)).tolist())
 
 
 class StackRun:
-    """Takes the pictures; somebody calls :meth:`step`.
+    """Takes the pictures; the caller calls :meth:`step`.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ class StackRun:
         self._go(now_s)
 
     def step(self, now_s: float) -> StackStatus:
-        """Go on; never raises for what a device or a camera does."""
+        """Advance; never raises for what a device or a camera does."""
         if self.ended:
             return self.status
         try:
@@ -128,7 +128,7 @@ class StackRun:
 
     @property
     def ended(self) -> bool:
-        """Whether it moves nothing any more."""
+        """Whether the run has ended."""
         return self.status.search is not Search.UNDER_WAY
 
     def abort(self, reason: str) -> None:
@@ -157,11 +157,11 @@ class StackRun:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "z-stack: {count} pictures of {each} MB: at most {most} MB together; take a "
-                    "larger step, or a part of the sensor",
+                    "z-stack: {count} pictures of {each} MB: must be at most {most} MB "
+                    "together; use a larger step, or a part of the sensor",
                 ).fill(
                     count=count,
-                    each=f"{frame.pixels.nbytes / 1e6:.1f}",
-                    most=f"{MOST_BYTES / 1e6:.0f}",
+                    each=fixed(frame.pixels.nbytes / 1e6, 1),
+                    most=fixed(MOST_BYTES / 1e6, 0),
                 )
             )

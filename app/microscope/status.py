@@ -1,4 +1,4 @@
-"""One moment of the microscope, for whoever shows it."""
+"""The state of the microscope at one instant, for views."""
 
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -30,7 +30,7 @@ class Activity(StrEnum):
 
 
 class TipState(StrEnum):
-    """How the tracked tip is doing."""
+    """The state of the tracked tip."""
 
     OFF = "off"
     SEARCHED = "searched"
@@ -39,7 +39,7 @@ class TipState(StrEnum):
 
 
 class ScaleSource(StrEnum):
-    """Who tells the size of a pixel."""
+    """The source of the pixel size."""
 
     NONE = "unknown"
     ROBOT_FILE = "robot file"
@@ -84,7 +84,7 @@ class TipSeen:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CellSeen:
-    """The outline of a cell, and how the tip stands to it.
+    """The outline of a cell, and the position of the tip relative to it.
 
     Attributes
     ----------
@@ -155,7 +155,7 @@ class FocusAxis:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DriftSeen:
-    """By how much the background has moved since it was last taken; None while nobody watches."""
+    """Displacement of the background since it was last taken; None if not monitored."""
 
     watched: bool = False
     drift: Drift | None = None

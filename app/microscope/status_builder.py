@@ -1,4 +1,4 @@
-"""A moment of the microscope put together for a view."""
+"""Assembles the state of the microscope for a view."""
 
 from dataclasses import dataclass
 
@@ -37,7 +37,7 @@ class Parts:
 
 
 def build_status(parts: Parts, ends: tuple[FloatArray, FloatArray] | None) -> MicroscopeStatus:
-    """Return this moment; ``ends`` (2,) px each are those of the measured line, if there is one."""
+    """Return this moment; ``ends`` (2,) px each are those of the measured line, if any."""
     setup, tracked = parts.setup, parts.tracker.tracked
     view, camera = parts.camera.view, parts.camera.camera
     pixel_m, source = setup.scale

@@ -13,7 +13,7 @@ from rotemina.sim.messages import message
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A marked place, px, and what became of it."""
+    """A marked point, px, and its outcome."""
 
     column: float
     row: float
@@ -30,7 +30,7 @@ class Target:
 class TargetSequence:
     """Targets in the order in which they were marked.
 
-    ``begin`` makes the run that goes to a pixel; the next target is gone to when somebody calls
+    ``begin`` makes the run that goes to a pixel; the next target is gone to when someone calls
     :meth:`next`, so that there is time for what is to be done at each.
     """
 
@@ -56,7 +56,7 @@ class TargetSequence:
         self._present = self._run = None
 
     def next(self) -> Target:
-        """Go to the first target that nobody has been sent to.
+        """Go to the first unvisited target.
 
         Raises
         ------
@@ -76,7 +76,7 @@ class TargetSequence:
 
     @property
     def ended(self) -> bool:
-        """Whether nothing is moved any more."""
+        """Whether the visit has ended."""
         return self._run is None or self._run.ended
 
     @property
@@ -109,7 +109,7 @@ class TargetSequence:
             self._note()
 
     def step(self, now_s: float) -> Target | None:
-        """Go on with the present visit; return its target, or None before the first."""
+        """Continue with the present visit; return its target, or None before the first."""
         if self._run is None or self._present is None:
             return None
         self._run.step(now_s)

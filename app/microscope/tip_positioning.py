@@ -1,4 +1,4 @@
-"""Clicks and marked targets: a move thought through, made, and looked at until the tip is there."""
+"""Moves of the tip to clicks and marked targets: planned, executed, and corrected."""
 
 import numpy as np
 
@@ -56,7 +56,7 @@ class TipPositioning:
         )
 
     def plan(self, pixel: FloatArray, stage: str | None) -> PlannedMove:
-        """Think a click through; nothing moves. Raises as :meth:`ClickToMove.plan`."""
+        """Plan the move for a click; nothing moves. Raises as :meth:`ClickToMove.plan`."""
         self.planned = None
         self.planned = self._thought(pixel, stage)
         return self.planned
@@ -105,7 +105,7 @@ class TipPositioning:
         self._runs.begin(Activity.TARGETS, make)
 
     def doubt(self, activity: Activity) -> str:
-        """Return why what is tracked must not be moved by any more."""
+        """Return why the tracked tip must not be used for motion, or None."""
         tracked = self._tracker.tracked
         if activity not in (Activity.CLICK, Activity.TARGETS) or tracked.lost_since_s is None:
             return ""
@@ -146,7 +146,7 @@ class TipPositioning:
             raise MicroscopeError(
                 message(
                     "engine",
-                    "the tip is not tracked; switch tracking on, so that the move can be looked at",
+                    "the tip is not tracked; turn on tracking, so that the move can be checked",
                 )
             )
         ground = self._tracker.ground_about(move.pixel)

@@ -1,4 +1,4 @@
-"""The tip followed in the newest picture, whatever that costs in pictures: never a backlog."""
+"""Tracks the tip in the newest picture, skipping pictures rather than building a backlog."""
 
 import threading
 from collections import deque
@@ -40,7 +40,7 @@ class Pressing(StrEnum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tracked:
-    """What is known after a picture.
+    """The tracking result of a picture.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ class TipTracker:
 
     @property
     def tracked(self) -> Tracked:
-        """What the newest picture told."""
+        """The result of the newest picture."""
         return self._tracked
 
     @property
@@ -142,14 +142,14 @@ class TipTracker:
             self._near = None if near is None else np.asarray(near, dtype=np.float64)
 
     def take_ground(self) -> None:
-        """Make the background anew of the present picture, but for what the pipette covers."""
+        """Replace the background by the present picture, except under the pipette."""
         with self._lock:
             self._ground_wanted = True
 
     # --- the thread that steps --------------------------------------------------------------------
 
     def step(self) -> None:
-        """Look at the newest picture, if there is one that was not looked at."""
+        """Process the newest picture, unless it was already processed."""
         with self._lock:
             on, anew, self._anew = self._on, self._anew, False
         if anew:
@@ -191,7 +191,7 @@ class TipTracker:
             self._tracked = replace(self._tracked, track=None, state=TipState.SEARCHED)
 
     def _found(self, state: Tracked, frame: Frame) -> Tracked:
-        """Look for it in the whole picture, or about where somebody pointed."""
+        """Look for it in the whole picture, or about where someone pointed."""
         if frame.host_time_s - self._searched_s < _AGAIN_S:
             return state
         self._searched_s = frame.host_time_s

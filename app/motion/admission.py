@@ -1,4 +1,4 @@
-"""What each request for motion passes on its caller's thread, before it is queued."""
+"""Checks of each motion request on the caller's thread, before it is queued."""
 
 import threading
 from collections.abc import Container, Iterable, Mapping
@@ -58,7 +58,10 @@ class Admission:
             )
         if state.activity is DeviceState.HOMING:
             raise RefusedError(
-                message("engine", "the machine looks for its switches; wait, or stop it first")
+                message(
+                    "engine",
+                    "the machine is searching for its limit switches; wait, or stop it first",
+                )
             )
         if state.activity is DeviceState.PLAYING or self._link.mailbox.holds_play():
             raise RefusedError(
@@ -117,6 +120,6 @@ class Admission:
         self.queue(command, permit, axes, owner)
 
     def note_approached(self, targets: Mapping[str, float], axes: Iterable[str]) -> None:
-        """Note where axes come to by an approach; those of ``axes`` without a target by none."""
+        """Note the approached targets of axes; ``axes`` without a target have none."""
         kept = {axis: at for axis, at in self.approached.items() if axis not in set(axes)}
         self.approached = MappingProxyType({**kept, **targets})

@@ -1,4 +1,4 @@
-"""Backlash of stepper axes: a target is come to from one side always, so the play is on the other.
+"""One-sided approach of stepper axes, so that backlash is always on the same side.
 
 Where an axis would come from the wrong side, or has not gone far enough to take up the play, it
 first goes beyond its target by ``width``. That way passes every check, as any move does. It is made
@@ -24,7 +24,7 @@ OVER_PLAY = 1.5  # of a play that was measured: the width that surely takes it u
 
 
 def play_of(robot: Robot, effects: Iterable[AxisEffect], axis: str) -> float | None:
-    """Return the play of an axis by effects that a diagnosis found, m; None where none tells it."""
+    """Return the backlash of an axis from diagnosed effects, m, or None."""
     own = (one for one in effects if one.enabled and one.axis == axis and one.id == BACKLASH.id)
     plays = [Attached.of(robot, one).values.get("width", 0.0) for one in own]
     return sum(plays) if plays else None
@@ -32,14 +32,14 @@ def play_of(robot: Robot, effects: Iterable[AxisEffect], axis: str) -> float | N
 
 @dataclass(frozen=True, slots=True)
 class Approach:
-    """How an axis comes to its targets: ``rising`` or falling, from ``width`` (m) at least."""
+    """The approach of an axis to targets: ``rising`` or falling, over ``width`` (m) or more."""
 
     width: float
     rising: bool
 
 
 class Backlash:
-    """One-sided approaches of axes, each off until somebody chooses it.
+    """One-sided approaches of axes, each off until someone chooses it.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class Backlash:
         self.applied: Mapping[str, Approach] = MappingProxyType({})
 
     def use(self, axis: str, approach: Approach | None) -> None:
-        """Come to an axis' targets so from now on, or, for None, straight.
+        """Set the approach of an axis from now on; None: straight.
 
         Raises
         ------
@@ -76,7 +76,7 @@ class Backlash:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "axis {axis}: a width of {width}: must be above 0 and at most {most}, a "
+                    "axis {axis}: width {width}: must be above 0 and at most {most}, a "
                     "hundredth of the range",
                 ).fill(
                     axis=AxisName(axis),
@@ -85,7 +85,7 @@ class Backlash:
                 )
             )
         with self._admission.lock:
-            self._admission.refuse_unless_at_rest("changing how an axis comes to its targets")
+            self._admission.refuse_unless_at_rest("changing the approach of an axis")
             kept = {name: one for name, one in self.applied.items() if name != axis}
             if approach is not None:
                 kept[axis] = approach
@@ -97,7 +97,7 @@ class Backlash:
         self.applied = MappingProxyType({})
 
     def taken_up(self, axis: str) -> bool:
-        """Tell whether an axis is where its one-sided approach ended."""
+        """Return whether an axis is where its one-sided approach ended."""
         at = self._admission.approached.get(axis)
         command = self._link.worker.state.command.get(axis)
         if at is None or command is None:
@@ -149,7 +149,7 @@ class Backlash:
         raise OutOfLimitsError(
             message(
                 "engine",
-                "axis {axis}: the one-sided approach to {target} begins at {begin}, outside of "
+                "axis {axis}: the one-sided approach to {target} begins at {begin}, outside "
                 "{low} to {high}; stay {width} away from that end, or switch the approach off",
             ).fill(
                 axis=AxisName(axis),

@@ -45,7 +45,7 @@ class BracketedModel:
 
     @property
     def unsettled(self) -> tuple[str, ...]:
-        """The axes of whose past too little is known."""
+        """The axes whose history is insufficiently known."""
         return tuple(np.array(tuple(self._robot.axes))[self._doubtful].tolist())
 
     def restart(self) -> None:

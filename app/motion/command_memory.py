@@ -1,4 +1,4 @@
-"""The commands of a machine since its connection, from which the memory of a model is made."""
+"""The commands since the connection, from which a model derives its memory."""
 
 import threading
 from collections import deque

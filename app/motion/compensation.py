@@ -1,4 +1,4 @@
-"""Compensation in a session: inverses between desired positions of piezo axes and their commands.
+"""Compensation in a session: inverses that convert desired positions of piezo axes to commands.
 
 A device that is a :class:`~rotemina.drivers.model_abilities.Compensator` sends every set-point
 through the inverse at its own ticks: moves, speeds, profiles and trajectories alike. Other devices
@@ -38,7 +38,7 @@ class NamedInverse:
 
 
 class Inverses:
-    """Inverses of axes, put on and taken off at rest."""
+    """Inverses of axes, applied and removed at rest."""
 
     def __init__(self, link: DeviceLink, admission: Admission) -> None:
         self._link = link
@@ -78,7 +78,7 @@ class Inverses:
         check_belongs(self._link.robot, inverse)
         axis = inverse.model.axis
         with self._admission.lock:
-            self._admission.refuse_unless_at_rest("putting an inverse on")
+            self._admission.refuse_unless_at_rest("applying an inverse")
             self._change(axis, inverse.model, permit)
             self._known = MappingProxyType({**self._known, axis: inverse})
 
@@ -96,7 +96,7 @@ class Inverses:
                 message("engine", "axis {axis} has no inverse to remove").fill(axis=AxisName(axis))
             )
         with self._admission.lock:
-            self._admission.refuse_unless_at_rest("taking an inverse off")
+            self._admission.refuse_unless_at_rest("removing an inverse")
             self._change(axis, None, permit)
 
     def forget(self) -> None:
@@ -126,8 +126,8 @@ class Inverses:
                 raise OutOfLimitsError(
                     message(
                         "engine",
-                        "axis {axis}: target {target} is beyond {low} to {high}, which its "
-                        "inverse was trained on; stay inside, or switch the compensation off",
+                        "axis {axis}: target {target} is outside {low} to {high}, the "
+                        "training range of its inverse; stay inside, or remove the inverse",
                     ).fill(
                         axis=AxisName(axis),
                         target=exact(targets[axis], unit),

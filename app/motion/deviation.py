@@ -1,4 +1,4 @@
-"""A watch on the gap between model and machine: too far apart for too long stops the motion."""
+"""Supervision of the gap between model and machine: a large lasting one stops the motion."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ class Gap:
 
 @dataclass(frozen=True, slots=True)
 class Excess:
-    """An axis that was beyond its bound for too long; m or rad."""
+    """An axis beyond its bound for too long; m or rad."""
 
     axis: str
     deviation: float
@@ -66,7 +66,7 @@ class DeviationWatch:
             if not bound > 0.0:
                 raise InputError(
                     message(
-                        "engine", "deviation: axis {axis}: a bound of {bound}: must be above 0"
+                        "engine", "deviation: axis {axis}: the bound {bound} must be above 0"
                     ).fill(axis=AxisName(axis), bound=rounded(bound, 6))
                 )
         self._robot = robot
@@ -124,8 +124,8 @@ class DeviationWatch:
         unit = self._robot.unit(axis) or ""
         text = message(
             "engine",
-            "axis {axis} is {deviation} from where the model expects it, for more than {time} ms: "
-            "at most {bound}",
+            "axis {axis} deviates from the model by {deviation} for more than {time} ms; the "
+            "bound is {bound}",
         ).fill(
             axis=AxisName(axis),
             deviation=exact(deviation, unit),

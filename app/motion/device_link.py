@@ -1,4 +1,4 @@
-"""The way to a device: its driver, the gate, the queue, and the worker that talks to it."""
+"""The link to a device: its driver, the gate, the queue, and the worker that talks to it."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,7 +7,7 @@ from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.lock_reasons import NOT_CONNECTED
 from rotemina.app.motion.mailbox import Ask, ConnectionRequest, Mailbox, RefusedError
 from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.motion.stop_request import StopRequest
+from rotemina.app.motion.stop import StopRequest, stop_devices
 from rotemina.app.motion.subscribers import Subscribers
 from rotemina.app.motion.worker import Worker
 from rotemina.drivers.abilities import TrajectoryPlayer
@@ -86,11 +86,11 @@ class DeviceLink:
         self.mailbox.request_connection(ConnectionRequest(self.driver))
 
     def disconnect(self) -> None:
-        """Ask the worker to let go of the device."""
+        """Ask the worker to release the device."""
         self.mailbox.request_connection(ConnectionRequest(None))
 
     def exchange(self, driver: Driver) -> None:
-        """Ask the worker to let go of the device and to connect to another one."""
+        """Ask the worker to release the device and to connect to another one."""
         # Until the worker has exchanged them, both drivers are stopped and neither is moved.
         driver.gate = self.gate
         self.driver = driver
@@ -121,26 +121,20 @@ class DeviceLink:
         if state.connection is not Connection.CONNECTED:
             raise RefusedError(state.locked or NOT_CONNECTED)
 
-    def halt(self, request: StopRequest, latch: str | None = None) -> None:
-        """Close the gate for earlier requests, then stop every driver that may be open.
+    def stop(self, request: StopRequest, latch: str | None = None) -> None:
+        """Stop every driver that may be open, as :func:`stop_devices`.
 
         Never waits and never raises. With ``latch`` nothing moves until the gate is released.
         """
         asked_s = self.clock()
         self._stop, self.stop_asked_s = request, asked_s
-        self.gate.stop(latch)
-        self.mailbox.clear()
-        failure = None
-        # During an exchange the worker still has the driver from before.
-        for driver in dict.fromkeys((self.worker.driver, self.driver)):
-            try:
-                driver.halt()
-            except Exception as error:  # told by the worker: a stop button must not raise
-                failure = error
+        # During an exchange the worker still has the previous driver.
+        drivers = (self.worker.driver, self.driver)
+        failure = stop_devices(self.gate, self.mailbox.clear, drivers, latch)
         self.worker.stopped(asked_s, failure, request)
 
     def snapshot(self) -> SessionState:
-        """Return the present state, but for the tip's."""
+        """Return the present state, without the tip's."""
         state = self.worker.state
         latched = self.gate.latched
         locked = self._locked(state)

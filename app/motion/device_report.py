@@ -15,7 +15,7 @@ from rotemina.sim.messages import marked
 def with_status(
     state: SessionState, driver: Driver, status: DeviceStatus, *, between_segments: bool
 ) -> SessionState:
-    """Return the state with what the device says of itself.
+    """Return the state with the device's own report.
 
     A device at rest between the segments of a move counts as moving.
     """
@@ -44,7 +44,7 @@ def with_samples(
     unsettled: tuple[str, ...],
     received_s: float,
 ) -> SessionState:
-    """Return the state with the latest row of samples, if there is any, and of the models."""
+    """Return the state with the latest row of samples, if any, and of the models."""
     if not len(samples):
         return state
     return replace(

@@ -1,4 +1,4 @@
-"""Execution of commands as calls of the driver, on the only thread that talks to it."""
+"""Executes commands as driver calls, on the only thread that talks to the driver."""
 
 from collections import deque
 from collections.abc import Callable, Mapping
@@ -212,7 +212,7 @@ class Executor:
 
     def _next_segment(self, permit: Permit) -> None:
         segment = self._route.popleft()
-        targets, speeds = self._inverses.told(segment.targets, segment.speeds)
+        targets, speeds = self._inverses.commands_for(segment.targets, segment.speeds)
         self._driver.move_to(targets, speeds, permit=permit)
         self.targets = MappingProxyType({**self.targets, **segment.targets})
 

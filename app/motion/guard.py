@@ -1,4 +1,4 @@
-"""Limits between every request and the machine: ranges, speeds, and the tip's keep-out."""
+"""Limits of every request: ranges, speeds, and the keep-out of the tip."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.checked import CheckedTrajectory
 from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
-from rotemina.sim.trajectory.violations import commands_of
+from rotemina.sim.trajectory.validation import commands_of
 
 MOST_THRUST = 1e-4  # m: beyond a piezo's way it is no thrust into a cell
 RETURN_SPEED = SLOW_SPEED  # m/s of the tip on its way back into its bounds
@@ -118,7 +118,7 @@ class Guard:
     def move(
         self, envelope: PositionEnvelope, targets: Mapping[str, float], *, confirmed: bool = False
     ) -> tuple[PathSegment, ...]:
-        """Return how a move is to be made: at once, or slower close above the floor.
+        """Return the segments of a move: direct, or slower close above the floor.
 
         A tip that is out of its bounds, as commanded or as read, moves only if that is
         ``confirmed``, only by axes that each bring it nearer, and slowly.
@@ -239,8 +239,8 @@ class Guard:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: a profile at {speed} within {height} of its floor: "
-                    "{most} at most; only an armed penetration may be faster there",
+                    "tip: the profile moves at {speed} within {height} of the floor, where "
+                    "{most} is the limit; only an armed penetration may be faster",
                 ).fill(
                     speed=exact(speed, "m/s"),
                     height=exact(SLOW_HEIGHT, "m"),
@@ -251,7 +251,8 @@ class Guard:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: a thrust of {way} within {height} of its floor: {most} at most",
+                    "tip: a thrust of {way} within {height} of the floor exceeds the limit "
+                    "of {most}",
                 ).fill(
                     way=exact(ends[1] - ends[0], "m"),
                     height=exact(SLOW_HEIGHT, "m"),

@@ -1,4 +1,4 @@
-"""Signs of life: of the thread that shows a session to an operator, and of the one that steers."""
+"""Heartbeats of the thread that shows a session, and of the one that steers."""
 
 from rotemina.drivers.clock import Clock
 
@@ -17,7 +17,7 @@ class Heartbeat:
         self._last_s: float | None = None
 
     def beat(self) -> None:
-        """Say that the thread is alive."""
+        """Record that the thread is alive."""
         self._last_s = self._clock()
 
     def end(self) -> None:

@@ -78,7 +78,7 @@ class HeldInverses:
         self.forget()
         self._sent = None
 
-    def told(
+    def commands_for(
         self, targets: Mapping[str, float], speeds: Mapping[str, float]
     ) -> tuple[Mapping[str, float], Mapping[str, float]]:
         """Return the commands that bring axes to targets, no faster than requested."""
@@ -141,7 +141,7 @@ class HeldInverses:
             raise StateError(
                 message(
                     "engine",
-                    "axis {axis} is compensated, which sets its voltage; take the inverse off",
+                    "the inverse of axis {axis} sets its voltage; remove the inverse",
                 ).fill(axis=AxisName(axis))
             )
 
@@ -178,7 +178,7 @@ class HeldInverses:
         return replace(samples, command=command, inputs=inputs)
 
     def _end_playback(self) -> None:
-        """Go on from the last row that acted."""
+        """Continue from the last row that acted."""
         played, self._played = self._played, None
         if played is None or self._sent is None:
             return

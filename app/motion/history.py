@@ -1,4 +1,4 @@
-"""The recent past of all axes, written by the session's worker and read by screens."""
+"""The recent past of all axes, written by the session's worker, read by displays."""
 
 import threading
 from dataclasses import dataclass, field
@@ -32,7 +32,7 @@ class LiveWindow:
     gap_since_s : float
         Device time from which on the model was in use: the gap begins there.
     connection : int
-        Counts up whenever the history starts anew, after each connection to the device.
+        Counts up whenever the history starts again, after each connection to the device.
     """
 
     axes: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""A model, kept running on the commands that a device really applied."""
+"""A model that runs on the commands actually applied by a device."""
 
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The models that run along with a device: the nominal one, always, and the one in use."""
+"""The models that run beside a device: the nominal one and the one in use."""
 
 from typing import NamedTuple
 
@@ -83,7 +83,7 @@ class LiveModels:
 
     @property
     def unsettled(self) -> tuple[str, ...]:
-        """The axes of whose past the model in use knows too little."""
+        """The axes whose history is insufficient for the model in use."""
         return self._runs[0].unsettled if self._runs else ()
 
     def prepare(self) -> None:

@@ -1,4 +1,4 @@
-"""Why nothing moves, in the words that an operator reads, with what to do."""
+"""Reasons why motion is locked, with remedies, in the operator's words."""
 
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.sim.messages import message
@@ -23,8 +23,8 @@ def lock_reason(state: SessionState, doubt: str | None) -> str | None:
     if state.differences:
         return message(
             "engine",
-            "the device's parameters are not those of the robot file "
-            "({difference}); write or accept them first",
+            "the device's parameters differ from the robot file ({difference}); write or "
+            "accept them first",
         ).fill(difference=state.differences[0])
     if not state.position_known:
         if not state.unhomed:

@@ -1,4 +1,4 @@
-"""What other threads leave for the worker: a short queue of commands, and a wake event."""
+"""Requests of other threads to the worker: a short command queue and a wake event."""
 
 import threading
 from collections import deque
@@ -19,7 +19,7 @@ from rotemina.sim.trajectory.checked import CheckedTrajectory
 
 
 class RefusedError(InputError):
-    """A command that the session does not take now; the message says why and what to do."""
+    """A refused command; the message gives reason and remedy."""
 
 
 def refuse_overtaken(permit: Permit) -> None:
@@ -67,7 +67,7 @@ class Home:
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """Something else that a driver is asked to do, on the thread that talks to it."""
+    """Another request to the driver, executed on the thread that talks to it."""
 
     action: Callable[[Driver, Permit], None]
 
@@ -84,21 +84,21 @@ class Play:
 
 @dataclass(frozen=True, slots=True)
 class LoadProfile:
-    """Hand over a profile, which does not run yet."""
+    """Upload a profile without running it."""
 
     profile: Profile
 
 
 @dataclass(frozen=True, slots=True)
 class RunProfile:
-    """Let the profile run that was handed over; its axis ends at ``targets``, m or rad."""
+    """Run the uploaded profile; its axis ends at ``targets``, m or rad."""
 
     targets: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
 class SetVoltage:
-    """Put out a voltage, V, which sends its axis to ``targets``, m or rad."""
+    """Set a voltage, V, which sends its axis to ``targets``, m or rad."""
 
     axis: str
     voltage: float
@@ -151,7 +151,7 @@ Command = (
 
 @dataclass(frozen=True, slots=True)
 class ConnectionRequest:
-    """What is to become of the connection: made by ``driver``, or None: ended."""
+    """The desired connection: a ``driver``, or None to disconnect."""
 
     driver: Driver | None
 
@@ -179,7 +179,7 @@ class Mailbox:
 
     @property
     def busy(self) -> bool:
-        """Whether a command waits, or is being handed over."""
+        """Whether a command is queued or being executed."""
         with self._lock:
             return bool(self._commands) or self._in_hand is not None
 
@@ -199,7 +199,7 @@ class Mailbox:
                 raise RefusedError(
                     message(
                         "engine",
-                        "{capacity} commands are waiting already and the device does not "
+                        "{capacity} commands are already waiting because the device does not "
                         "keep up; wait, or stop",
                     ).fill(capacity=self.capacity)
                 )
@@ -207,7 +207,7 @@ class Mailbox:
         self.wake_event.set()
 
     def _renews(self, command: Drive) -> bool:
-        """Tell whether the latest command is of the same axes: only the newest speed counts."""
+        """Return whether the latest command is of the same axes: only the newest speed counts."""
         latest = self._commands[-1].command if self._commands else None
         return isinstance(latest, Drive) and latest.velocities.keys() <= command.velocities.keys()
 
@@ -229,11 +229,11 @@ class Mailbox:
             return any(isinstance(one.command, Play | RunProfile) for one in self._commands)
 
     def target_of(self, axis: str) -> float | None:
-        """Return where the latest move that waits, or is being handed over, sends an axis."""
+        """Return the target of the latest queued or executing move of an axis."""
         return next((each[axis] for each in reversed(self.pending()) if axis in each), None)
 
     def pending(self) -> list[Mapping[str, float]]:
-        """Return where all moves that wait, or are being handed over, send axes, oldest first."""
+        """Return the targets of all queued or executing moves, oldest first."""
         found: list[Mapping[str, float]] = []
         for command in self._unfinished():
             if isinstance(command, Move):
@@ -243,7 +243,7 @@ class Mailbox:
         return found
 
     def drives(self) -> list[Drive]:
-        """Return the speeds that wait, or are being handed over, oldest first."""
+        """Return the queued or executing speeds, oldest first."""
         return [command for command in self._unfinished() if isinstance(command, Drive)]
 
     def _unfinished(self) -> list[Command]:

@@ -1,4 +1,4 @@
-"""The model that predictions are made with: the nominal one, or one that a diagnosis corrected.
+"""The model used for predictions: the nominal one, or one corrected by a diagnosis.
 
 Nothing that is sent to a machine depends on it, and nothing that protects the machine is loosened
 by it.
@@ -35,7 +35,7 @@ _UNFORESEEN = frozenset({"lost_steps"})
 
 
 class ModelError(InputError):
-    """A model that cannot be used; the message says why and what to do."""
+    """A model that cannot be used; the message gives reason and remedy."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,7 @@ class Machine:
             return marked("engine", "the robot file has changed")
         if self.driver != other.driver:
             return message(
-                "engine", "it was made for driver {driver}, this is {other_driver}"
+                "engine", "it was made for driver {driver}, but this is {other_driver}"
             ).fill(driver=repr(self.driver), other_driver=repr(other.driver))
         return (
             None
@@ -148,9 +148,9 @@ class ModelInUse:
             raise ModelError(
                 message(
                     "engine",
-                    "the diagnosis is of the robot file {name} as it was then; the one in use, "
-                    "{robot_name}, is another: choose the model in use as the model, and diagnose "
-                    "again",
+                    "the diagnosis belongs to an earlier state of the robot file {name}; the "
+                    "one in use, {robot_name}, differs: choose the model in use, and "
+                    "diagnose again",
                 ).fill(name=repr(diagnosis.robot.name), robot_name=repr(driver.robot.name))
             )
         found = cls.found_by(diagnosis, machine)
@@ -181,8 +181,8 @@ class ModelInUse:
             raise ModelError(
                 message(
                     "engine",
-                    "the diagnosis found nothing that commands foretell: the nominal model is as "
-                    "good",
+                    "the diagnosis found nothing that commands can predict: the nominal "
+                    "model is as good",
                 )
             )
         offsets = {
@@ -217,7 +217,7 @@ class ModelInUse:
 
 
 def foreseen(robot: Robot, effect: AxisEffect) -> bool:
-    """Tell whether commands predict an effect."""
+    """Return whether commands predict an effect."""
     traits = Attached.of(robot, effect).formulation.traits
     by_chance = Trait.RANDOM in traits or Trait.LOCKED_TO_TIME in traits
     return effect.id not in _UNFORESEEN and not by_chance

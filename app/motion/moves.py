@@ -1,4 +1,4 @@
-"""Requests for motion: single axes, speeds, safe ways, switches, trajectories, voltages."""
+"""Motion requests: single axes, speeds, safe paths, homing, trajectories, voltages."""
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -82,7 +82,7 @@ class Moves:
         *,
         permit: Permit | None = None,
     ) -> dict[str, float]:
-        """Let axes go at speeds, m/s or rad/s, until the lease runs out; renew it to go on.
+        """Move axes at speeds, m/s or rad/s, until the lease runs out; renew it to continue.
 
         Returns the speeds that are used: close to the tip's bounds they are lower. A speed of 0
         halts an axis.
@@ -98,9 +98,9 @@ class Moves:
         driver = self._link.driver
         if not isinstance(driver, VelocityMover):
             raise RefusedError(
-                message("engine", "driver {name} cannot move at a speed; send targets").fill(
-                    name=repr(driver.name)
-                )
+                message(
+                    "engine", "driver {name} cannot move at a set speed; send targets instead"
+                ).fill(name=repr(driver.name))
             )
         driver.check_velocity(velocities, lease_s)
         with self._admission.lock:
@@ -290,7 +290,7 @@ class Moves:
     def set_voltage(
         self, axis: str, voltage: float, owner: str = OPERATOR, *, permit: Permit | None = None
     ) -> None:
-        """Put out a piezo's voltage, V; where that sends the axis is held against all limits.
+        """Set a piezo's voltage, V; the resulting position is checked against all limits.
 
         Raises
         ------
@@ -303,7 +303,7 @@ class Moves:
         permit = self._admission.drawn(permit)
         if not isinstance(self._link.driver, VoltageOutput):
             raise RefusedError(
-                message("engine", "driver {name} cannot put out a voltage").fill(
+                message("engine", "driver {name} cannot set a voltage").fill(
                     name=repr(self._link.driver.name)
                 )
             )
@@ -326,14 +326,14 @@ class Moves:
             )
         targets = {axis: voltage * model.gain}
         with self._admission.lock:
-            self._admission.refuse_unless_at_rest("putting out a voltage")
+            self._admission.refuse_unless_at_rest("setting a voltage")
             segments = self._guard.move(self._admission.envelope(), targets)
             if len(segments) > 1 or segments[0].speeds:
                 raise RefusedError(
                     message(
                         "engine",
-                        "axis {axis}: a voltage acts at once, too fast so close above the "
-                        "tip's floor; move it instead",
+                        "axis {axis}: a voltage acts at once, which is too fast this close "
+                        "to the floor of the tip; move the axis instead",
                     ).fill(axis=AxisName(axis))
                 )
             command = SetVoltage(axis, voltage, targets)

@@ -1,4 +1,4 @@
-"""The ranges of axes that an operator narrows and restores."""
+"""Narrowing and restoring of axis ranges by an operator."""
 
 from types import MappingProxyType
 

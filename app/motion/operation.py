@@ -1,4 +1,4 @@
-"""All actions of an operator in a session, in one periodic loop.
+"""The periodic loop that executes all operator actions of a session.
 
 The loop reads the devices, steers the machine accordingly, steps a penetration, and records all of
 it during a recording. It is independent of Qt: panels of the window show it and request the rest.
@@ -160,7 +160,7 @@ class Operation:
     # --- what buttons ask for ---------------------------------------------------------------------
 
     def press_penetration(self) -> None:
-        """Take the penetration's one button: start it, bring it back.
+        """Press the penetration's button: start the run, or retract.
 
         Raises
         ------
@@ -317,7 +317,7 @@ class Operation:
                 self.recordings.mkdir(parents=True, exist_ok=True)
             except OSError as error:
                 raise RecordingError(
-                    message("engine", "{folder}: the folder cannot be made ({reason})").fill(
+                    message("engine", "{folder}: the folder cannot be created ({reason})").fill(
                         folder=self.recordings, reason=str(error.strerror or str(error))
                     )
                 ) from error

@@ -1,4 +1,4 @@
-"""Who drives an axis now: one owner each, told to the operator, taken over only on purpose."""
+"""The owner of each axis: one at a time, visible, and changed only deliberately."""
 
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -79,7 +79,7 @@ class Ownership:
                     )
 
     def take_over(self, axes: Iterable[str], owner: str) -> None:
-        """Make axes an owner's, whoever had them."""
+        """Give axes to an owner, regardless of the previous one."""
         wanted = tuple(axes)
         with self._lock:
             self._owners = {**self._owners, **dict.fromkeys(wanted, owner)}
@@ -100,7 +100,7 @@ class Ownership:
             self._reserved.update(dict.fromkeys(wanted, owner))
 
     def has_reserved(self, axes: Iterable[str], owner: str) -> bool:
-        """Tell whether all these axes are reserved for an owner."""
+        """Return whether all these axes are reserved for an owner."""
         with self._lock:
             return all(self._reserved.get(axis) == owner for axis in axes)
 

@@ -1,4 +1,4 @@
-"""Playing a trajectory by an operator's hand: at a pace, paused, row by row, watched."""
+"""Playback under the operator's control: pace, pause, single steps, supervision."""
 
 import threading
 from collections.abc import Callable, Mapping
@@ -14,7 +14,7 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.retiming import Piece, check_speed, piece
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged
-from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.app.motion.stop import PROGRAM
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.messages import message
@@ -144,7 +144,7 @@ class Playback:
         self._begin(trajectory, 0, state, watch, permit)
 
     def pause(self, *, by: str = PROGRAM) -> None:
-        """Bring the axes to rest, to go on later; ``by`` as of :meth:`MotionSession.stop`.
+        """Bring the axes to rest, to continue later; ``by`` as of :meth:`MotionSession.stop`.
 
         Raises
         ------
@@ -158,7 +158,7 @@ class Playback:
         self._session.stop(message("engine", "the playback is paused"), by=by)
 
     def resume(self, *, speed: float | None = None, permit: Permit | None = None) -> None:
-        """Go on from the last row that began, at the speed of before or at another one.
+        """Continue from the last row that began, at the speed of before or at another one.
 
         ``permit`` as in :meth:`play`.
 
@@ -168,7 +168,7 @@ class Playback:
             If nothing is paused, or as :meth:`MotionSession.play`.
         """
         permit = self._session.permit() if permit is None else permit
-        whole, watch, state = self._paused("go on with")
+        whole, watch, state = self._paused("resume")
         pace = state.speed if speed is None else check_speed(speed)
         row = min(max(state.row, 0), state.rows - 1)
         self._begin(whole, row, replace(state, speed=pace, excess=None), watch, permit)

@@ -1,4 +1,4 @@
-"""What the record of a playback says beside its motion."""
+"""Notes about a playback that are stored with its record."""
 
 from datetime import datetime
 
@@ -27,7 +27,7 @@ class PlaybackNotes:
         self._noted.extend(what)
 
     def metadata(self, driver: Driver, model: ModelInUse) -> dict[str, str]:
-        """Return what the metadata of a playback that begins now are to say."""
+        """Return the metadata of a playback that begins now."""
         effects = driver.effects_text if isinstance(driver, EffectCarrier) else ""
         return {
             "began": datetime.now().astimezone().isoformat(timespec="milliseconds"),

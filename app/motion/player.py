@@ -1,4 +1,4 @@
-"""Playing a trajectory as fast as the machine can: the same driver, on a clock set by hand."""
+"""Playback as fast as the machine permits, with the same driver on a manual clock."""
 
 from collections.abc import Callable, Mapping
 
@@ -102,7 +102,7 @@ def _compensator(device: TrajectoryPlayer) -> Compensator:
 def _regulator(device: TrajectoryPlayer) -> Regulator:
     if not isinstance(device, Regulator):
         raise InputError(
-            message("engine", "driver {name} closes no loop; use the simulator").fill(
+            message("engine", "driver {name} cannot close a loop; use the simulator").fill(
                 name=repr(device.name)
             )
         )

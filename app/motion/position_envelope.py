@@ -1,4 +1,4 @@
-"""Between which positions the axes may be just now."""
+"""Bounds of the present positions of the axes."""
 
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple

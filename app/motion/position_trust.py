@@ -1,4 +1,4 @@
-"""Whether the device's position may be believed: what made it doubtful, and what ends the doubt."""
+"""Whether the device's position can be trusted: what causes doubt, and what resolves it."""
 
 from collections.abc import Iterable
 
@@ -13,7 +13,7 @@ LOST = message("engine", "the connection was lost")
 class PositionTrust:
     """Doubt about axes; while there is any, motion is locked.
 
-    An axis is believed again when its switch was found, or when somebody who has looked confirms
+    An axis is believed again when its switch was found, or when someone who has looked confirms
     all of them. Used on the worker's thread.
 
     Parameters
@@ -52,6 +52,6 @@ class PositionTrust:
             self.reason = None
 
     def confirm(self) -> None:
-        """Believe all of them, as somebody says who has looked."""
+        """Trust all positions, on an operator's confirmation."""
         self._doubtful, self.reason = frozenset(), None
         self._watch.restart()

@@ -18,8 +18,12 @@ from rotemina.sim.robot.model import Robot
 LASTING_S = 0.05
 _SURE = 6.0  # standard deviations of a sensor's noise, beside a step of it
 _BEYOND = message("engine", "axis {axis} reads {much} beyond its range")
-_FAR_BEYOND = message("engine", "axis {axis} reads {much} beyond its range, {most} at most")
-_APART = message("engine", "axis {axis} reads {much} from where it was sent, {most} at most")
+_FAR_BEYOND = message(
+    "engine", "axis {axis} reads {much} beyond its range; at most {most} is permitted"
+)
+_APART = message(
+    "engine", "axis {axis} reads {much} away from its command; at most {most} is permitted"
+)
 
 
 class Judgement(NamedTuple):

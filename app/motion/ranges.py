@@ -1,4 +1,4 @@
-"""Ranges of axes that an operator narrowed: inside those of the robot file, never beyond them."""
+"""Axis ranges narrowed by an operator, always inside those of the robot file."""
 
 from collections.abc import Iterable, Mapping
 from math import sqrt
@@ -11,7 +11,7 @@ from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import RANGE_SLACK, OutOfLimitsError, check_target
-from rotemina.sim.trajectory.violations import commands_of
+from rotemina.sim.trajectory.validation import commands_of
 
 Range = tuple[float, float]
 Ranges = Mapping[str, Range]
@@ -31,9 +31,9 @@ def narrower(robot: Robot, axis: str, low: float, high: float) -> Range:
     if not low < high:
         unit = robot.unit(axis) or ""
         raise OutOfLimitsError(
-            message(
-                "engine", "axis {axis}: a range from {low} to {high}: its low end must be lower"
-            ).fill(axis=AxisName(axis), low=exact(low, unit), high=exact(high, unit))
+            message("engine", "axis {axis}: range {low} to {high}: the low end must be lower").fill(
+                axis=AxisName(axis), low=exact(low, unit), high=exact(high, unit)
+            )
         )
     return low, high
 
@@ -54,8 +54,8 @@ def check_within(robot: Robot, ranges: Ranges, targets: Iterable[tuple[str, floa
         raise OutOfLimitsError(
             message(
                 "engine",
-                "axis {axis}: target {target} is outside of {low} to {high}, to which its range "
-                "was narrowed; choose a target inside, or widen it in Control, Axes",
+                "axis {axis}: target {target} is outside {low} to {high}, its narrowed "
+                "range; choose a target inside, or widen the range in Control, Axes",
             ).fill(
                 axis=AxisName(axis),
                 target=exact(target, unit),
@@ -99,6 +99,6 @@ def speed_before(left: float, time_s: float, braking: float | None) -> float:
 
 
 def outside(robot: Robot, axis: str, position: float, ends: Range) -> bool:
-    """Tell whether a position, m or rad, is beyond these ends by more than rounding."""
+    """Return whether a position, m or rad, is beyond these ends by more than rounding."""
     slack = RANGE_SLACK * robot.axes[axis].span
     return not ends[0] - slack <= position <= ends[1] + slack

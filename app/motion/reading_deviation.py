@@ -1,4 +1,4 @@
-"""By how much readings lately differ from what commands lead to: what bounds are judged on too."""
+"""Recent deviation of readings from commands, which bounds take into account."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Cutting the record of a playback out of the samples that a device delivers."""
+"""Extracts the record of a playback from the samples of a device."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ _PER_SECOND = 1e9
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunAnswers:
-    """What models said of each row of a record while it was played: what came before is in them.
+    """The models' answers for each row of a record during its playback, with their history.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class PlaybackRecorder:
 
     @property
     def answers(self) -> RunAnswers | None:
-        """What the models said of each row of the record; None before its end, and without them."""
+        """The models' answers for each row; None before its end or without models."""
         return self._answered
 
     def say(self, name: str, text: str) -> None:
@@ -102,7 +102,7 @@ class PlaybackRecorder:
         self._metadata[name] = text
 
     def add(self, samples: Samples, answers: ModelOutputs | None = None, memory: int = 0) -> None:
-        """Take what belongs to the trajectory, and what models say of it.
+        """Add the samples of the trajectory, with the models' answers.
 
         ``memory`` is the number of the memory of commands that these samples are in.
 

@@ -1,4 +1,4 @@
-"""Feedback in a session: loops that the device closes around axes, put on and taken off at rest.
+"""Feedback in a session: loops around axes on the device, closed and opened at rest.
 
 Only a device that is a :class:`~rotemina.drivers.model_abilities.Regulator` can: a loop needs its
 samples hundreds of times sooner than a line to a board brings them.
@@ -49,7 +49,7 @@ class Loops:
 
     @property
     def limited(self) -> tuple[str, ...]:
-        """The axes whose loop asks for more than a limit allows just now; any thread."""
+        """The axes whose loop asks for more than a limit allows at present; any thread."""
         driver = self._link.driver
         return driver.regulation_limited if isinstance(driver, Regulator) else ()
 
@@ -61,7 +61,7 @@ class Loops:
             return None
         return message(
             "engine",
-            "driver {name} closes no loop: its samples come too seldom and too late for one; use "
+            "driver {name} cannot close a loop: its samples are too rare and too late; use "
             "feed-forward, or the simulator",
         ).fill(name=repr(driver.name))
 
@@ -142,8 +142,8 @@ def regulation_of(robot: Robot, tuning: "Tuning", name: str) -> NamedRegulation:
         raise FeedbackError(
             message(
                 "engine",
-                "{name}: tuned for outputs that come {delay} intervals late, and a "
-                "device's loop puts them out at once; tune with a delay of 0",
+                "{name}: tuned for outputs that are {delay} intervals late, but a device's "
+                "loop outputs them at once; tune with a delay of 0",
             ).fill(name=name, delay=tuning.delay)
         )
     number = f"{name}, point {tuning.chosen}"

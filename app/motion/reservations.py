@@ -1,4 +1,4 @@
-"""Axes that an owner keeps at rest too, and axes that are taken over."""
+"""Reservation of axes, also at rest, and taking over of axes."""
 
 from collections.abc import Sequence
 
@@ -40,7 +40,7 @@ class Reservations:
         self._link.worker.ownership.check(self._link.driver.axes, owner)
 
     def held_by(self, owner: str) -> bool:
-        """Tell whether every axis is reserved for an owner: nobody has taken one over."""
+        """Return whether every axis is reserved for an owner: nobody has taken one over."""
         return self._link.worker.ownership.has_reserved(self._link.driver.axes, owner)
 
     def set_free(self, owner: str) -> None:
@@ -48,5 +48,5 @@ class Reservations:
         self._link.worker.ownership.set_free(owner)
 
     def take_over(self, axes: Sequence[str], owner: str) -> None:
-        """Make axes an owner's that another one drives; they go on until told otherwise."""
+        """Give axes that another owner drives to an owner; they continue until commanded."""
         self._link.worker.ownership.take_over(axes, owner)

@@ -1,4 +1,4 @@
-"""The same path at another pace: a speed factor, and an easy start in the middle of it."""
+"""The same path at another pace: a speed factor, and a smooth start in mid-path."""
 
 from dataclasses import dataclass, replace
 
@@ -17,7 +17,7 @@ _DENSE = 2.0  # set-point periods: rows farther apart are places to go to, not p
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Piece:
-    """What is played of a trajectory, and where each moment of it lies in the whole.
+    """The played part of a trajectory, and the mapping of its times to the whole.
 
     Attributes
     ----------
@@ -47,8 +47,8 @@ def check_speed(speed: float) -> float:
         raise InputError(
             message(
                 "engine",
-                "playback: a speed of {speed}: must be {slowest} to {fastest} times "
-                "that of the trajectory",
+                "playback: the speed {speed} must be {slowest} to {fastest} times that of "
+                "the trajectory",
             ).fill(
                 speed=rounded(speed, 6), slowest=rounded(SLOWEST, 6), fastest=rounded(FASTEST, 6)
             )

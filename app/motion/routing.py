@@ -1,4 +1,4 @@
-"""The way of single targets: segments that pass the guard, with one-sided approaches in them."""
+"""Routing of single targets: path segments that pass the guard, with one-sided approaches."""
 
 from collections.abc import Mapping, Sequence
 
@@ -62,8 +62,8 @@ class Routing:
                 raise OutOfLimitsError(
                     message(
                         "engine",
-                        "{error}; the one-sided approach begins there: take the other side, or "
-                        "switch it off",
+                        "{error}; the one-sided approach begins there: choose the other "
+                        "side, or switch it off",
                     ).fill(error=str(error))
                 ) from error
             reached |= targets

@@ -1,4 +1,4 @@
-"""What an operator says once of all that is recorded: run, operator, sample."""
+"""Labels that an operator enters once for all records: run, operator, sample."""
 
 from dataclasses import dataclass, fields
 from typing import Self
@@ -16,7 +16,7 @@ class RunLabels:
 
     @classmethod
     def typed(cls, run: str, operator: str, sample: str) -> Self:
-        """Return what somebody typed, each as one line that a file's metadata can hold."""
+        """Return what someone typed, each as one line that a file's metadata can hold."""
         return cls(one_line(run), one_line(operator), one_line(sample))
 
     @property

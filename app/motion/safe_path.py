@@ -1,4 +1,4 @@
-"""A safe way from one place to another: retract, travel, approach."""
+"""A safe path between two positions: retract, travel, approach."""
 
 from collections.abc import Mapping
 

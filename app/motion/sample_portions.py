@@ -1,4 +1,4 @@
-"""Portions of samples: read in every cycle, worked up as often as a screen could show it."""
+"""Batches of samples: read in every cycle, processed at the display rate."""
 
 from rotemina.drivers.samples import Samples
 
@@ -7,7 +7,7 @@ _LATEST_S = 0.019
 
 
 class SamplePortions:
-    """Collects what a device says until it is time to work that up."""
+    """Collects a device's samples until they are due for processing."""
 
     def __init__(self) -> None:
         #: Host time, s, of the latest samples.
@@ -18,7 +18,7 @@ class SamplePortions:
         self._fresh = False
 
     def restart(self) -> None:
-        """Forget what has yet to be worked up; the next portion is due at once."""
+        """Discard unprocessed samples; the next portion is due at once."""
         self._unread.clear()
         self._worked_up_s = float("-inf")
 
@@ -35,7 +35,7 @@ class SamplePortions:
         return not self._fresh and self._since_s < _PORTION_S
 
     def due(self, *, news: bool) -> bool:
-        """Tell whether to work up the portion now; ``news`` cannot wait.
+        """Return whether to process the portion now; ``news`` cannot wait.
 
         A cycle that has just read samples leaves the work to the next one, which has the time.
         """

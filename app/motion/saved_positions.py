@@ -80,7 +80,9 @@ class SavedPositions:
         if found.robot != self._robot.name:
             raise SavedPositionError(
                 message(
-                    "engine", "{path}: positions of robot {robot}, not of {name}; put the file away"
+                    "engine",
+                    "{path}: the positions belong to robot {robot}, not to {name}; move the "
+                    "file away",
                 ).fill(path=self.path, robot=repr(found.robot), name=repr(self._robot.name))
             )
         for name, place in found.positions.items():
@@ -88,7 +90,7 @@ class SavedPositions:
         self._kept = {name: MappingProxyType(dict(at)) for name, at in found.positions.items()}
 
     def keep(self, name: str, place: Mapping[str, float]) -> None:
-        """Keep a place under a name; a name that is there is given the new place.
+        """Save a position under a name, replacing an existing one.
 
         Raises
         ------
@@ -101,7 +103,7 @@ class SavedPositions:
         self.read()
         if name not in self._kept and len(self._kept) >= MOST:
             raise SavedPositionError(
-                message("engine", "there are {most} positions, no more are kept; delete some").fill(
+                message("engine", "{most} positions, the maximum, are saved; delete some").fill(
                     most=MOST
                 )
             )

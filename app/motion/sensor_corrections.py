@@ -64,7 +64,7 @@ class SensorCorrections:
         return {axis: one.name for axis, one in self._applied.items() if axis not in paused}
 
     def use(self, axis: str, calibration: AppliedCalibration | None) -> None:
-        """Put a calibration on an axis, or take it off.
+        """Apply a calibration to an axis, or remove it.
 
         Raises
         ------

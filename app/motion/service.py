@@ -1,4 +1,4 @@
-"""What is asked of a device that moves nothing: parameters, a display, faults, effects."""
+"""Device requests without motion: parameters, display, faults, effects."""
 
 from collections.abc import Sequence
 
@@ -96,8 +96,8 @@ class Service:
             raise RefusedError(
                 message(
                     "engine",
-                    "driver {name} is a real machine: its effects are its own; connect "
-                    "to the simulator",
+                    "driver {name} is a real machine, whose effects cannot be changed; "
+                    "connect to the simulator",
                 ).fill(name=repr(driver.name))
             )
         driver.check_effects(effects)

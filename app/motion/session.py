@@ -1,4 +1,4 @@
-"""A motion session: the one place through which a program moves a machine."""
+"""A motion session: the only interface through which a program moves a machine."""
 
 import threading
 import time
@@ -28,7 +28,7 @@ from rotemina.app.motion.run_labels import RunLabels
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.service import Service
 from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.motion.stop_request import LOCKED, PROGRAM, StopRequest
+from rotemina.app.motion.stop import LOCKED, PROGRAM, StopRequest
 from rotemina.app.motion.subscribers import Subscribers
 from rotemina.app.motion.tip_bounds import TipBounds
 from rotemina.app.motion.tool import Tool
@@ -170,14 +170,14 @@ class MotionSession:
         """
         if self._thread is not None:
             raise RefusedError(
-                message("engine", "the session was started before; make another one")
+                message("engine", "the session has already been started; create a new one")
             )
         self._link.connect()
         self._thread = threading.Thread(target=self._run, name="motion session", daemon=True)
         self._thread.start()
 
     def close(self, timeout_s: float = 5.0) -> bool:
-        """Stop, let go of the device and end the worker; safe to call twice.
+        """Stop, release the device and end the worker; safe to call twice.
 
         Returns whether the worker ended in time; one that hangs in a device is left behind.
         """
@@ -208,12 +208,12 @@ class MotionSession:
         self._link.connect()
 
     def disconnect(self) -> None:
-        """Stop, and let go of the device; it holds."""
-        self.stop(message("engine", "the device is let go of"))
+        """Stop, and release the device; it holds."""
+        self.stop(message("engine", "the device is being released"))
         self._link.disconnect()
 
     def use(self, driver: Driver) -> None:
-        """Stop, let go of the device, and connect to another one.
+        """Stop, release the device, and connect to another one.
 
         It has neither inverses nor loops, and no way leads back to where the first one was.
 
@@ -252,11 +252,11 @@ class MotionSession:
         state = self._link.worker.state
         moves = state.activity in _MOVES and not state.stopping
         if moves and self.screen.silent:
-            self.stop(message("engine", "the window does not answer"))
+            self.stop(message("engine", "the window does not respond"))
         self._link.worker.run_once()
 
     def confirm_position(self) -> None:
-        """Trust the position again after a lost connection: somebody has looked.
+        """Trust the position again after a lost connection: someone has looked.
 
         A stop that comes before the worker hears of it withdraws that.
 
@@ -280,11 +280,11 @@ class MotionSession:
         Queued commands are dropped. The device is told from this very thread. ``by`` is
         ``ownership.OPERATOR`` only where a person asked for it.
         """
-        self._link.halt(StopRequest(by, why, self._local_time()))
+        self._link.stop(StopRequest(by, why, self._local_time()))
 
     def emergency_stop(self, why: str = LOCKED, *, by: str = PROGRAM) -> None:
         """Stop, and let nothing move until :meth:`release`; any thread, never waits or raises."""
-        self._link.halt(StopRequest(by, why, self._local_time()), latch=why)
+        self._link.stop(StopRequest(by, why, self._local_time()), latch=why)
 
     def release(self) -> None:
         """Permit motion again after an emergency stop; the machine rests until the next command."""

@@ -1,4 +1,4 @@
-"""What a motion session shows and tells: its state, and the events on the way."""
+"""The state of a motion session, and its events."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -7,8 +7,8 @@ from types import MappingProxyType
 
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.recorder import RunAnswers
+from rotemina.app.motion.stop import StopRequest
 from rotemina.app.motion.stop_latency import Latency
-from rotemina.app.motion.stop_request import StopRequest
 from rotemina.drivers.link import LinkQuality
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record
@@ -24,7 +24,7 @@ class Connection(StrEnum):
 
 
 class Phase(StrEnum):
-    """What an operator must know of the session, in one word."""
+    """The phase of the session for the operator."""
 
     DISCONNECTED = "disconnected"
     CONNECTING = "connecting"
@@ -74,13 +74,13 @@ class SessionState:
     silent_s : float
         For how long the device has said nothing though it should have.
     stopping : bool
-        Whether a stop was asked for and the device has not been seen at rest since.
+        Whether a stop was requested and the device has not been seen at rest since.
     stop : StopRequest or None
         The latest stop: who asked, why and when.
     latched : str or None
         Why the emergency stop is latched, until it is released.
     owners : mapping axis -> str
-        Who drives each axis that somebody drives.
+        Who drives each axis that someone drives.
     differences : tuple of str
         Where the device's parameters differ from the robot file, until they are accepted.
     tip : (x, y, z) or None
@@ -152,7 +152,7 @@ class StateChanged:
 
 @dataclass(frozen=True, slots=True)
 class Stopped:
-    """A stop was asked for."""
+    """A stop was requested."""
 
     request: StopRequest
 
@@ -166,14 +166,14 @@ class Faulted:
 
 @dataclass(frozen=True, slots=True)
 class Alarmed:
-    """A reading is where it should not be; motion goes on."""
+    """A reading is outside its bounds; motion continues."""
 
     message: str
 
 
 @dataclass(frozen=True, slots=True)
 class CommandRefused:
-    """The device would not take a command that had been accepted; nothing moved."""
+    """The device refused an accepted command; nothing moved."""
 
     message: str
 
@@ -194,7 +194,7 @@ class PlaybackFinished:
 
 @dataclass(frozen=True, slots=True)
 class ModelChanged:
-    """Another model is in use; ``why`` says so where nobody asked for it."""
+    """Another model is in use; ``why`` gives the reason if it was not requested."""
 
     model: ModelInUse
     why: str = ""

@@ -1,4 +1,4 @@
-"""How long a stop takes to be out: measured all the time, not only when somebody stops."""
+"""Latency of stops until they are sent, measured continuously."""
 
 import threading
 from collections import deque
@@ -36,7 +36,7 @@ class StopLatency:
             self._worst = max(self._worst, seconds)
 
     def figures(self) -> Latency | None:
-        """Return what was gathered; None before the first."""
+        """Return the statistics, or None before the first stop."""
         with self._lock:
             recent, worst = list(self._recent), self._worst
         if not recent:

@@ -1,11 +1,11 @@
-"""What became of the stops that were asked for."""
+"""The progress of requested stops."""
 
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.motion.stop_request import StopRequest
+from rotemina.app.motion.stop import StopRequest
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
 
@@ -30,8 +30,8 @@ class StopTracking:
             self._failure = failure
         self._to_tell.append(request)
 
-    def untold(self) -> Iterator[StopRequest]:
-        """Yield each stop that nobody was told of yet."""
+    def unreported(self) -> Iterator[StopRequest]:
+        """Yield each stop that has not been reported yet."""
         while self._to_tell:
             yield self._to_tell.popleft()
 

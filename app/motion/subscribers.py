@@ -1,4 +1,4 @@
-"""Who is told of a session's events and samples."""
+"""Subscribers to a session's events and samples."""
 
 import logging
 import threading
@@ -21,7 +21,7 @@ class Subscribers:
         self._taps: dict[Tap, bool] = {}  # whether it has failed
 
     def subscribe(self, callback: Callback) -> Callable[[], None]:
-        """Have events told to ``callback``, on the worker's thread; return how to end that."""
+        """Call ``callback`` for each event, on the worker's thread; return how to end that."""
         with self._lock:
             self._callbacks.append(callback)
 
@@ -33,7 +33,7 @@ class Subscribers:
         return unsubscribe
 
     def tap(self, callback: Tap) -> Callable[[], None]:
-        """Have each portion of samples told to ``callback``, with the models' answers.
+        """Call ``callback`` for each portion of samples, with the models' answers.
 
         It is called on the worker's thread, which waits for it: at most every 16 ms, after the
         state is published and before events tell of it. Returns how to end that.
@@ -48,7 +48,7 @@ class Subscribers:
         return end
 
     def emit(self, event: Event) -> None:
-        """Tell an event."""
+        """Report an event to all subscribers."""
         with self._lock:
             callbacks = tuple(self._callbacks)
         for callback in callbacks:

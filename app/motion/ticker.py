@@ -1,4 +1,4 @@
-"""A thread that calls something at a steady rate, by the clock."""
+"""A thread that calls a function at a steady rate."""
 
 import logging
 import threading
@@ -9,7 +9,7 @@ _LOG = logging.getLogger(__name__)
 
 
 class Ticker:
-    """Calls ``step`` every ``period_s`` on a thread of its own, from :meth:`start` to `close`.
+    """Calls ``step`` every ``period_s`` on its own thread, from :meth:`start` to `close`.
 
     What is late once is not late for ever, and nothing is made up for. A step that raises is
     logged and told to ``failed``; the next one is called all the same.

@@ -1,4 +1,4 @@
-"""The tip's bounds in a session: what they are, and the floor that is taught at rest."""
+"""The bounds of the tip in a session, and teaching of the floor at rest."""
 
 import numpy as np
 
@@ -26,7 +26,7 @@ class TipBounds:
         return self._guard.zone
 
     def tip(self, state: SessionState) -> tuple[float, float, float] | None:
-        """Return where the tip is commanded to be, m; None where there is none."""
+        """Return the commanded position of the tip, m; None if there is no tip."""
         zone = self._guard.zone
         if zone is None or not state.command:
             return None
@@ -54,7 +54,8 @@ class TipBounds:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: a floor {clearance} m below the tip: must be a finite number, 0 or more",
+                    "tip: clearance {clearance} m below the tip: must be a finite number, 0 "
+                    "or more",
                 ).fill(clearance=rounded(clearance, 6))
             )
         with self._admission.lock:
@@ -66,7 +67,7 @@ class TipBounds:
         return floor
 
     def clear_floor(self) -> None:
-        """Take the tip's floor away; the objective stays a bound.
+        """Remove the tip's floor; the objective remains a bound.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""A tip that is out of its bounds: what is said of it, and which ways lead back in."""
+"""The way back for a tip outside its bounds: messages, and the permitted directions."""
 
 from rotemina.app.motion.position_envelope import PositionEnvelope
 from rotemina.sim.kinematics.keep_out import Excess, KeepOutZone
@@ -11,7 +11,7 @@ _CLOSER = 1e-9  # m by which each axis has to bring the tip nearer to its bounds
 def nearer(
     zone: KeepOutZone, envelope: PositionEnvelope, column: int, at: float, out: Excess
 ) -> bool:
-    """Tell whether an axis that goes there alone brings the commanded tip back, all the way."""
+    """Return whether an axis that goes there alone brings the commanded tip back, all the way."""
     low, high = envelope.low.copy(), envelope.high.copy()
     low[column] = high[column] = at
     before, end, way = (
@@ -29,7 +29,7 @@ def nearer(
 
 
 def out_text(out: Excess) -> Message:
-    """Say by how much the tip is out of its bounds, and what to do."""
+    """Return a text that says how far the tip is outside its bounds, and what to do."""
     where = (
         (message("engine", "{much} below its floor"), out.below),
         (message("engine", "{much} above the objective's height"), out.above),

@@ -1,4 +1,4 @@
-"""Back to where the machine was: retract, travel, approach."""
+"""Return to the previous position: retract, travel, approach."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -31,7 +31,7 @@ class Undo:
             self._places.append(dict(place))
 
     def leads_from(self, now: Mapping[str, float]) -> bool:
-        """Whether there is a place to go back to that is not here."""
+        """Whether there is a previous position other than the present one."""
         return any(place != now for place in self._places)
 
     def forget(self) -> None:

@@ -1,4 +1,4 @@
-"""The worker of a session: the only one that talks to the driver, ``stop`` excepted.
+"""The worker of a session: the only thread that talks to the driver, except for ``stop``.
 
 It is stepped, not timed: :meth:`Worker.run_once` is one cycle, called by the session's thread or,
 without any thread, by a test.
@@ -43,8 +43,8 @@ from rotemina.app.motion.state import (
     StateChanged,
     Stopped,
 )
+from rotemina.app.motion.stop import StopRequest
 from rotemina.app.motion.stop_latency import StopLatency
-from rotemina.app.motion.stop_request import StopRequest
 from rotemina.app.motion.stop_tracking import StopTracking
 from rotemina.drivers.abilities import Homer, Linked
 from rotemina.drivers.clock import Clock
@@ -139,7 +139,7 @@ class Worker:
 
     def run_once(self) -> None:
         """Do one cycle. Whatever the driver raises ends in the failed state, never in here."""
-        for request in self._stops.untold():
+        for request in self._stops.unreported():
             self._emit(Stopped(request))
         try:
             self._cycle()
@@ -165,7 +165,7 @@ class Worker:
         if why is not None:
             raise RefusedError(
                 message(
-                    "engine", "the model is not of this machine: {why}; diagnose this one"
+                    "engine", "the model belongs to another machine: {why}; diagnose this one"
                 ).fill(why=why)
             )
         self.models.use(prepared)
@@ -181,7 +181,7 @@ class Worker:
             self._note_model(why if model.corrected else "")
 
     def _note_model(self, why: str = "") -> None:
-        """Begin the gap anew, and tell which model it is of."""
+        """Begin the gap again, and tell which model it is of."""
         self._history.restart_gap()
         self._next = replace(self._next, model_id=self.models.model.id)
         self._publish()
@@ -192,11 +192,11 @@ class Worker:
         self._trust.confirm()
 
     def shut_down(self) -> None:
-        """Stop and let go of the device."""
-        self._let_go()
+        """Stop and release the device."""
+        self._release_device()
         self._publish()
 
-    def _let_go(self) -> None:
+    def _release_device(self) -> None:
         self._gate.reconnected()
         self._mailbox.clear()
         self._executor.forget()
@@ -218,7 +218,7 @@ class Worker:
         request = self._mailbox.take_connection_request()
         if request is not None:
             if request.driver is not self.driver:
-                self._let_go()
+                self._release_device()
             if request.driver is not None:
                 self._use(request.driver)
                 self._connect()

@@ -1,1 +1,1 @@
-"""Plugins by others: written from templates, listed, checked, and left out when they fail."""
+"""Third-party plugins: created from templates, listed, checked, and left out when they fail."""

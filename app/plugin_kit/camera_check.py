@@ -1,4 +1,4 @@
-"""The check of a source of cameras: whether it and its first camera keep the contract."""
+"""Check of a camera source: whether it and its first camera keep the contract."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -100,7 +100,7 @@ def pictures(bench: _Bench) -> None:
 
 
 def triggered(bench: _Bench) -> None:
-    """With a software trigger take one picture when it is asked for, and none unasked."""
+    """With a software trigger take one picture when it is requested, and none unasked."""
     with bench.opened() as camera:
         if Trigger.SOFTWARE not in camera.description.triggers:
             raise Inapplicable("it has no software trigger")

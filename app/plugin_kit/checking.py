@@ -1,4 +1,4 @@
-"""The check of an installed plugin of any kind: its import, its interface, then its own kit."""
+"""Check of an installed plugin of any kind: its import, its interface, then its own kit."""
 
 import time
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ _LOADED = "be imported, and be written for this version of the interface"
 
 
 def check_plugin(kind: Kind, point: EntryPoint, robot: Robot) -> Iterator[Result]:
-    """Check a plugin; its import is tried anew, whatever came of it before.
+    """Check a plugin; its import is tried again, whatever came of it before.
 
     A device in real time is not moved: only what moves no axis is checked of its driver.
 

@@ -1,4 +1,4 @@
-"""What a panel lets escape into Qt: exceptions that nobody can catch, and Qt's own complaints."""
+"""Exceptions that a panel leaks into Qt, and Qt's own complaints."""
 
 import sys
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""Checks of plugins that are no drivers or effects: what each demands, and what was found."""
+"""Checks of plugins other than drivers and effects: their demands and findings."""
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager

@@ -1,4 +1,4 @@
-"""The check of a source of input devices: whether it keeps the contract."""
+"""Check of an input-device source: whether it keeps the contract."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

@@ -1,4 +1,4 @@
-"""The bench that a panel is put on: a simulated machine, no window, time set by hand."""
+"""A test bench for panels: a simulated machine, no window, manual time."""
 
 import os
 from collections.abc import Iterator
@@ -33,7 +33,7 @@ _ALL_EVENTS = QEventLoop.ProcessEventsFlag.AllEvents
 
 
 class PanelBench:
-    """A panel on a workbench whose machine stands, connected, with its first sample taken.
+    """A panel on a workbench with a connected machine at rest, with its first sample.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class PanelBench:
         self._clock = clock
 
     def advance(self, seconds: float, *, read: bool = True) -> None:
-        """Let time pass and show it; without ``read`` the machine has nothing to say meanwhile."""
+        """Advance time and show it; without ``read`` the machine has nothing to say meanwhile."""
         left_s = seconds
         while read and left_s > 0.0:
             self._clock.advance(min(_READ_S, left_s))
@@ -111,7 +111,7 @@ class PanelBench:
         return run
 
     def refresh(self) -> None:
-        """Tell the panel how the machine stands, as the window does once a frame."""
+        """Update the panel with the machine's state, as the window does once a frame."""
         state = self._session.snapshot()
         self.workbench.refreshed.emit(state)
         self.workbench.shown.emit(state)

@@ -1,4 +1,4 @@
-"""The check of a panel: whether it can be made, painted, kept informed and closed."""
+"""Check of a panel: whether it can be made, painted, updated and closed."""
 
 from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication

@@ -1,4 +1,4 @@
-"""A new plugin's package, written from the templates: whole, or not at all."""
+"""Writes the package of a new plugin from templates, completely or not at all."""
 
 import re
 from collections.abc import Mapping
@@ -58,17 +58,16 @@ def new_plugin(kind: Kind, name: str, folder: Path) -> Path:
     check_name(kind, name)
     if not folder.is_dir():
         raise PluginWriteError(
-            message(
-                "engine", "{folder}: there is no such folder; make it, or name another one"
-            ).fill(folder=folder)
+            message("engine", "{folder}: folder not found; create it, or name another one").fill(
+                folder=folder
+            )
         )
     place = folder / f"rotemina-{name.replace('_', '-')}"
     if place.exists() or place.is_symlink():
         raise PluginWriteError(
             message(
                 "engine",
-                "{place}: it is there already and is not overwritten; choose another name or "
-                "folder",
+                "{place} already exists and is not overwritten; choose another name or folder",
             ).fill(place=place)
         )
     draft = folder / f".{place.name}.{uuid4().hex}.part"
@@ -82,7 +81,7 @@ def new_plugin(kind: Kind, name: str, folder: Path) -> Path:
         raise PluginWriteError(
             message(
                 "engine",
-                "{place}: it cannot be written ({reason}); choose another folder or make room",
+                "{place} cannot be written ({reason}); choose another folder, or free disk space",
             ).fill(place=place, reason=str(error.strerror or error))
         ) from error
     finally:
@@ -96,16 +95,16 @@ def check_name(kind: Kind, name: str) -> None:
         raise PluginNameError(
             message(
                 "engine",
-                "{name} cannot be the name of a plugin: it must be small letters, digits and "
-                "single underscores, a letter first, at most {longest} signs, such as "
-                "'glass_stage'",
+                "{name} cannot be the name of a plugin: it must have small letters, digits "
+                "and single underscores, a letter first, at most {longest} characters, such "
+                "as 'glass_stage'",
             ).fill(name=repr(name), longest=_LONGEST)
         )
     for point in entry_points(group=kind.group, name=name):
         package = f" (of the package {point.dist.name})" if point.dist else ""
         raise PluginNameError(
             message(
-                "engine", "the {kind} {name} is there already{package}; choose another name"
+                "engine", "the {kind} {name} already exists{package}; choose another name"
             ).fill(kind=kind, name=repr(name), package=package)
         )
 

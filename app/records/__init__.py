@@ -1,1 +1,1 @@
-"""The library of records: what was played, recorded and opened, with what is known of each."""
+"""The library of records: played, recorded and opened ones, with their data."""

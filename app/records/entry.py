@@ -1,4 +1,4 @@
-"""One record of the library: where it is, what it is of, and what people call it."""
+"""One record of the library: its location, origin, name and note."""
 
 from dataclasses import dataclass
 from datetime import datetime
@@ -56,9 +56,9 @@ class Entry:
     gap : WorstGap, optional
         From the model in use when it was recorded or first opened.
     events : int
-        Of a recording: those that matter to somebody who looks for what happened.
+        Of a recording: those that matter to someone who looks for what happened.
     name, note : str
-        Which anybody may change.
+        Which anyone may change.
     problem : str
         Why it cannot be opened; then nothing else is known.
     changed : bool

@@ -1,4 +1,4 @@
-"""Errors of the library of records that a user can cause, or mend."""
+"""Errors of the library of records that a user can cause or correct."""
 
 from rotemina.sim.errors import InputError
 

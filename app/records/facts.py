@@ -1,4 +1,4 @@
-"""What a record's own file tells of it, without all of it in memory."""
+"""Facts from a record's own file, without loading it completely."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -7,8 +7,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.motion.recording.merging import SUFFIX
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.motion.run import worst
 from rotemina.app.recorded_events import Severity, timeline_events
 from rotemina.app.records.entry import Entry, WorstGap
@@ -27,7 +27,7 @@ _PER_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6}
 
 
 def digest(path: Path) -> str:
-    """Return what tells a file from others: of its size, begin and end.
+    """Return a digest that distinguishes a file: size, beginning and end.
 
     A compressed file ends with a checksum of all that is in it, a recording begins with an id.
 
@@ -44,7 +44,7 @@ def digest(path: Path) -> str:
 
 
 def with_facts(entry: Entry) -> Entry:
-    """Return an entry with what its file says of it now; what cannot be read becomes a problem.
+    """Return an entry with the facts of its file; an unreadable file becomes a problem.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def _duration_s(heading: str, first: str, last: str) -> float | None:
 
 
 def moment(text: str) -> datetime | None:
-    """Return a moment as metadata tell it, with an offset; None where they tell none."""
+    """Return the time in the metadata, with its offset, or None."""
     try:
         moment = datetime.fromisoformat(text)
     except ValueError:

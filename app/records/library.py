@@ -1,4 +1,4 @@
-"""One library of records: the program's own folders, and files that were opened from elsewhere."""
+"""The library of records: the program's own folders, and files opened from elsewhere."""
 
 import re
 import threading
@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from rotemina.app.motion.recording.exporting import record_of, trajectory
-from rotemina.app.motion.recording.merging import SUFFIX
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.motion.run import Run, worst
 from rotemina.app.records.entry import Entry, Kind, WorstGap
 from rotemina.app.records.errors import DamagedLibraryError, LibraryError
@@ -33,7 +33,7 @@ _AT_A_TIME = 50  # files that are looked into before what is known of them is ke
 
 
 class Library:
-    """What is known of all records; :attr:`entries` may be read by any thread.
+    """The library of all records; :attr:`entries` may be read by any thread.
 
     Methods that touch the disk are for a thread that may wait. The library never deletes a record
     by itself.
@@ -81,7 +81,7 @@ class Library:
         LibraryError
             If the library's file cannot be read or written; what is known stays.
         DamagedLibraryError
-            If it was damaged, after all that can be found again has been listed anew.
+            If it was damaged, after all that can be found again has been listed again.
         """
         try:
             self._refresh()
@@ -293,8 +293,8 @@ def require_length(recording: Recording) -> None:
         raise LibraryError(
             message(
                 "engine",
-                "{path}: {rows} samples are too many to be taken as one record (at most "
-                "{most}); export a stretch of it in the panel Recorder",
+                "{path}: {rows} samples are too many for one record (at most {most}); export "
+                "a section in the panel Recorder",
             ).fill(path=recording.path, rows=recording.count, most=MOST_ROWS)
         )
 
@@ -344,6 +344,7 @@ def _unlink(path: Path) -> None:
     except OSError as error:
         raise LibraryError(
             message(
-                "engine", "{path}: it cannot be deleted ({reason}); let this user write there"
+                "engine",
+                "{path} cannot be deleted ({reason}); give this user permission to write there",
             ).fill(path=path, reason=str(error.strerror or str(error)))
         ) from error

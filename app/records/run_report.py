@@ -1,4 +1,4 @@
-"""The report of a run: what a record of the library tells, as one page for people."""
+"""The report of a run: one HTML page about a record of the library."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -111,7 +111,7 @@ class AxisTraces:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunReport:
-    """All that the page tells.
+    """The content of the page.
 
     Attributes
     ----------
@@ -271,7 +271,7 @@ def _said(template: str, **fields: str | float) -> str:
 def _headline(report: RunReport) -> Message:
     worst = report.worst
     if worst is None or worst.figure is None:
-        return message("engine", "No axis has a gap that could be told: none was seen to move.")
+        return message("engine", "No axis has a gap: none was seen to move.")
     gap = gap_text(worst.figure.rms, worst.unit)
     if not worst.floor:
         return message("engine", "Largest gap: {axis}, {gap}").fill(

@@ -1,4 +1,4 @@
-"""The library's own file: what is known of each record, and what people called it.
+"""The library's database: facts, names and notes of each record.
 
 SQLite, because two programs may change it at once and a crash must leave the whole state before a
 change or the whole one after it. The journal is the plain one: it works on a shared folder, too.
@@ -58,7 +58,7 @@ class RecordStore:
         LibraryError
             As all methods do: if the file cannot be read or written, or is of a newer program.
         DamagedLibraryError
-            Likewise: if it was damaged. It was set aside, and the next request begins anew.
+            Likewise: if it was damaged. It was set aside, and the next request begins again.
         """
         if not self.path.exists():
             return []
@@ -66,7 +66,7 @@ class RecordStore:
             return [self._entry(*row) for row in base.execute(_ALL)]
 
     def put(self, entries: Iterable[Entry]) -> list[Entry]:
-        """Keep entries: new ones, or what is known now of others; return them with their ids.
+        """Store new entries, or updates of others; return them with their ids.
 
         What others are called is left alone: another program may have just changed it.
         """
@@ -98,7 +98,7 @@ class RecordStore:
 
     @contextmanager
     def _open(self) -> Iterator[sqlite3.Connection]:
-        """Open the file for one request, which is kept as a whole or not at all."""
+        """Open the file for one request, which is kept as a completely or not at all."""
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             with closing(sqlite3.connect(self.path, timeout=_WAIT_S)) as base, base:
@@ -110,8 +110,9 @@ class RecordStore:
             raise LibraryError(
                 message(
                     "engine",
-                    "{path}: the library of records cannot be used ({reason}); make room, or let "
-                    "this user write there. The records themselves are untouched",
+                    "{path}: the library of records cannot be used ({reason}); free disk "
+                    "space, or give this user permission to write there. The records "
+                    "themselves are untouched",
                 ).fill(path=self.path, reason=str(error))
             ) from error
 
@@ -124,9 +125,9 @@ class RecordStore:
             raise LibraryError(
                 message(
                     "engine",
-                    "{path}: the library of records is of version {version}, this program uses "
-                    "{own}: start the newer program, or move the file away; the records are then "
-                    "listed anew, without the names and notes that were typed",
+                    "{path}: the library of records has version {version}, but this program "
+                    "uses {own}: start the newer program, or move the file away; the records "
+                    "are then listed again, without their names and notes",
                 ).fill(path=self.path, version=version, own=VERSION)
             )
 
@@ -140,8 +141,8 @@ class RecordStore:
         return DamagedLibraryError(
             message(
                 "engine",
-                "{path}: the library of records was damaged; it is kept as {aside}. The records "
-                "are listed anew from their files, without the names and notes that were typed",
+                "{path}: the library of records was damaged; it is kept as {aside}. The "
+                "records are listed again from their files, without their names and notes",
             ).fill(path=self.path, aside=aside.name)
         )
 

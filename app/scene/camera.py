@@ -1,4 +1,4 @@
-"""The eye of a viewer that draws itself: which pixel a point is at."""
+"""The camera of a viewer that draws by itself: projection of points to pixels."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -32,7 +32,7 @@ class Camera:
 
     @property
     def eye(self) -> FloatArray:
-        """Where it stands, (3,), m."""
+        """The position of the camera, (3,), m."""
         return self.target + self.offset
 
     @cached_property

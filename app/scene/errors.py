@@ -1,4 +1,4 @@
-"""What can go wrong with the view of the scene."""
+"""Errors of the 3-D view."""
 
 from rotemina.sim.errors import InputError
 

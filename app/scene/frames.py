@@ -1,4 +1,4 @@
-"""Frames of the chain: how each link stands in the one that carries it.
+"""Frames of the chain: the pose of each link in the one that carries it.
 
 x carries y carries z carries the tilting plate (thx, thy) carries the pin (zn)::
 

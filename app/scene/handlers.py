@@ -1,4 +1,4 @@
-"""Answers of the view's server; every one is refused without the right host, origin and secret.
+"""Request handlers of the 3-D server; each requires the right host, origin and secret.
 
 Loopback alone keeps nobody out: any web page that the operator opens may send requests there. So
 
@@ -32,12 +32,12 @@ _POLICY = (
 
 
 class Guarded(RequestHandler):
-    """Refuses whoever was not given the address by this program."""
+    """Refuses clients that did not get the address from this program."""
 
     needs_origin = False
 
     def set_default_headers(self) -> None:
-        """Keep other pages from reading, framing or guessing, and everybody from storing."""
+        """Prevent reading, framing and guessing by other pages, and any storing."""
         self.clear_header("Server")
         socket = self.settings["origin"].replace("http:", "ws:")
         self.set_header("Cache-Control", "no-store")
@@ -58,7 +58,7 @@ class Guarded(RequestHandler):
         _LOG.error("the 3-D view failed to answer", exc_info=(typ, value, tb))
 
     def write_error(self, status_code: int, **kwargs: Any) -> None:
-        """Say nothing but the status."""
+        """Send only the status."""
         self.finish()
 
     def _end(self, status: int) -> None:
@@ -112,7 +112,7 @@ class SceneSocket(Guarded, WebSocketHandler):
         self._viewer = self._viewers.join(self)
 
     def on_message(self, message: str | bytes) -> None:
-        """Go on after a drawn frame; anything else ends the connection."""
+        """Continue after a drawn frame; anything else ends the connection."""
         if message == _DRAWN and self._viewer is not None:
             self._viewer.drawn()
         else:

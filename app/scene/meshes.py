@@ -1,4 +1,4 @@
-"""Solids as faces and edges, for a viewer that draws them itself.
+"""Solids as faces and edges, for a viewer that draws by itself.
 
 A mesh is made of the command that three.js would draw, so that both show the same. Every solid here
 is convex, and an open tube is the side of a convex one.

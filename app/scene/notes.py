@@ -1,4 +1,4 @@
-"""What is written over the picture: what it does not show, and where it is not to scale."""
+"""Text over the picture: what is not drawn, and what is not to scale."""
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ _STEP_S = 0.5  # in which an age is told, so that not every frame tells another 
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """What is written, in the language of whoever looks; fields in braces are filled.
+    """The texts of the notes, in the viewer's language; fields in braces are filled.
 
     Attributes
     ----------
@@ -30,11 +30,11 @@ class Words:
         "thx, thy, zn drawn {factor:g} × too large from mid-range; the tip is not where it is drawn"
     )
     silent: str = "The program does not answer: the drawing is out of date."
-    quiet: str = "No news from the program: the drawing is out of date."
+    quiet: str = "No data from the program: the drawing is out of date."
 
 
 class Old:
-    """Tells an age in steps, and only once it is old.
+    """An age in steps, reported only when old.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class Old:
     def __init__(self, from_s: float) -> None:
         self._from_s = from_s
 
-    def told(self, age_s: float | None) -> float | None:
+    def shown(self, age_s: float | None) -> float | None:
         """Return the age, s, in steps; None of what is new."""
         if age_s is None or age_s <= self._from_s:
             return None

@@ -1,4 +1,4 @@
-"""The files that a viewer consists of: our page around the viewer of meshcat, which we carry."""
+"""The files of a browser's viewer: our page around the included viewer of meshcat."""
 
 from dataclasses import dataclass
 from functools import cache

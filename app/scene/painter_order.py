@@ -1,4 +1,4 @@
-"""In which order solids are painted, so that the nearer one covers the farther."""
+"""The painting order of solids, so that nearer ones cover farther ones."""
 
 import numpy as np
 

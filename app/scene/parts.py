@@ -1,4 +1,4 @@
-"""What the robot is drawn of.
+"""The drawn parts of the robot.
 
 Travel, pin length, lever arm of the piezos and the cell come from the robot file and what is made
 of it. Everything else only lets one recognise the machine: plates of 90 mm for the tables, a dish
@@ -45,7 +45,7 @@ def moving_parts(chain: Chain) -> Iterator[Part]:
 
 
 def fixed_parts(chain: Chain, look: Look) -> dict[str, Solid]:
-    """Return what stands still: the base, and the rail of the lowest table."""
+    """Return the fixed parts: the base, and the rail of the lowest table."""
     (x_low, *_), (x_high, *_) = chain.lower[TABLES], chain.upper[TABLES]
     _, y_middle, _ = chain.centre[TABLES]
     top = _stack_top(chain) - 2 * (_RAIL + _CARRIAGE)

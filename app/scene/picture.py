@@ -1,4 +1,4 @@
-"""A scene as polygons and lines in pixels, for a viewer that draws it itself, without a GPU."""
+"""A scene as polygons and lines in pixels, for a viewer that draws without a GPU."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ class _Object:
 
 
 class Picture:
-    """Obeys the commands of a scene, and gives what is to be painted."""
+    """Executes the commands of a scene, and provides the result for painting."""
 
     def __init__(self) -> None:
         self.camera: Camera | None = None

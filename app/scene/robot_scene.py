@@ -1,4 +1,4 @@
-"""The scene of one robot: two ghosts of it, model and real, about its dish and cell."""
+"""The scene of one robot: its two ghosts, model and real, around dish and cell."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class Ghost(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Colours:
-    """``#rrggbb`` by what is painted."""
+    """Colours as ``#rrggbb``, by painted part."""
 
     background: str
     fixed: str
@@ -40,7 +40,7 @@ class Colours:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """Where the two ghosts are: by axis, m or rad, as a session tells it; empty where unknown."""
+    """Positions of the two ghosts by axis, m or rad; empty where unknown."""
 
     measured: Mapping[str, float]
     model: Mapping[str, float]
@@ -97,7 +97,7 @@ class RobotScene:
             if place is not None and seen:
                 commands += self._pose(ghost, place)
         unknown = frozenset(ghost for ghost, place in joints.items() if place is None)
-        age_s = self._old.told(reading.age_s)
+        age_s = self._old.shown(reading.age_s)
         colours = {"model": self._colours.model, "real": self._colours.real}
         unseen = unknown & self.shown
         commands.append(note(self.shown, unseen, age_s, self.factor, colours, self._words))
@@ -109,7 +109,7 @@ class RobotScene:
         self.show(self._reading)
 
     def alive(self, time_s: float) -> None:
-        """Let viewers know that the program is alive: a picture that stands may be a true one."""
+        """Signal to viewers that the program is alive although nothing moves."""
         self.scene.put({"type": "alive", "second": int(time_s)})
 
     def exaggerate(self, factor: float) -> None:
@@ -130,7 +130,7 @@ class RobotScene:
             self._put_surroundings()
 
     def paint(self, colours: Colours) -> None:
-        """Draw everything anew in these colours."""
+        """Draw everything again in these colours."""
         self._colours = colours
         rgb = [int(colours.background[at : at + 2], 16) / 255 for at in (1, 3, 5)]
         for end in ("top_color", "bottom_color"):

@@ -1,4 +1,4 @@
-"""What a viewer is to draw: the newest of every command, told by how new it is.
+"""The drawing commands for viewers: the newest of each, numbered by age.
 
 Commands are those of meshcat's viewer, as it decodes them: ``set_object``, ``set_transform`` and
 ``set_property`` on a path of its scene tree; our own page adds ``view`` and ``note``. Somebody who
@@ -32,7 +32,7 @@ class Scene:
         self._lock = threading.Lock()
 
     def put(self, *commands: Command, again: bool = False) -> None:
-        """Take commands over from those before them on the same path, all at once.
+        """Replace earlier commands on the same path, all at once.
 
         What is no change is left out, unless it is to happen ``again``.
         """

@@ -29,7 +29,7 @@ _ENDING_S = 5.0
 
 
 class ViewServer:
-    """Shows a scene to whoever knows its address, from :meth:`start` until :meth:`close`.
+    """Serves a scene at a secret address, from :meth:`start` until :meth:`close`.
 
     Parameters
     ----------
@@ -101,12 +101,12 @@ class ViewServer:
         self._ready.wait()
 
     def changed(self) -> None:
-        """Have viewers told what is new in the scene; any thread, never waits."""
+        """Send changes of the scene to viewers; any thread, never waits."""
         if self._loop is not None:
             self._call(self._viewers.tell)
 
     def close(self) -> bool:
-        """Let go of all viewers and end the thread; safe to call twice. Return whether it ended."""
+        """Release all viewers and end the thread; safe to call twice. Return whether it ended."""
         if self._thread is None:
             return True
         ending = self._ending

@@ -1,4 +1,4 @@
-"""Solids as three.js reads them: a shape, how it stands in its frame, and how it looks."""
+"""Solids as three.js reads them: shape, pose and appearance."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""Who looks at the scene, and how fast each can be told of it."""
+"""The connected viewers of the scene, and the rate of updates to each."""
 
 import asyncio
 from collections.abc import Callable
@@ -60,12 +60,12 @@ class Viewer:
             self.connection.send(changes.commands)
 
     def drawn(self) -> None:
-        """Hear that it has drawn all it got."""
+        """Note that the viewer has drawn everything it received."""
         self._drawing = False
         self.tell()
 
     def end(self) -> None:
-        """Send nothing any more."""
+        """End all sending."""
         if self._timer is not None:
             self._timer.cancel()
         self._drawing = True
@@ -91,7 +91,7 @@ class Viewers:
         return len(self._all) >= MOST
 
     def join(self, connection: Connection) -> Viewer:
-        """Take a viewer in and send it the whole scene."""
+        """Add a viewer, and send it the whole scene."""
         viewer = Viewer(self._scene, connection, asyncio.get_running_loop())
         self._all.add(viewer)
         viewer.tell()
@@ -103,7 +103,7 @@ class Viewers:
         self._all.discard(viewer)
 
     def tell(self) -> None:
-        """Send everybody what is new."""
+        """Send the changes to all viewers."""
         for viewer in tuple(self._all):
             viewer.tell()
 

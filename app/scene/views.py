@@ -1,4 +1,4 @@
-"""From where the scene is looked at."""
+"""The viewpoints of the scene."""
 
 from enum import StrEnum
 

@@ -1,4 +1,4 @@
-"""When panels are made: what is seen at once, the rest by and by, while nobody waits for it."""
+"""When panels are made: what is seen at once, the rest gradually, while nobody waits for it."""
 
 from collections.abc import Mapping
 

@@ -18,10 +18,10 @@ class Leaving:
         self._begun = False
 
     def may_close(self) -> bool:
-        """Tell whether to close at once.
+        """Return whether to close at once.
 
         What moves is asked about, and stopped; a recording, or other work, that has yet to end is
-        waited for. To close the window once more then leaves at once: what was recorded stays to
+        waited for. To close the window again then leaves at once: what was recorded stays to
         be recovered. What a stop has been asked for is not asked about again.
         """
         bench = self._workbench
@@ -62,12 +62,12 @@ class Leaving:
 
 
 def moves(state: SessionState) -> bool:
-    """Whether something moves that nobody has stopped yet, or is about to go on."""
+    """Whether something moves that nobody has stopped yet, or is about to continue."""
     return state.phase is Phase.MOVING or (state.phase is Phase.READY and bool(state.owners))
 
 
 def _may_stop(parent: QWidget, state: SessionState) -> bool:
-    """Ask whether to stop what moves, and quit; it goes on until that is answered."""
+    """Ask whether to stop what moves, and quit; it continues until that is answered."""
     playing = state.activity is DeviceState.PLAYING
     return _asked(
         parent,

@@ -197,9 +197,9 @@ class LogPage(QDialog):
         late = self._watch.lateness
         self.lateness.setVisible(late.watched_s > 0.0)
         self.lateness.setText(
-            translate(
-                "shell", "Window late by {usual} ms at most in 99 %, worst {worst} ms"
-            ).format(usual=fixed(1e3 * late.usual_s, 0), worst=fixed(1e3 * late.worst_s, 0))
+            translate("shell", "Window delay: at most {usual} ms in 99 %, worst {worst} ms").format(
+                usual=fixed(1e3 * late.usual_s, 0), worst=fixed(1e3 * late.worst_s, 0)
+            )
         )
 
     def _page(self) -> str:

@@ -21,6 +21,7 @@ from rotemina.sim.comparison.figure import save_figure
 from rotemina.sim.comparison.table import table
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
+from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import AxisEffect
@@ -54,7 +55,7 @@ def run(session: MotionSession, output: Path) -> int:
         output.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OffscreenError(
-            message("engine", "{output}: the folder cannot be made: {strerror}").fill(
+            message("engine", "{output}: the folder cannot be created: {strerror}").fill(
                 output=output, strerror=str(error.strerror)
             )
         ) from error
@@ -233,7 +234,7 @@ def _report(told: Story, output: Path) -> None:
 
 def _lines(told: Story) -> Iterator[str]:
     for number, run in enumerate(told.runs):
-        length = f"{run.record.duration_s:.3f} s, {len(run.record.time_s)} samples"
+        length = f"{fixed(run.record.duration_s, 3)} s, {len(run.record.time_s)} samples"
         yield "\n".join([f"{run.name}: {length}, model {run.model_id}", *run_lines(run)])
         if number == 0 and told.found:
             yield told.found

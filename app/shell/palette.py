@@ -32,7 +32,7 @@ class Palette(QDialog):
     Parameters
     ----------
     entries : callable
-        Returns all that can be done, anew whenever the palette is opened.
+        Returns all that can be done, again whenever the palette is opened.
     parent : QWidget
     """
 

@@ -103,12 +103,12 @@ class PanelWatch(QObject):
     def on_exception(
         self, kind: type[BaseException], error: BaseException, trace: TracebackType | None
     ) -> None:
-        """Take note of an exception that nobody caught, on any thread."""
+        """Note an exception that nobody caught, on any thread."""
         self._raised.emit(error.with_traceback(trace))
 
     @contextmanager
     def guarding(self) -> Iterator[None]:
-        """Take note of what panels raise while this lasts.
+        """Note what panels raise while this lasts.
 
         What an event raises in the middle of a call of Qt's is raised by that call in its turn.
         """
@@ -128,7 +128,7 @@ class PanelWatch(QObject):
             self.on_exception(seen.exc_type, seen.exc_value, seen.exc_traceback)
 
     def _judge(self, error: BaseException) -> None:
-        """Take note of an exception, on the window's thread."""
+        """Note an exception, on the window's thread."""
         if not self._noted(error, error.__traceback__):
             self._log(error)
 

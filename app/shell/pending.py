@@ -9,7 +9,7 @@ What = TypeVar("What")
 
 
 class Pending(Generic[What]):
-    """One thing that waits until it is taken, withdrawn, or somebody stops.
+    """One thing that waits until it is taken, withdrawn, or someone stops.
 
     It is looked for a stop when it is read, not when one is told of: an answer that was given
     before the news arrived counts no more than a later one. What it leads to passes the gate with

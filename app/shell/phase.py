@@ -9,7 +9,7 @@ from rotemina.app.display import label
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import Connection, Phase, SessionState
-from rotemina.app.motion.stop_request import LOCKED, StopRequest
+from rotemina.app.motion.stop import LOCKED, StopRequest
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import set_property

@@ -70,7 +70,7 @@ class Progress:
 
     @property
     def left_s(self) -> float | None:
-        """How long it still takes if it goes on as before, s; None while that cannot be told."""
+        """How long it still takes if it continues as before, s; None while that cannot be told."""
         if not self.share or self.elapsed_s < _ESTIMATE_S:
             return None
         return self.elapsed_s * (1.0 - self.share) / self.share

@@ -276,7 +276,7 @@ class RecordTable(QTableView):
     def closeEditor(  # noqa: N802 (Qt's name)
         self, editor: QWidget, hint: QAbstractItemDelegate.EndEditHint
     ) -> None:
-        """Show what has come while somebody was typing."""
+        """Show what has come while someone was typing."""
         super().closeEditor(editor, hint)
         self._fill()
 

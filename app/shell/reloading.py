@@ -1,4 +1,4 @@
-"""Panels of others imported anew while the window is open: one is mended without a restart."""
+"""Panels of others imported again while the window is open: one is mended without a restart."""
 
 import importlib
 import sys
@@ -25,7 +25,7 @@ _PAGE = "plugins.md#reloading"
 
 
 class Reloading(QObject):
-    """Puts a panel of another package, imported anew, into the place of the one before.
+    """Puts a panel of another package, imported again, into the place of the one before.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class Reloading(QObject):
 
     Signals
     -------
-    renewed(str, type) : name and class of one that was imported anew, before it is made.
+    renewed(str, type) : name and class of one that was imported again, before it is made.
     """
 
     renewed = Signal(str, object)
@@ -76,7 +76,7 @@ class Reloading(QObject):
             )
 
     def reload(self, name: str) -> None:
-        """Import a panel anew, close the one before and make it; what fails is told."""
+        """Import a panel again, close the one before and make it; what fails is told."""
         point = next((one for one in _points() if one.name == name), None)
         reason = self._why_not()
         if point is None:

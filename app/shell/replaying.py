@@ -70,7 +70,7 @@ class Replaying(QObject):
             self.changed.emit()
 
     def step(self) -> None:
-        """Go on; once a frame."""
+        """Advance; once a frame."""
         if self.paced is not None:
             self.paced.step()
 

@@ -88,7 +88,7 @@ class Requests(QObject):
     # --- connection -------------------------------------------------------------------------------
 
     def use_driver(self, kind: type[Driver], settings: Mapping[str, SettingValue]) -> bool:
-        """Let go of the device and connect to another one; return whether that was begun."""
+        """Release the device and connect to another one; return whether that was begun."""
 
         def use() -> None:
             try:

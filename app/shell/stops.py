@@ -31,7 +31,7 @@ _SOFTWARE = marked("shell", "This is a stop by software, not the machine's emerg
 class StopWatch(QObject):
     """Stops all motion on Esc and on the stop buttons, whatever else is open or has the focus.
 
-    Shift+Esc locks, and so does a second Esc within a second. The event goes on to where it was
+    Shift+Esc locks, and so does a second Esc within a second. The event continues to where it was
     meant for, so that Esc closes a dialog too.
     """
 

@@ -103,7 +103,7 @@ def gather(
 
 
 def write_bundle(path: Path, items: Sequence[Item], reached: Reached = lambda _: None) -> None:
-    """Write items as a zip archive, whole or not at all.
+    """Write items as a zip archive, completely or not at all.
 
     Raises
     ------

@@ -27,7 +27,7 @@ class Timeline(QSlider):
         self.setMinimumHeight(22 + _MARK_HEIGHT)
 
     def show_recording(self, duration_s: float, marks: Sequence[TimelineEvent]) -> None:
-        """Begin anew with another recording and its events."""
+        """Begin again with another recording and its events."""
         self._marks = tuple(marks)
         self.setRange(0, round(1000.0 * duration_s))
         self.update()

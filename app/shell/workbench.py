@@ -92,7 +92,7 @@ class Workbench(Requests):
     run_changed(Run) : a record was opened or a playback ended, and model and real are compared.
     busy_changed(str) : what is being worked on in the background, or "".
     noticed(Level, Explained) : something to tell the operator, a text with its page of the help.
-    stopped() : somebody asked for a stop; what waits for an answer is withdrawn.
+    stopped() : someone asked for a stop; what waits for an answer is withdrawn.
     theme_changed(Theme)
     closing() : the window goes; what a panel has under way must end before this returns.
     """
@@ -242,7 +242,7 @@ class Workbench(Requests):
         """Play the planned trajectory; a refusal becomes a notice.
 
         A ``permit`` is that of the request, where it waited: nothing plays if a stop came since.
-        What is about to rest, as a machine whose effects were switched just now, is waited for.
+        What is about to rest, as a machine whose effects were switched at present, is waited for.
         """
         plan, permit = self.plan, permit or self.session.permit()
         if plan is None:
@@ -256,7 +256,7 @@ class Workbench(Requests):
             )
 
     def toggle_playback(self) -> None:
-        """Play, pause, or go on, whichever comes next."""
+        """Play, pause, or continue, whichever comes next."""
         phase = self.playback.state.phase
         if phase is PlaybackPhase.PLAYING:
             self.ask(lambda: self.playback.pause(by=OPERATOR))
@@ -277,7 +277,7 @@ class Workbench(Requests):
         self.ask(step)
 
     def end_playback(self) -> None:
-        """Stop, and begin anew the next time."""
+        """Stop, and begin again the next time."""
         self.playback.end(by=OPERATOR)
 
     # --- files ------------------------------------------------------------------------------------
@@ -301,7 +301,7 @@ class Workbench(Requests):
         self.work("plan", doing, work, self.take_plan)
 
     def plan_again(self, plan: Plan) -> None:
-        """Try the trajectory in hand once more, on another model or device."""
+        """Try the trajectory in hand again, on another model or device."""
         self.work(
             "plan again",
             translate("shell", "Dry run …"),

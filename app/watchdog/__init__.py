@@ -1,1 +1,1 @@
-"""A process beside the program that tells when the program hangs or has died."""
+"""A separate process that reports when the program hangs or dies."""

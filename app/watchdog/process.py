@@ -1,4 +1,4 @@
-"""Watches the program from outside; run as a file of its own, with the standard library alone.
+"""The watchdog process; it runs as a single file with only the standard library.
 
 It reads one line of JSON for each beat from standard input. The program's end without a farewell,
 or :data:`SILENT_S` without a beat, is told on the terminal, in a log file, and in a window where
@@ -30,7 +30,7 @@ root.mainloop()
 
 
 def verdict(beat: dict[str, object], ages: dict[str, float], silence_s: float) -> str:
-    """Return what is wrong by the latest beat and what came after it; "" where all is well."""
+    """Return the problem by the latest beat and the ages since, or ""."""
     if silence_s > SILENT_S:
         return f"RoTeMiNa has hung for {silence_s:.0f} s."
     for name, what in (("window", "The window"), ("worker", "The thread that steers the machine")):
@@ -42,7 +42,7 @@ def verdict(beat: dict[str, object], ages: dict[str, float], silence_s: float) -
 
 
 def stop_boards(ports: list[str]) -> list[str]:
-    """Write the stop to each port that is there; return what came of each.
+    """Write the stop to each available port; return the outcomes.
 
     Line speed and format stay as the program has set them.
     """
@@ -65,7 +65,7 @@ def stop_boards(ports: list[str]) -> list[str]:
 
 
 class Watchdog:
-    """Takes beats and tells what is wrong, once each time that it begins."""
+    """Receives beats, and reports each problem once when it begins."""
 
     def __init__(self, log: Path, *, shown: bool) -> None:
         self._log, self._shown = log, shown
@@ -74,13 +74,13 @@ class Watchdog:
         self._window: subprocess.Popen[bytes] | None = None
 
     def take(self, line: str) -> bool:
-        """Take a beat; return whether the program goes on, and has not said farewell."""
+        """Take a beat; return whether the program continues, and has not said farewell."""
         with contextlib.suppress(ValueError):  # cut off in mid-line
             self._beat = json.loads(line)
         return not self._beat.get("farewell")
 
     def look(self, silence_s: float) -> None:
-        """Tell what is wrong, if anything is now that was not before."""
+        """Report a new problem."""
         ages = {name: float(age) for name, age in self._ages().items()}
         wrong = verdict(self._beat, ages, silence_s)
         if wrong and not self._told:
@@ -88,7 +88,7 @@ class Watchdog:
         self._told = wrong
 
     def died(self) -> None:
-        """Tell of an end without a farewell, and send the stop where the port is free."""
+        """Report an unannounced end, and send the stop where the port is free."""
         ports = self._beat.get("ports")
         sent = stop_boards([str(port) for port in ports] if isinstance(ports, list) else [])
         self.tell("\n".join(["RoTeMiNa has ended without letting go of the machine.", *sent]))

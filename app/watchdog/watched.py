@@ -1,4 +1,4 @@
-"""The program's side of its watchdog: the process, and four beats a second to it."""
+"""The program's side of its watchdog: starts the process, and sends it four beats a second."""
 
 import json
 import logging
@@ -18,7 +18,7 @@ _AT_REST = (DeviceState.CLOSED, DeviceState.IDLE, DeviceState.FAULT)
 
 
 class Watched:
-    """Tells a process of its own that the program lives.
+    """Reports to a separate process that the program is alive.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class Watched:
         self._ticker.start()
 
     def beat(self) -> None:
-        """Say that the program lives, and how its window and its worker do."""
+        """Send a beat with the state of the window and the worker."""
         session = self._session
         state, settings = session.snapshot(), session.driver.settings
         connected = state.connection is Connection.CONNECTED  # opening a device may take long

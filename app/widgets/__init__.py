@@ -1,1 +1,1 @@
-"""Small widgets that the window and its panels share; they know of no panel and no machine."""
+"""Small widgets shared by the window and its panels, independent of panels and machine."""

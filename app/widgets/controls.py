@@ -1,4 +1,4 @@
-"""Small manners of controls: one that cannot act says why, and buttons do one thing."""
+"""Behaviour of controls: disabled ones state the reason, and buttons have one action."""
 
 from collections.abc import Callable
 from html import escape
@@ -41,7 +41,7 @@ def allow(widget: QWidget, why_not: str | None, tip: str) -> None:
 
 
 def why_not(widget: QWidget) -> str | None:
-    """Return why a control cannot act, as :func:`allow` was told last."""
+    """Return why a control is disabled, as last set by :func:`allow`."""
     return widget.property(_WHY_NOT) or None
 
 

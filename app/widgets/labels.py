@@ -1,4 +1,4 @@
-"""Texts: one line cut with dots, quiet lines, headings, names in their colours."""
+"""Labels: elided lines, quiet lines, headings, coloured names."""
 
 from collections.abc import Iterable
 from html import escape
@@ -12,7 +12,7 @@ from rotemina.app.widgets.controls import plain_tip
 
 
 class ElidedLabel(QLabel):
-    """One line of plain text that takes what room there is; its tooltip has all of it.
+    """One line of plain text that takes the available room; its tooltip has all of it.
 
     It keeps its text by itself: Qt's label would have all of the window laid out anew at each one.
     """

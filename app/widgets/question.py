@@ -1,4 +1,4 @@
-"""A question within a panel, before something that is not to happen by accident."""
+"""A question inside a panel, before an action that must not happen by accident."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What is scrolled within a panel, and pages of which one is seen."""
+"""Scroll areas within a panel, and stacked pages."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""A heading over a column of widgets, the part that most panels are made of."""
+"""A headed column of widgets, the building block of most panels."""
 
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLayout, QVBoxLayout, QWidget
 

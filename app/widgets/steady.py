@@ -1,4 +1,4 @@
-"""Choices, sliders and numbers that the wheel does not change.
+"""Choices, sliders and number fields that ignore the wheel.
 
 A panel is scrolled by the wheel, and what lies under the pointer then must change no machine.
 """
@@ -11,7 +11,7 @@ from rotemina.app.widgets.controls import plain_tip
 
 
 class Steady:
-    """What leaves the wheel to what scrolls; stands before Qt's class."""
+    """A mixin that passes wheel events to the scroll area; precedes Qt's class."""
 
     def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 (Qt's name)
         """Leave the wheel to what scrolls."""

@@ -12,7 +12,7 @@ RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
 class Table(QTableWidget):
-    """Rows of text under a head, read only; a row of them can be chosen, unless told otherwise."""
+    """A read-only table of text; rows are selectable by default."""
 
     def __init__(
         self, name: str, head: Sequence[str] = (), *, choose: bool = True, row_height: int = 22
@@ -30,7 +30,7 @@ class Table(QTableWidget):
         self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
 
     def set_head(self, head: Sequence[str]) -> None:
-        """Name the columns anew."""
+        """Name the columns again."""
         self.setColumnCount(len(head))
         self.setHorizontalHeaderLabels(list(head))
 

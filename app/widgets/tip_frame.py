@@ -1,4 +1,4 @@
-"""Places of the tip in a drawing: from above or from the side, what is forbidden, a scale bar."""
+"""Positions of the tip in a drawing from above or from the side: forbidden areas, a scale bar."""
 
 from math import floor, log10
 
@@ -8,7 +8,7 @@ from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPolygonF
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.keep_out import KeepOutZone
-from rotemina.sim.quantities import localized
+from rotemina.sim.quantities import rounded
 
 _STEPS = (5.0, 2.0, 1.0)
 _UNITS = ((1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
@@ -25,7 +25,7 @@ def draw_scale(painter: QPainter, area: QRectF, scale: float, colour: QColor) ->
     painter.drawText(
         QRectF(left + length * scale + 7.0, area.bottom() - _BAR_HEIGHT, 80.0, _BAR_HEIGHT),
         Qt.AlignmentFlag.AlignVCenter,
-        localized(f"{length / unit:.4g} {name}"),
+        f"{rounded(length / unit)} {name}",
     )
 
 

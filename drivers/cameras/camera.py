@@ -1,4 +1,4 @@
-"""The contract of cameras: made by a source, opened, set and grabbed from.
+"""The camera contract: made by a source, opened, configured and read.
 
 A camera is made without touching anything; then it is opened, configured, grabbed from and closed
 by one thread, which may wait. Nobody else waits for it:
@@ -107,7 +107,7 @@ class Camera(ABC):
 
     @property
     def description(self) -> CameraDescription:
-        """What it can do.
+        """The camera's capabilities.
 
         Raises
         ------
@@ -116,13 +116,13 @@ class Camera(ABC):
         """
         if self._description is None:
             raise StateError(
-                message("engine", "{name}: it is closed; open it first").fill(name=self.name)
+                message("engine", "{name} is closed; open it first").fill(name=self.name)
             )
         return self._description
 
     @property
     def settings(self) -> CameraSettings:
-        """What is in force: as asked for, or what the camera made of it."""
+        """The settings in force: as requested, or as adjusted by the camera."""
         return self._settings
 
     @final
@@ -140,7 +140,7 @@ class Camera(ABC):
         """
         if self._description is not None:
             raise StateError(
-                message("engine", "{name}: it is open already; close it first").fill(name=self.name)
+                message("engine", "{name} is already open; close it first").fill(name=self.name)
             )
         self._count = 0
         self._triggered = False
@@ -149,7 +149,7 @@ class Camera(ABC):
 
     @final
     def close(self) -> None:
-        """Let go of it; safe to call twice."""
+        """Release it; safe to call twice."""
         if self._description is not None:
             self._description = None
             self._close()
@@ -183,7 +183,7 @@ class Camera(ABC):
         if self.description and self._settings.trigger is not Trigger.SOFTWARE:
             raise StateError(
                 message(
-                    "engine", "{name}: it runs freely; configure a software trigger first"
+                    "engine", "{name} is free-running; configure a software trigger first"
                 ).fill(name=self.name)
             )
         self._triggered = True

@@ -1,4 +1,4 @@
-"""What can go wrong with a camera."""
+"""Errors of cameras."""
 
 from rotemina.drivers.errors import DriverError
 from rotemina.sim.errors import InputError

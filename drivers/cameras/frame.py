@@ -1,4 +1,4 @@
-"""One picture of a camera, as everybody gets it."""
+"""One picture of a camera."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

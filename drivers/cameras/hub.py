@@ -1,4 +1,4 @@
-"""All cameras there are, of every source, and making one by its key."""
+"""All available cameras of every source, each made by its key."""
 
 import time
 from collections.abc import Mapping
@@ -58,7 +58,7 @@ class CameraHub:
 
     @property
     def problems(self) -> Mapping[str, str]:
-        """What is wrong, by name of the source, as of the latest :meth:`look`."""
+        """Problems by source name, as of the latest :meth:`look`."""
         return MappingProxyType({**self._broken, **self._failed})
 
     def look(self) -> tuple[CameraIdentity, ...]:
@@ -100,8 +100,8 @@ class CameraHub:
         if source not in self.sources:
             known = ", ".join(self.sources)
             raise CameraRefusedError(
-                message("engine", "there is no source {source} of cameras; there is: {known}").fill(
-                    source=repr(source), known=known
-                )
+                message(
+                    "engine", "there is no source {source} of cameras; available: {known}"
+                ).fill(source=repr(source), known=known)
             )
         return self.camera(self.sources[source].addressed(address))

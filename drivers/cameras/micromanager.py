@@ -1,4 +1,4 @@
-"""Cameras of Micro-Manager, of which there are hundreds: through pymmcore-plus, an optional extra.
+"""Cameras of Micro-Manager, through pymmcore-plus, an optional extra.
 
 A camera is named by the configuration file that Micro-Manager's own wizard has written for it.
 """
@@ -74,7 +74,7 @@ class MicroManager(CameraSource):
         path = Path(address.strip())
         if path.suffix.lower() != ".cfg":
             raise CameraRefusedError(
-                message("engine", "{name}: {address}: type a {address_hint}").fill(
+                message("engine", "{name}: {address}: enter a {address_hint}").fill(
                     name=self.name, address=repr(address), address_hint=self.address_hint
                 )
             )
@@ -104,9 +104,9 @@ class MicroManagerCamera(Camera):
         path = Path(self.identity.address)
         if not path.is_file():
             raise CameraLostError(
-                message(
-                    "engine", "{path}: there is no such file; choose another configuration"
-                ).fill(path=path)
+                message("engine", "{path}: file not found; choose another configuration").fill(
+                    path=path
+                )
             )
         self._core = self._make()
         self._lost = 0
@@ -115,7 +115,7 @@ class MicroManagerCamera(Camera):
             if not self._core.getCameraDevice():
                 raise CameraRefusedError(
                     message(
-                        "engine", "{path}: it names no camera; add one with Micro-Manager's wizard"
+                        "engine", "{path} names no camera; add one with Micro-Manager's wizard"
                     ).fill(path=path)
                 )
             self._core.clearROI()
@@ -183,7 +183,7 @@ class MicroManagerCamera(Camera):
                 self._set(self.settings)
                 self._run(self.settings)
             raise CameraSettingError(
-                message("engine", "{name}: it does not take that: {error}").fill(
+                message("engine", "{name} rejected the settings: {error}").fill(
                     name=self.name, error=str(error)
                 )
             ) from error
@@ -239,7 +239,8 @@ class MicroManagerCamera(Camera):
                 raise CameraLostError(
                     message(
                         "engine",
-                        "{name}: it has stopped taking pictures; was it unplugged? Open it again",
+                        "{name} no longer takes pictures; check whether it is plugged in, "
+                        "and open it again",
                     ).fill(name=self.name)
                 )
             if self.clock() >= until_s:
@@ -254,7 +255,7 @@ class MicroManagerCamera(Camera):
             yield
         except RuntimeError as error:
             raise CameraLostError(
-                message("engine", "{name}: Micro-Manager has lost it: {error}; open it again").fill(
-                    name=self.name, error=str(error)
-                )
+                message(
+                    "engine", "{name}: Micro-Manager has lost the camera: {error}; open it again"
+                ).fill(name=self.name, error=str(error))
             ) from error

@@ -1,4 +1,4 @@
-"""Cameras that OpenCV reads: USB cameras (UVC), video files, streams of the network."""
+"""Cameras read by OpenCV: USB cameras (UVC), video files, network streams."""
 
 import os
 import time
@@ -80,7 +80,7 @@ class OpenCvSource(CameraSource):
         self._capture = capture
 
     def devices(self) -> Sequence[CameraIdentity]:
-        """Return what is plugged in, where the system tells."""
+        """Return the connected cameras, where the system lists them."""
         return tuple(
             CameraIdentity(f"opencv:{number}", name, "opencv")
             for number, name in self._listed().items()
@@ -91,7 +91,7 @@ class OpenCvSource(CameraSource):
         address = address.strip()
         if not address:
             raise CameraRefusedError(
-                message("engine", "{name}: nothing was named; type a {address_hint}").fill(
+                message("engine", "{name}: no address; enter a {address_hint}").fill(
                     name=self.name, address_hint=self.address_hint
                 )
             )
@@ -162,8 +162,8 @@ class Device(_OpenCvCamera):
             raise CameraLostError(
                 message(
                     "engine",
-                    "{name}: there is no camera {address}, or another program uses it, or you may "
-                    "not read it (group 'video' on Linux)",
+                    "{name}: there is no camera {address}, or another program uses it, or "
+                    "you have no permission (group 'video' on Linux)",
                 ).fill(name=self.name, address=self.identity.address)
             )
         self._stream = stream
@@ -172,7 +172,7 @@ class Device(_OpenCvCamera):
         if pixels is None:
             self._close()
             raise CameraLostError(
-                message("engine", "{name}: it gives no picture; unplug it and plug it in").fill(
+                message("engine", "{name} gives no picture; unplug it, and plug it in again").fill(
                     name=self.name
                 )
             )
@@ -204,7 +204,7 @@ class Device(_OpenCvCamera):
     def _set(self, which: int, value: float, what: str) -> None:
         if not self._stream.set(which, value):
             raise CameraSettingError(
-                message("engine", "{name}: it does not take {what}; leave it as it is").fill(
+                message("engine", "{name} does not accept {what}; leave it unchanged").fill(
                     name=self.name, what=what
                 )
             )
@@ -215,7 +215,8 @@ class Device(_OpenCvCamera):
             raise CameraLostError(
                 message(
                     "engine",
-                    "{name}: it gives no picture any more; was it unplugged? Open it again",
+                    "{name} no longer gives pictures; check whether it is plugged in, and "
+                    "open it again",
                 ).fill(name=self.name)
             )
         return self._picture(pixels)
@@ -235,7 +236,7 @@ class Film(_OpenCvCamera):
         address = self.identity.address
         if self._is_file and not Path(address).is_file():
             raise CameraLostError(
-                message("engine", "{address}: there is no such file; choose another one").fill(
+                message("engine", "{address}: file not found; choose another one").fill(
                     address=address
                 )
             )
@@ -264,7 +265,7 @@ class Film(_OpenCvCamera):
         raise CameraLostError(
             message(
                 "engine",
-                "{address}: no video came from there within {timeout_ms} s; check the address and "
+                "{address}: no video arrived within {timeout_ms} ms; check the address and "
                 "the network",
             ).fill(address=self.identity.address, timeout_ms=_TIMEOUT_MS / 1000.0)
         )
@@ -304,11 +305,11 @@ class Film(_OpenCvCamera):
             pixels = self._next()
         if pixels is None:
             raise CameraLostError(
-                message("engine", "{name}: it has ended; open it again, or let it repeat").fill(
+                message("engine", "{name} has ended; open it again, or let it repeat").fill(
                     name=self.name
                 )
                 if self._is_file
-                else message("engine", "{name}: it has ended; open it again").fill(name=self.name)
+                else message("engine", "{name} has ended; open it again").fill(name=self.name)
             )
         return self._picture(pixels)
 

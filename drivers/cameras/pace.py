@@ -1,11 +1,11 @@
-"""The beat of a camera that makes its pictures itself."""
+"""The frame rate of a camera that generates its own pictures."""
 
 from rotemina.drivers.cameras.camera import Wait
 from rotemina.drivers.clock import Clock
 
 
 class Pace:
-    """Beats at a steady rate, by the clock; a beat that nobody waited for is counted."""
+    """Steady beats by the clock; beats without a waiter are counted."""
 
     def __init__(self, rate_hz: float, *, clock: Clock, wait: Wait) -> None:
         self._clock = clock

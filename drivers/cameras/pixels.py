@@ -1,4 +1,4 @@
-"""Pixels made into another type."""
+"""Conversion of pixels to another type."""
 
 import cv2
 import numpy as np
@@ -8,7 +8,7 @@ from rotemina.drivers.cameras.settings import PixelType
 
 
 def pixel_type_of(pixels: Pixels) -> PixelType:
-    """Return of what type pixels are; see :data:`Pixels`."""
+    """Return the type of pixels; see :data:`Pixels`."""
     if pixels.ndim == 3:
         return PixelType.COLOUR
     return PixelType.MONO8 if pixels.dtype == np.uint8 else PixelType.MONO16

@@ -1,4 +1,4 @@
-"""Pictures in files, one after the other: a folder of TIFF and PNG, or a TIFF of many pages."""
+"""Image sequences: a folder of TIFF and PNG files, or a multi-page TIFF."""
 
 import re
 from pathlib import Path
@@ -36,7 +36,7 @@ class ImageSequences(CameraSource):
         """Return the sequence in a folder or file; see :class:`CameraSource`."""
         if not address.strip():
             raise CameraRefusedError(
-                message("engine", "{name}: nothing was named; type a {address_hint}").fill(
+                message("engine", "{name}: no address; enter a {address_hint}").fill(
                     name=self.name, address_hint=self.address_hint
                 )
             )
@@ -85,8 +85,7 @@ class ImageSequence(Camera):
                 raise CameraLostError(
                     message(
                         "engine",
-                        "{name}: it has ended after {count} pictures; open it again, or let it "
-                        "repeat",
+                        "{name} has ended after {count} pictures; open it again, or let it repeat",
                     ).fill(name=self.name, count=len(self._pages))
                 )
             self._at = 0
@@ -100,8 +99,8 @@ class ImageSequence(Camera):
             raise CameraLostError(
                 message(
                     "engine",
-                    "{file}: a picture of type {pixel_type_of}, expected {pixel_types} as the "
-                    "first; convert it",
+                    "{file}: a picture of type {pixel_type_of}, but the first has "
+                    "{pixel_types}; convert it",
                 ).fill(
                     file=file,
                     pixel_type_of=pixel_type_of(pixels),
@@ -128,7 +127,7 @@ def _pages(path: Path) -> tuple[tuple[Path, int], ...]:
         return tuple((file, 0) for file in sorted(files, key=_natural))
     if not path.is_file():
         raise CameraLostError(
-            message("engine", "{path}: there is no such folder or file; choose another one").fill(
+            message("engine", "{path}: folder or file not found; choose another one").fill(
                 path=path
             )
         )
@@ -151,7 +150,7 @@ def _read(file: Path, page: int) -> Pixels:
         file,
         CameraRefusedError,
         most_bytes=_MOST_BYTES,
-        advice=marked("engine", "is it cut off, or gone?"),
+        advice=marked("engine", "the file is truncated or missing"),
     ).close()
     try:
         there, pages = cv2.imreadmulti(str(file), page, 1, flags=cv2.IMREAD_UNCHANGED)
@@ -163,9 +162,9 @@ def _read(file: Path, page: int) -> Pixels:
         ) from error
     if not there or not pages:
         raise CameraRefusedError(
-            message("engine", "{file}: page {page} cannot be read; it is cut off, or gone").fill(
-                file=file, page=page + 1
-            )
+            message(
+                "engine", "{file}: page {page} cannot be read; the file is truncated or missing"
+            ).fill(file=file, page=page + 1)
         )
     pixels = pages[0]
     if pixels.ndim == 3 and pixels.dtype == np.uint8:

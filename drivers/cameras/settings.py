@@ -1,4 +1,4 @@
-"""What a camera is told, what it can do, and whether the one fits the other."""
+"""Camera settings and capabilities, and their check against each other."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -10,7 +10,7 @@ from rotemina.sim.messages import message
 
 
 class PixelType(StrEnum):
-    """How a pixel is told."""
+    """The type of a pixel."""
 
     MONO8 = "mono8"
     MONO16 = "mono16"
@@ -26,7 +26,7 @@ class Trigger(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class CameraSettings:
-    """What a camera is told; None leaves it as the camera has it.
+    """Requested camera settings; None leaves the camera's own.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class CameraSettings:
         None: the first of what the camera has.
     trigger : Trigger
     repeat : bool
-        Whether a file or sequence begins anew at its end; without meaning for a device.
+        Whether a file or sequence begins again at its end; without meaning for a device.
     """
 
     exposure_s: float | None = None
@@ -92,14 +92,14 @@ def check(name: str, can: CameraDescription, settings: CameraSettings) -> None:
     if settings.pixel_type is not None and settings.pixel_type not in types:
         known = ", ".join(dict.fromkeys(types))
         raise CameraSettingError(
-            message("engine", "{name}: pixel type {pixel_type}: it has {known}").fill(
+            message("engine", "{name} has no pixel type {pixel_type}; available: {known}").fill(
                 name=name, pixel_type=settings.pixel_type, known=known
             )
         )
     if settings.trigger not in can.triggers:
         known = ", ".join(can.triggers)
         raise CameraSettingError(
-            message("engine", "{name}: trigger {trigger}: it has {known}").fill(
+            message("engine", "{name} has no trigger {trigger}; available: {known}").fill(
                 name=name, trigger=settings.trigger, known=known
             )
         )
@@ -114,9 +114,9 @@ def _check_number(
         return
     if bounds is None:
         raise CameraSettingError(
-            message("engine", "{name}: {what} = {value}{unit}: it cannot be set; leave it").fill(
-                name=name, what=what, value=value, unit=unit
-            )
+            message(
+                "engine", "{name}: {what} = {value}{unit}: cannot be set; leave it unchanged"
+            ).fill(name=name, what=what, value=value, unit=unit)
         )
     if not (isfinite(value) and bounds[0] <= value <= bounds[1]):
         raise CameraSettingError(

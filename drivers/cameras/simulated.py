@@ -1,4 +1,4 @@
-"""The simulated microscope: a camera that looks at the true tip of a simulated machine."""
+"""The simulated microscope: a camera that sees the true tip of a simulated machine."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -85,7 +85,7 @@ class SimulatedMicroscope(CameraSource):
         if driver is None or isinstance(driver, TruePositions):
             return None
         return message(
-            "engine", "{name}: only a simulated machine can be seen; connect the simulator"
+            "engine", "{name} shows only a simulated machine; connect the simulator"
         ).fill(name=driver.name)
 
     def devices(self) -> Sequence[CameraIdentity]:
@@ -273,8 +273,8 @@ class SimulatedCamera(FocusDrive):
                 raise CameraLostError(
                     message(
                         "engine",
-                        "{name}: robot {robot_name} is in use now, not the one that it was opened "
-                        "on; close it and open it again",
+                        "{name} was opened with another robot than {robot_name}, which is "
+                        "now in use; close it and open it again",
                     ).fill(name=self.name, robot_name=repr(driver.robot.name))
                 )
             self._joints = chain.joints_of(np.array(driver.true_positions))

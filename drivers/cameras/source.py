@@ -1,4 +1,4 @@
-"""Where cameras are found: a source, which is a plugin (``rotemina.cameras``)."""
+"""Camera sources, which are plugins (``rotemina.cameras``)."""
 
 import time
 from abc import ABC, abstractmethod
@@ -39,7 +39,7 @@ class CameraSource(ABC):
 
     @abstractmethod
     def devices(self) -> Sequence[CameraIdentity]:
-        """Return what is there now; may take some ms, never raises for none."""
+        """Return the available cameras; may take some ms, never raises for none."""
 
     def addressed(self, address: str) -> CameraIdentity:
         """Return which camera an operator means; whether it is there is found out by opening it.
@@ -50,7 +50,7 @@ class CameraSource(ABC):
             If no camera can be named like this.
         """
         raise CameraRefusedError(
-            message("engine", "{name}: {address}: choose one that is listed").fill(
+            message("engine", "{name}: {address}: choose a listed one").fill(
                 name=self.name, address=repr(address)
             )
         )

@@ -1,1 +1,1 @@
-"""Whether a driver keeps the contract: behaviour tests that any driver can be put to."""
+"""Conformance tests that check whether a driver keeps the contract."""

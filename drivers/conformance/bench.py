@@ -1,4 +1,4 @@
-"""The bench that a driver is put on: it makes the driver and lets its time pass."""
+"""The test bench of a driver: it makes the driver and advances its time."""
 
 import signal
 import threading

@@ -1,4 +1,4 @@
-"""Checks of captures and of profiles: what a device does at a rate of its own."""
+"""Checks of captures and profiles, which a device executes at its own rate."""
 
 import numpy as np
 

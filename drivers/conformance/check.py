@@ -1,4 +1,4 @@
-"""A check of the contract, what it finds, and the words in which it fails."""
+"""A check of the contract, its findings, and its failure messages."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from rotemina.drivers.driver import Driver
 
 
 class Verdict(StrEnum):
-    """What became of a check."""
+    """The verdict of a check."""
 
     PASSED = "passed"
     FAILED = "failed"

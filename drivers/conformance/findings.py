@@ -1,4 +1,4 @@
-"""How a check ends before its end: a demand that is not met, or one that does not apply."""
+"""How a check ends early: a failed demand, or one that does not apply."""
 
 from collections.abc import Callable
 

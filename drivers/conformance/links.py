@@ -1,4 +1,4 @@
-"""Checks of what becomes of a driver whose link to its device is cut."""
+"""Checks of a driver's behaviour when its link is cut."""
 
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check

@@ -20,7 +20,7 @@ from rotemina.drivers.conformance.subject import CATCH_S, Motion, Subject, inter
 from rotemina.drivers.errors import LimitError
 from rotemina.drivers.gate import Gate, GateError, Permit
 from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.sim.trajectory.violations import RATE_SLACK
+from rotemina.sim.trajectory.validation import RATE_SLACK
 
 # A stop is asked for between two exchanges with the device: it may take one of them.
 STOP_LATE_S = 0.010

@@ -1,4 +1,4 @@
-"""Checks of making, opening and closing a driver, of its settings and of what it says of itself."""
+"""Checks of creating, opening and closing a driver, its settings and its description."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""Checks of the samples that a driver hands out, and of calls from several threads meanwhile."""
+"""Checks of a driver's samples, and of concurrent calls from several threads."""
 
 import threading
 from collections.abc import Callable

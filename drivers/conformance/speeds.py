@@ -1,4 +1,4 @@
-"""Checks of motion at a speed, for as long as somebody vouches for it."""
+"""Checks of motion at a speed, for the duration of its lease."""
 
 import numpy as np
 

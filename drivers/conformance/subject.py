@@ -1,4 +1,4 @@
-"""A driver that is open on the bench, with what checks do to every driver."""
+"""An open driver on the bench, with operations common to all checks."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

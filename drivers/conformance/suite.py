@@ -1,4 +1,4 @@
-"""All checks of the contract, in the order in which a report tells them."""
+"""All checks of the contract, in the order of the report."""
 
 from collections.abc import Iterator, Sequence
 

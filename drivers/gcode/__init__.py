@@ -1,1 +1,1 @@
-"""Stages that are driven by G-code over a serial line, as GRBL does, and one that is emulated."""
+"""Stages driven by G-code over a serial line, as GRBL does, and an emulated one."""

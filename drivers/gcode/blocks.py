@@ -92,7 +92,7 @@ class Blocks:
     halt = clear
 
     def step(self, dt_s: float, *, hold: bool) -> None:
-        """Let the axes go on for a while; with `hold` they brake, and keep what is left."""
+        """Advance the axes by a while; with `hold` they brake, and keep the rest."""
         left_s = dt_s
         while self._queue and left_s > 0.0:
             block = self._queue[0]

@@ -1,4 +1,4 @@
-"""What a GRBL controller is doing, as it tells, and what it is told next."""
+"""The state of a GRBL controller, and what to send it next."""
 
 import logging
 from collections import deque
@@ -46,7 +46,7 @@ class Controller:
         What it said when it was opened; it has a position.
     clock : Clock
     poll_s, homing_s : float
-        How often a report is asked for, and how long a search for switches may take.
+        How often a report is requested, and how long a search for switches may take.
     port : str
         For errors.
     """
@@ -89,12 +89,12 @@ class Controller:
 
     @property
     def stop_pending(self) -> bool:
-        """Whether it has yet to come to rest and to be emptied after a stop."""
+        """Whether it must still come to rest and be emptied after a stop."""
         return bool(self._stops) or self._braking or self._reset_s is not None
 
     @property
     def state(self) -> DeviceState:
-        """What it does."""
+        """The state of the controller."""
         if self.fault is not None:
             return DeviceState.FAULT
         if self._searching:
@@ -116,7 +116,7 @@ class Controller:
 
     @property
     def to_be_emptied(self) -> bool:
-        """Whether it holds anything that would go on after it is left."""
+        """Whether it holds anything that would continue after it is left."""
         return self._lost is None and bool(self._latest.moving or self._way or self._searching)
 
     @property
@@ -175,7 +175,7 @@ class Controller:
         self._permit = permit
 
     def step(self, now_s: float) -> Samples:
-        """Hear what it says, tell it what comes next, and return its new samples.
+        """Process its output, send what comes next, and return its new samples.
 
         Raises
         ------
@@ -185,7 +185,7 @@ class Controller:
         if self._lost is not None:
             raise ConnectionLostError(self._lost)
         self._follow_stops()
-        for told, asked_s, fresh in self.dialogue.hear():
+        for told, asked_s, fresh in self.dialogue.received():
             self._take(told, asked_s, fresh)
         self._empty_at_rest()
         self._go_on()
@@ -222,7 +222,7 @@ class Controller:
             return
         if short := way.missed(position):
             self._give_up(
-                message("engine", "it came to rest before its end: {short}").fill(short=short)
+                message("engine", "the move ended before its target: {short}").fill(short=short)
             )
         else:
             self._end_way()
@@ -258,7 +258,7 @@ class Controller:
         if self._reset_s is None and not self._stops and self.fault is None:
             self.known.clear()
             self.fault = marked(
-                "engine", "the controller was reset by somebody else, or lost its supply"
+                "engine", "the controller was reset from outside, or lost its supply"
             )
         self._deaf = False
         self._reset_s = None
@@ -267,13 +267,13 @@ class Controller:
         self.dialogue.forget()
 
     def _reset_wanted(self) -> bool:
-        """Whether what is wanted was asked for after the stop that led to the reset."""
+        """Whether what is wanted was requested after the stop that led to the reset."""
         return self._permit is not None and self._permit.valid and self.fault is None
 
     # --- what is done ------------------------------------------------------------------------
 
     def _follow_stops(self) -> None:
-        """Note what other threads have told the controller, and let nothing go on."""
+        """Note what other threads have told the controller, and let nothing continue."""
         while self._stops:
             byte = self._stops.popleft()
             if byte == RESET:
@@ -290,7 +290,7 @@ class Controller:
             self._begin_reset()
 
     def _brakes(self, state: str) -> None:
-        """Take it to brake until a report that was asked for from now on says otherwise."""
+        """Take it to brake until a report that was requested from now on says otherwise."""
         self.dialogue.invalidate_reports()
         self._latest = Status(state, 1, self._latest.position)
 

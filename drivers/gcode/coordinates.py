@@ -1,4 +1,4 @@
-"""The axes of a robot as a GRBL controller counts them: letters, mm or degrees, below zero.
+"""A robot's axes in a GRBL controller's coordinates: letters, mm or degrees, below zero.
 
 Machine coordinates of GRBL end at 0 and begin at minus the travel (``$130`` and on), whichever end
 the switch is at; the low end of an axis' range lies there.
@@ -141,13 +141,14 @@ def check_stage(robot: Robot, letters: str) -> None:
             raise InputError(
                 message(
                     "engine",
-                    "robot {robot}: axis {axis} is moved by a {kind}; a G-code controller moves "
-                    "stepping motors: take a robot file that has such axes only, as xyz",
+                    "robot {robot}: axis {axis} is moved by a {kind}, but a G-code "
+                    "controller moves stepping motors; choose a robot file with such axes "
+                    "only, such as xyz",
                 ).fill(robot=repr(robot.name), axis=name, kind=axis.kind)
             )
 
 
 def feed_of(way: Mapping[StageAxis, float], seconds: float) -> float:
-    """Return F for a way, mm or degrees of each axis, in a time: per minute, rounded down."""
+    """Return F for a distance, mm or degrees of each axis, in a time: per minute, rounded down."""
     length = sqrt(sum(part * part for part in way.values()))
     return max(floor(60e3 * length / seconds) / 1e3, _DIGIT)

@@ -1,4 +1,4 @@
-"""The talk with a controller: one line at a time is answered, single bytes go past all lines."""
+"""The dialogue with a controller: one line at a time, single bytes past all lines."""
 
 from collections.abc import Iterator
 
@@ -58,11 +58,11 @@ class Dialogue:
         self._port.write(byte)
 
     def invalidate_reports(self) -> None:
-        """Trust no report any more that was asked for before now."""
+        """Invalidate all reports requested before now."""
         self._acts += 1
 
     def forget(self) -> None:
-        """Wait no more for answers: the controller has been reset."""
+        """Stop waiting for answers: the controller has been reset."""
         self.awaited = self.asked_s = None
         self.invalidate_reports()
 
@@ -80,10 +80,10 @@ class Dialogue:
         self._sent += 1
         self.asked_s, self._asked_acts = now_s, self._acts
 
-    def hear(self) -> Iterator[tuple[Message, float | None, bool]]:
-        """Yield what has come, for a status also when it was asked for, and whether it is fresh.
+    def received(self) -> Iterator[tuple[Message, float | None, bool]]:
+        """Yield what has come, for a status also when it was requested, and whether it is fresh.
 
-        A fresh one was asked for after everything that was said. Where the answer took too long to
+        A fresh one was requested after everything that was said. Where the answer took too long to
         tell of which moment it is, the time is None.
         """
         *lines, self._rest = (self._rest + self._port.read()).split(b"\n")
@@ -117,7 +117,7 @@ class Dialogue:
             yield message, asked_s, fresh
 
     def quality(self) -> LinkQuality:
-        """Return how well the line does; any thread."""
+        """Return the quality of the line; any thread."""
         return LinkQuality(
             sent=self._sent,
             received=self._received,

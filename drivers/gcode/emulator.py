@@ -1,4 +1,4 @@
-"""An emulated GRBL controller with a stage behind it, byte for byte; it lives when it is told to.
+"""An emulated GRBL controller with a stage, byte for byte; its time is advanced explicitly.
 
 It behaves as GRBL 1.1 does, as far as a host can tell: a queue of blocks, feed holds and resets,
 alarms and locks, no reports while it homes. Time is given by the caller, s. Source: GRBL 1.1,
@@ -12,7 +12,7 @@ from math import pi
 
 from rotemina.drivers.gcode.blocks import Blocks
 from rotemina.drivers.gcode.coordinates import check_stage
-from rotemina.drivers.gcode.words import LineError, Target, jog_of, motion_of
+from rotemina.drivers.gcode.parser import LineError, Target, jog_of, motion_of
 from rotemina.sim.robot.model import Robot
 
 TICK_S = 1e-3
@@ -116,7 +116,7 @@ class EmulatedStage:
             self._hear(byte)
 
     def advance(self, to_s: float) -> bytes:
-        """Live on until this time; return what has been said by then."""
+        """Advance until this time; return what has been said by then."""
         self._live(to_s)
         said = bytes(self._out)
         self._out.clear()
@@ -128,7 +128,7 @@ class EmulatedStage:
             self._alarm(1, critical=True)
 
     def cut_power(self) -> None:
-        """Take the supply away and give it back: nothing of what it knew is left."""
+        """Interrupt the supply: the controller loses its whole state."""
         self._power_on()
 
     # --- bytes and lines -----------------------------------------------------------------------
@@ -142,7 +142,7 @@ class EmulatedStage:
         self._start()
 
     def _start(self) -> None:
-        """Begin anew, as after each reset: what waited is gone."""
+        """Begin again, as after each reset: what waited is gone."""
         self._rx = bytearray()
         self._modes = _Modes()
         self._blocks.clear()
@@ -332,7 +332,7 @@ class EmulatedStage:
         return False
 
     def _seek(self, search: _Search) -> None:
-        """Go on towards the low switch of the first axis, or away from it."""
+        """Continue towards the low switch of the first axis, or away from it."""
         axis = search.axes[0]
         rate = self.settings[_PULL_OFF_RATE if search.pulling_off else _SEEK]
         way = rate / 60.0 * TICK_S

@@ -1,4 +1,4 @@
-"""How a controller is opened: brought to rest, emptied, asked what it is."""
+"""Opening of a controller: bring it to rest, empty its queue, and identify it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ _LINE_S = 2.0
 
 @dataclass(slots=True)
 class ControllerInfo:
-    """What a controller says of itself, at rest and with nothing left to do.
+    """A controller's description of itself, at rest and with an empty queue.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Opening:
         self._last_s = float("-inf")
 
     def handshake(self) -> ControllerInfo:
-        """Stop whatever it does, empty it and ask it; what was under way never goes on.
+        """Stop whatever it does, empty it and ask it; what was under way never continues.
 
         Raises
         ------
@@ -115,7 +115,7 @@ class Opening:
                 raise DriverTimeoutError(
                     message(
                         "engine",
-                        "{where}: its axes still move {rest_s} s after a feed hold; use the "
+                        "{where}: the axes still move {rest_s} s after a feed hold; use the "
                         "machine's emergency switch",
                     ).fill(where=self._where, rest_s=_REST_S)
                 )
@@ -127,7 +127,7 @@ class Opening:
             self._dialogue.ask(_ASK_S, self._last_s)
             self._last_s = self._dialogue.asked_s or self._last_s
             self._pause(_STEP_S)
-            for told, _, fresh in self._dialogue.hear():
+            for told, _, fresh in self._dialogue.received():
                 if isinstance(told, Status) and fresh:
                     return told
             if not reset and self._clock() - began_s > deaf_s:
@@ -136,8 +136,8 @@ class Opening:
         raise DriverTimeoutError(
             message(
                 "engine",
-                "{where}: no answer to '?' in {limit_s} s; is it a GRBL controller, is it switched "
-                "on, is the baud rate right?",
+                "{where}: no answer to '?' within {limit_s} s; check that it is a GRBL "
+                "controller, its power and the baud rate",
             ).fill(where=self._where, limit_s=limit_s)
         )
 
@@ -145,7 +145,7 @@ class Opening:
         began_s, heard = self._clock(), list[Message]()
         while self._clock() - began_s < limit_s:
             self._pause(_STEP_S)
-            for told, _, _ in self._dialogue.hear():
+            for told, _, _ in self._dialogue.received():
                 heard.append(told)
                 if ends(told):
                     return heard

@@ -1,4 +1,4 @@
-"""What a GRBL controller says: each line as a message. Source: GRBL 1.1, interface.md."""
+"""Reports of a GRBL controller: each line as a message. Source: GRBL 1.1, interface.md."""
 
 import re
 from collections.abc import Mapping
@@ -8,11 +8,11 @@ from rotemina.sim.messages import marked, message
 
 #: What alarms mean that a stage can have.
 ALARMS = {
-    1: marked("engine", "hard limit: a limit switch was hit"),
+    1: marked("engine", "hard limit: a limit switch was reached"),
     2: marked("engine", "soft limit: a target lies beyond the travel"),
-    3: marked("engine", "it was reset in motion"),
+    3: marked("engine", "it was reset during motion"),
     6: marked("engine", "homing was ended by a reset"),
-    7: marked("engine", "the door was opened while homing"),
+    7: marked("engine", "the door was opened during homing"),
     8: marked("engine", "homing: pulling off did not clear the limit switch"),
     9: "homing: the limit switch was not found",
 }
@@ -26,7 +26,7 @@ ERRORS = {
     9: marked("engine", "it is locked by an alarm"),
     11: marked("engine", "the line is too long"),
     15: marked("engine", "the target lies beyond the travel"),
-    16: marked("engine", "no jog command"),
+    16: marked("engine", "not a jog command"),
     20: marked("engine", "unsupported G-code"),
 }
 _STATUS = re.compile(r"<(\w+)(?::(\d+))?\|(.*)>")
@@ -74,7 +74,7 @@ class Alarm:
 
 @dataclass(frozen=True, slots=True)
 class Welcome:
-    """What is said after each reset."""
+    """The greeting after each reset."""
 
     text: str
 
@@ -98,7 +98,7 @@ Message = Status | Answer | Alarm | Welcome | Setting | Note
 
 
 def parse_report(line: str) -> Message | None:
-    """Return what a line says; None where it is none that a controller says."""
+    """Return the message of a line; None if it is not a controller's."""
     if line == "ok":
         return Answer()
     if line.startswith("Grbl"):

@@ -35,12 +35,12 @@ class GcodeStage(Homer, Linked):
     """A stage of up to six stepping motors behind a GRBL controller.
 
     Settings: ``port``, a device or a URL of pyserial; ``baud``; ``letters`` of the axes, in the
-    order of the robot file; ``poll_s``, how often a report is asked for; ``homing_s``, how long a
+    order of the robot file; ``poll_s``, how often a report is requested; ``homing_s``, how long a
     search for switches may take; ``trust_position``, take the controller's count of steps for the
     position when it is opened (otherwise the axes must be homed first).
 
     The controller has no sensors: readings are its own count of steps. Nor has it a clock: a sample
-    is of when it was asked for, and is left out where the answer was late.
+    is of when it was requested, and is left out where the answer was late.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ class GcodeStage(Homer, Linked):
 
     @property
     def descriptions(self) -> tuple[AxisDescription, ...]:
-        """The axes, with the steps that the controller tells."""
+        """The axes, with the controller's step sizes."""
         told = super().descriptions
         if not self._axes:
             return told
@@ -121,11 +121,11 @@ class GcodeStage(Homer, Linked):
 
     @property
     def stop_pending(self) -> bool:
-        """Whether the controller has yet to come to rest and to be emptied after a stop."""
+        """Whether the controller must still come to rest and be emptied after a stop."""
         return self._controller is not None and self._controller.stop_pending
 
     def link_quality(self) -> LinkQuality:
-        """Return how well the line does."""
+        """Return the quality of the line."""
         return LinkQuality() if self._controller is None else self._controller.dialogue.quality()
 
     def _open(self) -> None:
@@ -163,8 +163,8 @@ class GcodeStage(Homer, Linked):
             raise DriverError(
                 message(
                     "engine",
-                    "{url}: the controller has {count} axes, robot {robot} {wanted}; take the "
-                    "robot file of this stage",
+                    "{url}: the controller has {count} axes, robot {robot} {wanted}; choose "
+                    "the robot file of this stage",
                 ).fill(url=url, count=count, robot=repr(self.robot.name), wanted=len(self.axes))
             )
         try:
@@ -212,7 +212,7 @@ class GcodeStage(Homer, Linked):
         if self._opened.braking:
             raise StateError(
                 message(
-                    "engine", "{name}: its axes still brake; clear the fault when they rest"
+                    "engine", "{name}: the axes are still braking; clear the fault when they rest"
                 ).fill(name=self.name)
             )
         self._opened.clear_fault(permit)
@@ -228,9 +228,7 @@ class GcodeStage(Homer, Linked):
             )
         if not self._opened.ready:
             raise StateError(
-                message("engine", "{name}: it is still busy with a stop; ask again").fill(
-                    name=self.name
-                )
+                message("engine", "{name} is still handling a stop; try again").fill(name=self.name)
             )
         lines = deque([("$H", self.axes)])
         if self._single:

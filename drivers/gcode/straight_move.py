@@ -1,4 +1,4 @@
-"""A straight move, sent piece by piece: what has not been sent ends with a line that is torn.
+"""A straight move sent piece by piece, so that a torn line ends it.
 
 A G-code controller has no watchdog: it goes on to the end of what it was told. So it is never told
 more than it needs in order not to brake: the way of `_AHEAD_S`, and that of its braking.
@@ -49,7 +49,7 @@ class StraightMove:
         targets: Mapping[str, float],
         speeds: Mapping[str, float],
     ) -> Self | None:
-        """Return the way from a report's position to targets, m or rad; None where it is none."""
+        """Return the move from a report's position to targets, m or rad, or None."""
         moved, seconds, braking_s = [], 0.0, 0.0
         for axis in axes:
             if axis.name not in targets:
@@ -99,7 +99,7 @@ class StraightMove:
             at = position[axis.number]
             if abs(at - end) > 2.0 * axis.resolution * axis.scale:
                 return message(
-                    "engine", "axis {name} at {at}, not at {end}, as the controller counts"
+                    "engine", "axis {name} at {at} instead of {end} by the controller's count"
                 ).fill(name=axis.name, at=fixed(at, 3), end=fixed(end, 3))
         return ""
 

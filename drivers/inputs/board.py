@@ -1,4 +1,4 @@
-"""The joystick at the machine's own controller: potentiometers and buttons, as a device."""
+"""The joystick at the machine's controller: potentiometers and buttons as an input device."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -21,7 +21,7 @@ Told = tuple[tuple[float, ...], tuple[bool, ...]]
 
 
 class BoardInputs(InputSource):
-    """What stands on the controller's desk, if the driver in use has it.
+    """The source of the joystick at the controller, if the driver in use has one.
 
     The driver belongs to a worker that alone talks to the device. Nothing is asked of the device
     here: its driver's latest status and readings are looked at, as any thread may.
@@ -43,7 +43,7 @@ class BoardInputs(InputSource):
         self._driver = driver
 
     def devices(self) -> Sequence[InputIdentity]:
-        """Return the one device, if the driver in use has it and tells of it."""
+        """Return the device, if the driver in use has and reports it."""
         driver = self._driver()
         if not isinstance(driver, AnalogInputs):
             return ()
@@ -58,7 +58,7 @@ class BoardInputs(InputSource):
         driver = self._driver()
         if not isinstance(driver, AnalogInputs) or _identity(driver) != identity:
             raise InputLostError(
-                message("engine", "{name}: the driver in use has none of this name").fill(
+                message("engine", "{name} does not belong to the driver in use").fill(
                     name=identity.name
                 )
             )
@@ -100,9 +100,7 @@ class BoardJoystick(InputDevice):
         """Return a reading if anything has changed; see :class:`InputDevice`."""
         if not self._is_open:
             raise StateError(
-                message("engine", "{name}: it was closed; open it again").fill(
-                    name=self.identity.name
-                )
+                message("engine", "{name} was closed; open it again").fill(name=self.identity.name)
             )
         if self._in_use() is not self._driver:
             raise InputLostError(
@@ -115,8 +113,8 @@ class BoardJoystick(InputDevice):
             raise InputLostError(
                 message(
                     "engine",
-                    "{name}: it has {axes} axes and {buttons} buttons now, {axes_before} and "
-                    "{buttons_before} before; open it again",
+                    "{name} now has {axes} axes and {buttons} buttons instead of "
+                    "{axes_before} and {buttons_before}; open it again",
                 ).fill(
                     name=self.identity.name,
                     axes=len(readings),
@@ -132,7 +130,7 @@ class BoardJoystick(InputDevice):
         return (InputReading(self._clock(), axes, buttons),)
 
     def close(self) -> None:
-        """Let go of it; see :class:`InputDevice`."""
+        """Release it; see :class:`InputDevice`."""
         self._is_open = False
 
 
@@ -147,25 +145,25 @@ def _latest(driver: AnalogInputs) -> Told:
         readings, buttons = driver.analog_inputs()
     except Exception as error:  # its worker may be closing it at this very moment
         raise InputLostError(
-            message("engine", "{name}: its joystick tells nothing: {error}").fill(
+            message("engine", "{name}: the joystick cannot be read: {error}").fill(
                 name=driver.name, error=str(error)
             )
         ) from error
     if status.state is DeviceState.CLOSED:
         raise InputLostError(
-            message("engine", "{name}: it is not connected; connect it for its joystick").fill(
+            message("engine", "{name} is not connected; connect it to use its joystick").fill(
                 name=driver.name
             )
         )
     if status.state is DeviceState.FAULT:
         raise InputLostError(
-            message("engine", "{name}: its joystick is not trusted in a fault; clear it").fill(
-                name=driver.name
-            )
+            message(
+                "engine", "{name}: the joystick is not trusted during a fault; clear the fault"
+            ).fill(name=driver.name)
         )
     if status.silent_s > 0.0:
         raise InputLostError(
-            message("engine", "{name}: nothing was heard of it and its joystick for a while").fill(
+            message("engine", "{name} and its joystick have been silent for a while").fill(
                 name=driver.name
             )
         )

@@ -1,4 +1,4 @@
-"""The contract of input devices: what stands there is found by a source, opened, and read.
+"""The contract of input devices: found by a source, opened, and read.
 
 A source is a plugin (``rotemina.inputs``). Readings are what the device says, neither calibrated
 nor trusted: that a stick stands at its centre, which axis it is for and how far it goes is the
@@ -17,7 +17,7 @@ from rotemina.sim.plugin_points import API_VERSIONS
 
 
 class InputLostError(DriverError, ConnectionError):
-    """The input device was unplugged, or does not answer any more."""
+    """The input device was unplugged, or no longer responds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class InputIdentity:
 
 @dataclass(frozen=True, slots=True)
 class InputReading:
-    """What a device said last.
+    """The latest reading of a device.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class InputDevice(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Let go of the device; safe to call twice."""
+        """Release the device; safe to call twice."""
 
 
 class Rumbler(InputDevice, ABC):
@@ -97,7 +97,7 @@ class Rumbler(InputDevice, ABC):
 
     @abstractmethod
     def rumble(self, strength: float) -> None:
-        """Shake with a strength of 0 (not) to 1 until told otherwise; never waits."""
+        """Rumble with a strength of 0 (off) to 1 until changed; never waits."""
 
 
 class InputSource(ABC):

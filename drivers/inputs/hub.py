@@ -1,4 +1,4 @@
-"""All input devices there are: which came, which left, and opening one by its key."""
+"""All available input devices: arrivals, removals, and opening by key."""
 
 import logging
 import time
@@ -104,7 +104,7 @@ class InputHub:
 
     @property
     def problems(self) -> Mapping[str, str]:
-        """What is wrong, by name of the source or key of the device."""
+        """Problems by source name or device key."""
         with self._lock:
             return MappingProxyType(
                 {**self._broken, **self._source_problems, **self._device_problems}
@@ -141,10 +141,10 @@ class InputHub:
         """
         with self._lock:
             found = self._there.get(key)
-            keys = ", ".join(self._there) or marked("engine", "none at all")
+            keys = ", ".join(self._there) or marked("engine", "none")
         if found is None:
             raise InputLostError(
-                message("engine", "input device {key} is not plugged in; there are: {keys}").fill(
+                message("engine", "input device {key} is not plugged in; available: {keys}").fill(
                     key=repr(key), keys=keys
                 )
             )
@@ -167,7 +167,7 @@ class InputHub:
         return device
 
     def lost(self, key: str) -> None:
-        """Take note that an open device raised :class:`InputLostError`.
+        """Note that an open device raised :class:`InputLostError`.
 
         The next poll tells that it has left, or, where it is back already, that it has returned.
         """
@@ -175,7 +175,7 @@ class InputHub:
             self._lost.add(key)
 
     def released(self, key: str) -> None:
-        """Take note that a device was closed on purpose: coming again it has not ``returned``."""
+        """Note that a device was closed on purpose: coming again it has not ``returned``."""
         with self._lock:
             self._opened.discard(key)
 

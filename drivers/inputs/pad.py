@@ -1,4 +1,4 @@
-"""Keys and an on-screen pad: a device whose axes and buttons the program itself sets."""
+"""Keys and an on-screen pad: a device set by the program itself."""
 
 import time
 from collections import deque
@@ -99,7 +99,7 @@ class Pad(InputSource):
             self._tell()
 
     def renew(self) -> bool:
-        """Go on holding what is held; return False where the pad let go of it. Any thread.
+        """Continue holding what is held; return False where the pad release it. Any thread.
 
         A deflection of 0 is held like any other.
         """
@@ -133,11 +133,11 @@ class Pad(InputSource):
         return (self.identity,) if self._there else ()
 
     def open(self, identity: InputIdentity) -> "PadDevice":
-        """Open the device, which first tells how it stands; see :class:`InputSource`."""
+        """Open the device, which first reports its state; see :class:`InputSource`."""
         with self._lock:
             if not self._there or identity != self.identity:
                 raise InputLostError(
-                    message("engine", "{name} ({key}): it is not there").fill(
+                    message("engine", "{name} ({key}) is not connected").fill(
                         name=identity.name, key=identity.key
                     )
                 )
@@ -147,7 +147,7 @@ class Pad(InputSource):
         return device
 
     def readings(self, device: "PadDevice") -> tuple[InputReading, ...]:
-        """Return what a device has not yet told; a lease that ran out is told too.
+        """Return the unreported readings of a device, including an expired lease.
 
         Raises
         ------
@@ -157,7 +157,7 @@ class Pad(InputSource):
         with self._lock:
             if device.lost:
                 raise InputLostError(
-                    message("engine", "{name}: it was taken away").fill(name=self.identity.name)
+                    message("engine", "{name} was removed").fill(name=self.identity.name)
                 )
             self._lapse()
             readings = tuple(device.waiting)
@@ -165,7 +165,7 @@ class Pad(InputSource):
         return readings
 
     def forget(self, device: "PadDevice") -> None:
-        """Tell a device nothing any more: it was closed."""
+        """Stop reporting to a closed device."""
         with self._lock:
             if device in self._devices:
                 self._devices.remove(device)
@@ -229,13 +229,11 @@ class PadDevice(InputDevice):
         """Return what was set since the last call; see :class:`InputDevice`."""
         if not self._is_open:
             raise StateError(
-                message("engine", "{name}: it was closed; open it again").fill(
-                    name=self.identity.name
-                )
+                message("engine", "{name} was closed; open it again").fill(name=self.identity.name)
             )
         return self._pad.readings(self)
 
     def close(self) -> None:
-        """Let go of it; see :class:`InputDevice`."""
+        """Release it; see :class:`InputDevice`."""
         self._is_open = False
         self._pad.forget(self)

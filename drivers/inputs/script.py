@@ -1,4 +1,4 @@
-"""A script: what an input device does over time, written down or read from a CSV file."""
+"""A script: the motion of an input device over time, in Python or a CSV file."""
 
 import csv
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ class ScriptError(InputError):
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """How the device stands from ``time_s`` on; while it is not ``plugged`` nobody can read it."""
+    """The device's state from ``time_s`` on; unreadable while not ``plugged``."""
 
     time_s: float
     axes: tuple[float, ...]
@@ -117,7 +117,7 @@ def _check(path: Path, columns: list[str]) -> None:
     """Refuse columns that mean nothing, or the same twice."""
     if _TIME not in columns:
         raise ScriptError(
-            message("engine", "{path}, line 1: there must be a column {time}").fill(
+            message("engine", "{path}, line 1: column {time} is missing").fill(
                 path=path, time=repr(_TIME)
             )
         )
@@ -126,13 +126,13 @@ def _check(path: Path, columns: list[str]) -> None:
             raise ScriptError(
                 message(
                     "engine",
-                    "{path}, line 1: unknown column {name}; there can be {time}, {plugged}, 'axis "
-                    "NAME' and 'button NAME'",
+                    "{path}, line 1: unknown column {name}; permitted are {time}, {plugged}, "
+                    "'axis NAME' and 'button NAME'",
                 ).fill(path=path, name=repr(name), time=repr(_TIME), plugged=repr(_PLUGGED))
             )
         if columns.count(name) > 1:
             raise ScriptError(
-                message("engine", "{path}, line 1: column {name} is there twice").fill(
+                message("engine", "{path}, line 1: column {name} appears twice").fill(
                     path=path, name=repr(name)
                 )
             )

@@ -40,7 +40,7 @@ class Scripted(InputSource):
         self.start()
 
     def start(self) -> None:
-        """Begin the script anew, now."""
+        """Begin the script again, now."""
         self.begun_s = self.clock()
 
     def devices(self) -> Sequence[InputIdentity]:
@@ -52,7 +52,7 @@ class Scripted(InputSource):
         """Open the device; see :class:`InputSource`."""
         if identity not in self.devices():
             raise InputLostError(
-                message("engine", "{name} ({key}): it is not plugged in").fill(
+                message("engine", "{name} ({key}) is not plugged in").fill(
                     name=identity.name, key=identity.key
                 )
             )
@@ -94,16 +94,14 @@ class ScriptedDevice(Rumbler):
         """Return what happened since the last call; see :class:`InputDevice`."""
         if not self._is_open:
             raise StateError(
-                message("engine", "{name}: it was closed; open it again").fill(
-                    name=self.identity.name
-                )
+                message("engine", "{name} was closed; open it again").fill(name=self.identity.name)
             )
         moments = self._source.since(self._next)
         self._next += len(moments)
         self._lost = self._lost or not all(moment.plugged for moment in moments)
         if self._lost:
             raise InputLostError(
-                message("engine", "{name}: it was unplugged, as its script says").fill(
+                message("engine", "{name} was unplugged by its script").fill(
                     name=self.identity.name
                 )
             )
@@ -114,14 +112,14 @@ class ScriptedDevice(Rumbler):
         )
 
     def close(self) -> None:
-        """Let go of it; see :class:`InputDevice`."""
+        """Release it; see :class:`InputDevice`."""
         self._is_open = False
 
     def rumble(self, strength: float) -> None:
         """Remember the strength; see :class:`Rumbler`."""
         if not 0.0 <= strength <= 1.0:
             raise LimitError(
-                message("engine", "{name}: a strength of {strength}: must be 0 to 1").fill(
+                message("engine", "{name}: strength {strength}: must be 0 to 1").fill(
                     name=self.identity.name, strength=strength
                 )
             )

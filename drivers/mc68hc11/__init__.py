@@ -1,1 +1,1 @@
-"""The MC68HC11 boards: how they are spoken to over a serial line."""
+"""The MC68HC11 boards on a serial line."""

@@ -21,13 +21,13 @@ _LOW = marked("engine", "low")  # ends of an axis that has switches
 _HIGH = marked("engine", "high")
 _WORDS = {
     Fault.STOPPED: marked(
-        "engine", "stopped, and not by this program: a stop came over the line; is it sound?"
+        "engine", "stopped by a stop on the line that this program did not send; check the line"
     ),
     Fault.WATCHDOG: marked("engine", "the host was silent for too long; the board halted"),
-    Fault.LIMIT_SWITCH: marked("engine", "a limit switch was met"),
-    Fault.SOFT_LIMIT: marked("engine", "an axis met an end of its range"),
+    Fault.LIMIT_SWITCH: marked("engine", "a limit switch was reached"),
+    Fault.SOFT_LIMIT: marked("engine", "an axis reached an end of its range"),
     Fault.SENSOR: marked("engine", "a position sensor failed"),
-    Fault.BROWN_OUT: marked("engine", "the supply voltage broke down; home it again"),
+    Fault.BROWN_OUT: marked("engine", "the supply voltage dropped; home it again"),
     Fault.RESET: marked("engine", "the board was reset; home it again"),
     Fault.LATE_SETPOINT: marked("engine", "a set-point came too late; the trajectory ended there"),
     Fault.PROFILE: marked("engine", "the profile could not be run"),
@@ -117,7 +117,7 @@ class Board:
             return None
         words = _WORDS[fault]
         if fault is Fault.LIMIT_SWITCH and (switches := self._switches()):
-            words = message("engine", "limit switch met: {switches}").fill(switches=switches)
+            words = message("engine", "limit switch reached: {switches}").fill(switches=switches)
         return message("engine", "board {address}: {words}").fill(address=self.address, words=words)
 
     @property

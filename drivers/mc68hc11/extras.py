@@ -89,7 +89,8 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         if period_us > _MOST_PERIOD_US:
             raise LimitError(
                 message(
-                    "engine", "{name}: a capture at {rate_hz} Hz: {most_period_us} Hz at least"
+                    "engine",
+                    "{name}: capture at {rate_hz} Hz: must be at least {most_period_us} Hz",
                 ).fill(
                     name=self.name,
                     rate_hz=rate_hz,
@@ -123,7 +124,7 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         return own.value(board.commanded()[own.number])
 
     def _upload(self, profile: Profile, permit: Permit) -> None:
-        self._prepare("take a profile")
+        self._prepare("accept a profile")
         board, axis = self._running.board_of(profile.axis)
         if not board.able(Ability.PROFILE):
             raise StateError(

@@ -94,7 +94,7 @@ def message_of(type_: int, payload: bytes) -> Message:
     known = MESSAGES.get(type_)
     if known is None:
         raise ProtocolError(
-            message("engine", "frame of type 0x{type}: no message of this protocol").fill(
+            message("engine", "frame of type 0x{type}: not a message of this protocol").fill(
                 type=format(type_, "02X")
             )
         )

@@ -85,7 +85,7 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
         self._serve()
 
     def _set_voltage(self, axis: str, voltage: float, permit: Permit) -> None:
-        self._prepare("put out a voltage")
+        self._prepare("set a voltage")
         board, own = self._running.board_of(axis)
         trust = self._running.trust
         first = 1e-3 * trust.value(board, PER_AXIS * own.number + _FIRST_MV)

@@ -98,7 +98,7 @@ class Opening:
         self._ask()
         trust = Trust(self._robot, self._boards)
         trust.compare()
-        self._wait(self._quiet, _READ_S, marked("engine", "to tell all parameters"))
+        self._wait(self._quiet, _READ_S, marked("engine", "to report all parameters"))
         self._look()
         self._settle()
         self._begin_telemetry()
@@ -139,7 +139,7 @@ class Opening:
             raise ProtocolError(
                 message(
                     "engine",
-                    "{where} speaks version {version} of the protocol, this program {own}; "
+                    "{where} uses version {version} of the protocol, this program {own}; "
                     "update the {older}",
                 ).fill(where=board.where, version=told.version, own=VERSION, older=older)
             )
@@ -148,8 +148,8 @@ class Opening:
             raise DriverError(
                 message(
                     "engine",
-                    "{where} has {axes} axes, robot {name} wants {count} there ({names}); choose "
-                    "the robot file of this machine",
+                    "{where} has {axes} axes, but robot {name} has {count} there ({names}); "
+                    "choose the robot file of this machine",
                 ).fill(
                     where=board.where,
                     axes=told.axes,
@@ -191,7 +191,7 @@ class Opening:
                 wrong.append(
                     message(
                         "engine",
-                        "{where}: {what} of axis {axis} is {told}, the robot file says {wanted}",
+                        "{where}: {what} of axis {axis} is {told}, but {wanted} in the robot file",
                     ).fill(
                         where=board.where,
                         what=what,
@@ -205,7 +205,7 @@ class Opening:
             wrong.append(
                 message(
                     "engine",
-                    "{where}: a step of axis {axis} is {step}, by the robot file {wanted}",
+                    "{where}: the step of axis {axis} is {step}, but {wanted} in the robot file",
                 ).fill(where=board.where, axis=axis.name, step=step, wanted=axis.step)
             )
 
@@ -213,11 +213,11 @@ class Opening:
         """Look at each board's clock and state a few times."""
         for _ in range(_LOOKS):
             self._poll_all()
-            self._wait(self._quiet, _ASK_S, marked("engine", "to tell where it is"))
+            self._wait(self._quiet, _ASK_S, marked("engine", "to report its position"))
         self._wait(
             lambda: all(board.latest is not None for board in self._boards),
             _ASK_S,
-            marked("engine", "to tell where it is"),
+            marked("engine", "to report its position"),
             self._poll_all,
         )
 
@@ -243,7 +243,7 @@ class Opening:
                 board.link.dialogues[board.address].ask(
                     Request(message=ClearFault(), permit=self._permit)
                 )
-        self._wait(self._quiet, _ASK_S, marked("engine", "to forget its fault"))
+        self._wait(self._quiet, _ASK_S, marked("engine", "to clear its fault"))
 
     def _begin_telemetry(self) -> None:
         self.period_ms, self.setpoint_every = self._periods()
@@ -317,7 +317,7 @@ class Opening:
                 raise DriverTimeoutError(
                     message(
                         "engine",
-                        "{who}: it took longer than {limit_s} s {what}; check cable and supply",
+                        "{who} took longer than {limit_s} s {what}; check cable and supply",
                     ).fill(who=who, limit_s=limit_s, what=what)
                 )
             meanwhile()
@@ -354,7 +354,7 @@ def _nobody(board: Board, baud: int, *, garbage: bool) -> DriverError:
     return DriverTimeoutError(
         message(
             "engine",
-            "{where}: nobody answers at {baud} baud; is the board switched on, its cable at this "
-            "port and not at the other board's, the baud rate another one ({others})?",
+            "{where}: no answer at {baud} baud; check the power of the board, its cable (at "
+            "this port, not the other board's), and the baud rate (others: {others})",
         ).fill(where=board.where, baud=baud, others=others)
     )

@@ -18,15 +18,15 @@ from rotemina.drivers.samples import DeviceState
 from rotemina.sim.messages import marked, message
 
 _REASONS = {
-    Refusal.UNKNOWN_TYPE: marked("engine", "it does not know that message"),
-    Refusal.WRONG_LENGTH: marked("engine", "the message has another length there"),
+    Refusal.UNKNOWN_TYPE: marked("engine", "it does not know this message"),
+    Refusal.WRONG_LENGTH: marked("engine", "it expects another length of this message"),
     Refusal.BAD_VALUE: marked(
-        "engine", "a value is beyond what it accepts; compare its parameters"
+        "engine", "a value is outside the range that it accepts; compare its parameters"
     ),
     Refusal.NOT_HOMED: marked("engine", "it is not homed"),
     Refusal.BUSY: marked("engine", "it is busy"),
     Refusal.QUEUE_FULL: marked("engine", "its queue is full"),
-    Refusal.NOT_ABLE: marked("engine", "it is not able to"),
+    Refusal.NOT_ABLE: marked("engine", "it cannot do this"),
     Refusal.OUT_OF_ORDER: marked("engine", "it came out of order"),
 }
 

@@ -87,7 +87,7 @@ class Trust:
         """Note that a stop has ended what was being written: no answers come any more."""
         if self._writing:
             self._writing = 0
-            self.failure = marked("engine", "a stop cut the writing off")
+            self.failure = marked("engine", "a stop interrupted the writing")
 
     def demand(self, name: str, action: str) -> None:
         """Refuse to move while parameters differ and nobody has accepted that.
@@ -115,7 +115,7 @@ class Trust:
         raise StateError(
             message(
                 "engine",
-                "{name}: cannot {action}: the boards' parameters are not those of the robot file "
+                "{name}: cannot {action}: the boards' parameters differ from the robot file "
                 "({differences}); accept_parameters or write_parameters first",
             ).fill(name=name, action=action, differences=joined(told, "; "))
         )
@@ -155,16 +155,16 @@ class Trust:
         assert isinstance(told, Identity), "it was matched"
         board.identity = told
         if told.fingerprint != fingerprint(self._wanted[board]):
-            self.failure = message("engine", "board {address} did not keep what was written").fill(
-                address=board.address
-            )
+            self.failure = message(
+                "engine", "board {address} did not store the written parameters"
+            ).fill(address=board.address)
             self._ask(board)
 
     def _refused(self, board: Board, said: WriteParameter, reason: int | None) -> None:
         self._writing -= 1
         what = meaning(self._robot, board.axes, said.index).name
         self.failure = message(
-            "engine", "board {address} refused to be given {what} (reason {reason})"
+            "engine", "board {address} refused to set {what} (reason {reason})"
         ).fill(address=board.address, what=what, reason=str(reason))
 
 

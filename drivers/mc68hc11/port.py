@@ -114,9 +114,10 @@ class SerialPort:
             taken = self._serial.write(data)
         if taken is not None and taken < len(data):
             raise ConnectionLostError(
-                message("engine", "{url}: it takes no more bytes; is the line blocked?").fill(
-                    url=self._url
-                )
+                message(
+                    "engine",
+                    "{url}: the port accepts no more bytes; check whether the line is blocked",
+                ).fill(url=self._url)
             )
 
     def waiting(self) -> int:
@@ -169,4 +170,4 @@ def _why(url: str, error: Exception) -> str:
             "{url}: there is no such port ({said}); check the name, and whether the "
             "adapter is plugged in",
         ).fill(url=url, said=said)
-    return message("engine", "{url}: it cannot be opened: {said}").fill(url=url, said=said)
+    return message("engine", "{url} cannot be opened: {said}").fill(url=url, said=said)

@@ -1,4 +1,4 @@
-"""A capture as the simulated machine takes it: readings picked from its samples."""
+"""Captures of the simulated machine: readings picked from its samples."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Inverses between the set-points of the simulated machine and its actuators, tick by tick."""
+"""Inverses between set-points and actuators of the simulated machine, tick by tick."""
 
 from typing import NamedTuple
 
@@ -64,7 +64,7 @@ class Compensating:
         return rest.command
 
     def lend(self, index: int, model: InverseModel | None, at: float) -> float:
-        """Let a loop have the inverse of an axis that stands at ``at``; return its command there.
+        """Lend the inverse of an axis at ``at`` to a loop; return its command there.
 
         Raises
         ------
@@ -92,7 +92,7 @@ class Compensating:
         return min(max(at, low), high)
 
     def retime(self, tick_s: float) -> None:
-        """Go on at other ticks; the axes are at rest."""
+        """Continue at other ticks; the axes are at rest."""
         self._tick_s = tick_s
         for index, before in self._inverses.items():
             after = Inverse(before.model, tick_s)
@@ -108,7 +108,7 @@ class Compensating:
         return low, high
 
     def sent(self, command: FloatArray) -> FloatArray:
-        """Return what the actuators (n, axes) are told at the next n ticks."""
+        """Return the commands (n, axes) to the actuators at the next n ticks."""
         if not self._inverses or not len(command):
             return command
         sent = command.copy()

@@ -1,4 +1,4 @@
-"""The simulated machine: it lives in device time and knows nothing of hosts or threads."""
+"""The simulated machine, in device time, independent of hosts and threads."""
 
 from dataclasses import replace
 from enum import Enum, auto
@@ -112,12 +112,12 @@ class SimulatedDevice:
 
     @property
     def command(self) -> FloatArray:
-        """The latest set-points (axes,) wanted, m or rad, also while a trajectory plays."""
+        """The latest desired set-points (axes,), m or rad, also during playback."""
         return self._command.copy()
 
     @property
     def sent(self) -> FloatArray:
-        """What the actuators (axes,) were told last, m or rad."""
+        """The latest commands to the actuators (axes,), m or rad."""
         return self._sent.copy()
 
     @property
@@ -132,12 +132,12 @@ class SimulatedDevice:
 
     @property
     def limited(self) -> tuple[int, ...]:
-        """The axes, by their number, whose loop a limit cuts off just now."""
+        """The axes, by their number, whose loop a limit cuts off at present."""
         return tuple(index for index in self.regulated if self._regulating.limited(index))
 
     @property
     def tick_s(self) -> float:
-        """Interval between set-points just now."""
+        """Interval between set-points at present."""
         return self._tick_s
 
     @property
@@ -173,7 +173,7 @@ class SimulatedDevice:
         return plant, taken_over(plant, self._plant, self._state)
 
     def use(self, plant: Plant, state: PlantState) -> None:
-        """Go on with another plant at a state of its own."""
+        """Continue with another plant at a state of its own."""
         self._plant, self._state = plant, state
 
     def rest(self, index: int, model: InverseModel | None) -> Rest:
@@ -189,7 +189,7 @@ class SimulatedDevice:
         return self._compensating.rest(model, float(self._sent[index]))
 
     def compensate(self, index: int, model: InverseModel | None, rest: Rest) -> None:
-        """Send an axis, by its number, through an inverse, or as it is told; it rests so.
+        """Apply an inverse to an axis, by its number, or remove it; the axis rests.
 
         Raises
         ------
@@ -292,7 +292,7 @@ class SimulatedDevice:
         self._homing.begin(axes, self._setpoints)
 
     def stop(self) -> None:
-        """Halt within the acceleration that the axes allow, from whatever is going on."""
+        """Halt within the acceleration that the axes allow, from whatever is continuing."""
         self._homing.give_up()
         if self._phase is _Phase.PROFILE and self._profile is not None:
             self._end_profile(self._profile)
@@ -303,7 +303,7 @@ class SimulatedDevice:
         self._phase = _Phase.HOLD
 
     def advance(self, until_s: float) -> list[Samples]:
-        """Live on until the last sample that is not after ``until_s``; return what was sampled.
+        """Advance until the last sample that is not after ``until_s``; return what was sampled.
 
         Raises
         ------

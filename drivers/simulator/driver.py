@@ -110,8 +110,8 @@ class Simulator(
                 raise SettingError(
                     message(
                         "engine",
-                        "simulator: robot {name} has an axis moved by a force that no controller "
-                        "holds; give it one in the robot file",
+                        "simulator: robot {name} has a force axis without a controller; add "
+                        "one to the robot file",
                     ).fill(name=repr(robot.name))
                 )
         self._position = self._start_position(self._number("start_fraction", 0.0, 1.0))
@@ -136,7 +136,7 @@ class Simulator(
 
     @property
     def stop_pending(self) -> bool:
-        """Whether a stop was asked for that the simulated time has not come to."""
+        """Whether a requested stop lies ahead of the simulated time."""
         return bool(self._stops_s)
 
     @property
@@ -179,7 +179,7 @@ class Simulator(
 
     @property
     def regulation_limited(self) -> tuple[str, ...]:
-        """The axes whose loop asks for more than a limit allows just now."""
+        """The axes whose loop asks for more than a limit allows at present."""
         device = self._device
         return () if device is None else tuple(self.axes[index] for index in device.limited)
 
@@ -297,23 +297,21 @@ class Simulator(
             raise LimitError(
                 message(
                     "engine",
-                    "{name}: axis {axis} runs under a controller, which alone sets its voltage",
+                    "{name}: the controller of axis {axis} sets its voltage",
                 ).fill(name=self.name, axis=axis)
             )
         if axis in self.compensated:
             raise LimitError(
                 message(
                     "engine",
-                    "{name}: axis {axis} is compensated, which sets its voltage; switch the "
-                    "compensation off first",
+                    "{name}: the inverse of axis {axis} sets its voltage; remove the inverse first",
                 ).fill(name=self.name, axis=axis)
             )
         if axis in self.regulated:
             raise LimitError(
                 message(
                     "engine",
-                    "{name}: axis {axis} is under a loop, which sets its voltage; take it off "
-                    "first",
+                    "{name}: the loop of axis {axis} sets its voltage; open the loop first",
                 ).fill(name=self.name, axis=axis)
             )
         try:
@@ -379,8 +377,8 @@ class Simulator(
                 raise LimitError(
                     message(
                         "engine",
-                        "simulator: rows of the trajectory follow at {rate_hz} Hz; it plays "
-                        "{max_rate_hz} Hz at most; resample the trajectory",
+                        "simulator: the trajectory has {rate_hz} rows per second, but at "
+                        "most {max_rate_hz} can be played; resample the trajectory",
                     ).fill(rate_hz=rounded(rate_hz, 6), max_rate_hz=MAX_RATE_HZ)
                 )
         self._catch_up()
@@ -415,7 +413,7 @@ class Simulator(
         return self._device
 
     def _catch_up(self) -> None:
-        """Simulate up to the clock's present, with every stop at the time it was asked for."""
+        """Simulate up to the clock's present, with every stop at the time it was requested."""
         if self._fault is not None:
             return
         device = self._running
@@ -436,7 +434,7 @@ class Simulator(
                 self._capturing.take(part)
 
     def _next_end_s(self) -> float:
-        """Return when the next stop was asked for, or a lease runs out."""
+        """Return when the next stop was requested, or a lease runs out."""
         stop_s = self._stops_s[0] if self._stops_s else float("inf")
         return min(stop_s, min(self._leases_s.values(), default=float("inf")))
 

@@ -1,4 +1,4 @@
-"""What stands on the simulated machine's desk: its display, and a joystick set by hand."""
+"""The front panel of the simulated machine: its display, and a manual joystick."""
 
 from abc import ABC
 from collections.abc import Mapping, Sequence
@@ -41,7 +41,7 @@ class FrontPanel(Display, AnalogInputs, ABC):
         return self._inputs
 
     def set_analog_inputs(self, readings: Sequence[float], buttons: Sequence[bool]) -> None:
-        """Let the potentiometers stand there, 0 to 1, and the buttons be held or not.
+        """Set the potentiometers, 0 to 1, and the held buttons.
 
         Raises
         ------
@@ -51,8 +51,8 @@ class FrontPanel(Display, AnalogInputs, ABC):
         for reading in readings:
             if not 0.0 <= reading <= 1.0:
                 raise LimitError(
-                    message("engine", "{name}: a potentiometer at {reading}: must be 0 to 1").fill(
-                        name=self.name, reading=reading
-                    )
+                    message(
+                        "engine", "{name}: potentiometer reading {reading}: must be 0 to 1"
+                    ).fill(name=self.name, reading=reading)
                 )
         self._inputs = (tuple(readings), tuple(buttons))

@@ -1,4 +1,4 @@
-"""Which axes of the simulated machine know where they are, and those looking for their switch."""
+"""Homing of the simulated machine: homed axes, and axes in search of their switch."""
 
 from collections.abc import Iterable
 

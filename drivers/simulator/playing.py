@@ -1,4 +1,4 @@
-"""A trajectory as the simulated machine plays it, piece by piece."""
+"""Playback of a trajectory by the simulated machine, piece by piece."""
 
 from typing import NamedTuple
 
@@ -28,7 +28,7 @@ class Chunk(NamedTuple):
 
 
 def selected(samples: Samples, which: BoolArray) -> Samples:
-    """Return those (n,) of all ticks that are handed out."""
+    """Return which (n,) of all ticks are sampled."""
     if which.all():
         return samples
     return Samples(

@@ -1,4 +1,4 @@
-"""A profile as the simulated machine runs it: the polynomial's value at each of its ticks."""
+"""Execution of a profile by the simulated machine: its polynomial at each tick."""
 
 from math import ceil
 
@@ -11,7 +11,7 @@ _ON_TIME = 1e-6  # of a tick: what is late by less is on time
 
 
 class ProfileMotion:
-    """A profile that begins at ``start`` (m or rad) and is told tick by tick.
+    """A profile that begins at ``start`` (m or rad), evaluated tick by tick.
 
     Tick 1 is the first after the trigger; at the last one the axis is at the profile's end, which
     it reaches up to a tick late where its duration is no whole number of ticks.

@@ -1,4 +1,4 @@
-"""Loops that the simulated machine closes around its axes, at ticks as fine as they ask for."""
+"""Loops around axes of the simulated machine, at their own fine ticks."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -48,13 +48,13 @@ class Regulating:
 
     @property
     def tick_s(self) -> float:
-        """Interval between ticks: that of the loops, or the samples' where there are none."""
+        """Interval between ticks: that of the loops, or the samples' without loops."""
         intervals = [one.interval_s for one in self.regulations.values()]
         return intervals[0] if intervals else self._sample_s
 
     @property
     def beyond(self) -> dict[int, Exceedance]:
-        """In what the inverses of the feed-forwards went beyond what they saw, just now."""
+        """In what the inverses of the feed-forwards went beyond what they saw, at present."""
         return {index: one.beyond for index, one in self._inverses.items()}
 
     def check(self, index: int, regulation: Regulation, *, alone: bool) -> None:
@@ -82,8 +82,8 @@ class Regulating:
             raise FeedbackError(
                 message(
                     "engine",
-                    "{where}: that of axis {axis} runs at {rate_hz} Hz, and all must run at one "
-                    "rate; take the other one off, or tune for its rate",
+                    "{where}: the loop of axis {axis} runs at {rate_hz} Hz, and all loops "
+                    "must run at one rate; open that loop, or tune for its rate",
                 ).fill(where=where, axis=others[0].axis, rate_hz=others[0].rate_hz)
             )
         if not alone and round(ticks) != 1:
@@ -123,7 +123,7 @@ class Regulating:
         self.regulations = MappingProxyType(left)
 
     def hold(self, bounds: FloatArray) -> None:
-        """Keep every loop's output within bounds (axes,), m or rad, of what it is now.
+        """Keep every loop's output within bounds (axes,), m or rad, of its present value.
 
         So a loop that holds a stopped axis cannot lead it away, whatever its sensor says.
         """
@@ -137,7 +137,7 @@ class Regulating:
                 controller.lead()
 
     def limited(self, index: int) -> bool:
-        """Whether a limit cuts the output of an axis' loop off just now."""
+        """Whether a limit cuts the output of an axis' loop off at present."""
         return index in self._controllers and self._controllers[index].limited
 
     def advance(
@@ -149,7 +149,7 @@ class Regulating:
         sent: FloatArray,
         chance: Chance,
     ) -> tuple[Motion, PlantState, FloatArray]:
-        """Sample the plant at n ticks; return motion, state and what actuators (n, axes) are told.
+        """Sample the plant at n ticks; return motion, state and actuator commands (n, axes).
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Set-points of single moves: as fast as an axis may go, tick by tick.
+"""Set-points of single moves, tick by tick at the greatest permitted speed.
 
 At each tick the speed of the command changes by at most ``a·dt``, and is the greatest from which
 the axis can still stop on its target. With D the distance in units of ``a·dt²`` and u the speed
@@ -38,7 +38,7 @@ class SetpointGenerator:
 
     @property
     def moving(self) -> bool:
-        """Whether any axis has yet to arrive or to stop."""
+        """Whether any axis is still moving or stopping."""
         return bool((self._velocity != 0).any() or (self._position != self._target).any())
 
     @property
@@ -57,7 +57,7 @@ class SetpointGenerator:
             self._stopping[index] = False
 
     def drive(self, index: int, velocity: float) -> None:
-        """Let an axis go at a speed until it is told otherwise, or meets an end of its range."""
+        """Move an axis at a speed until commanded otherwise, or up to an end of its range."""
         if velocity == 0.0:
             self.stop(index)
         else:
@@ -65,7 +65,7 @@ class SetpointGenerator:
             self.retarget({index: float(end[index])}, abs(velocity))
 
     def retime(self, tick_s: float) -> None:
-        """Go on at other ticks; all axes rest."""
+        """Continue at other ticks; all axes rest."""
         self._tick_s = tick_s
 
     def bound(self, index: int, low: float, high: float) -> None:

@@ -1,4 +1,4 @@
-"""A trajectory as a machine follows it whose ticks are finer than the rows.
+"""Interpolation of a trajectory for a machine with finer ticks than rows.
 
 Rows are held until the next one begins. A loop that is led by its reference would answer each of
 these small jumps with a large one; so the path goes from row to row along monotone cubics, which

@@ -1,4 +1,4 @@
-"""The simulated machine's tool, which does nothing but remember whether it is on."""
+"""The simulated machine's tool, which only remembers its state."""
 
 from abc import ABC
 from collections.abc import Mapping

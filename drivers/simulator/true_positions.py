@@ -1,4 +1,4 @@
-"""Where the axes of a simulated machine truly are: what no sensor of it tells."""
+"""The true positions of a simulated machine's axes, which no sensor shows."""
 
 from abc import ABC
 from collections.abc import Mapping

@@ -1,1 +1,1 @@
-"""The boards as a program: the board's side of the protocol, driving the simulated machine."""
+"""Virtual boards: the board's side of the protocol, driving the simulated machine."""

@@ -1,4 +1,4 @@
-"""How a board moves one axis, tick by tick: to a target, at a speed, or along a ramp."""
+"""Motion of one axis by a board, tick by tick: to a target, at a speed, or along a ramp."""
 
 from copy import deepcopy
 
@@ -45,7 +45,7 @@ class AxisDrive:
 
     @property
     def moving(self) -> bool:
-        """Whether it has yet to arrive or to halt."""
+        """Whether it is still moving or halting."""
         if not self._rests:
             self._rests = self._ramp_end is None and not self._generator.moving
         return not self._rests
@@ -57,7 +57,7 @@ class AxisDrive:
         self._include()
 
     def unbound(self) -> None:
-        """Go anywhere: nobody knows where the limits are."""
+        """Ignore the limits, because the position is unknown."""
         self._low, self._high = -_FAR, _FAR
         self._include()
 
@@ -68,7 +68,7 @@ class AxisDrive:
         self._generator.retarget({0: target}, most_speed)
 
     def drive(self, speed: float) -> None:
-        """Go at a speed until told otherwise, or up to an end of the range."""
+        """Move at a speed until commanded otherwise, or up to an end of the range."""
         self._end_ramp()
         self._include()
         self._generator.drive(0, speed)
@@ -89,14 +89,14 @@ class AxisDrive:
         self.place(self.position)
 
     def place(self, position: float, speed: float = 0.0) -> None:
-        """Command a position, and come to rest from a speed if there is one."""
+        """Command a position, and come to rest from a speed if any."""
         self._ramp_end = None
         self._include(position)
         self._generator.take_over(np.array([position]), np.array([speed]))
         self._position = float(self._generator.position[0])
 
     def shift(self, position: float) -> None:
-        """Call the present position so from now on, and come to rest from the present speed."""
+        """Redefine the present position, and come to rest from the present speed."""
         self.place(position, self.velocity)
 
     def generate(self, ticks: int) -> FloatArray:

@@ -1,4 +1,4 @@
-"""One or two boards on their lines, with the machine behind them: it lives when it is told to.
+"""One or two boards on their lines, with their machine; time is advanced explicitly.
 
 Time is given by the caller, in seconds since the process began: nothing here waits or looks at a
 clock, so a test may let hours pass in minutes.
@@ -49,10 +49,10 @@ class Port:
             If the motion leaves what a number can hold.
         """
         self._boards.live(at_s)
-        self._line.hear(data, self._boards.now_s)
+        self._line.receive(data, self._boards.now_s)
 
     def advance(self, to_s: float) -> bytes:
-        """Live on until this time; return what has reached the host by then.
+        """Advance until this time; return what has reached the host by then.
 
         Raises
         ------
@@ -119,8 +119,8 @@ class VirtualBoards:
             raise InputError(
                 message(
                     "engine",
-                    "robot {name}: its {count} axes take one board, which has one port; leave out "
-                    "the second one",
+                    "robot {name}: its {count} axes need only one board, which has one port; "
+                    "leave out the second one",
                 ).fill(name=repr(robot.name), count=len(robot.axes))
             )
         self.tick_s = tick_s
@@ -175,7 +175,7 @@ class VirtualBoards:
         return min(sample * self.tick_s, lines)
 
     def live(self, to_s: float) -> None:
-        """Live on until this time, s; a time that is over changes nothing.
+        """Advance until this time, s; a time that is over changes nothing.
 
         Raises
         ------

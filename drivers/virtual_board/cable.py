@@ -1,4 +1,4 @@
-"""A cable that can be disturbed: what happens to bytes on their way, in either direction."""
+"""A cable with disturbances of the bytes in either direction."""
 
 from enum import Enum, auto
 
@@ -35,7 +35,7 @@ class Channel:
         return b"".join(self._one(byte) for byte in data)
 
     def noise(self, count: int) -> bytes:
-        """Return bytes that nobody sent."""
+        """Return spurious bytes."""
         return self._chance.bytes(count)
 
     def _one(self, byte: int) -> bytes:

@@ -1,4 +1,4 @@
-"""The clock of a board: microseconds in 32 bits, from a crystal that is not quite true."""
+"""The clock of a board: 32 bits of microseconds from an imperfect crystal."""
 
 from math import ceil, floor
 
@@ -14,7 +14,7 @@ def signed(difference_us: int) -> int:
 
 
 class BoardClock:
-    """Counts from ``offset_us`` at ``since_s`` on, and tells ticks of the machine by their times.
+    """Counts from ``offset_us`` at ``since_s``, and converts machine times to ticks.
 
     Parameters
     ----------

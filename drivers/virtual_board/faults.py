@@ -1,4 +1,4 @@
-"""What can go wrong, injected from outside by short commands: for training, and for our own tests.
+"""Fault injection by short commands, for training and tests.
 
 ========================  ===================================================================
 ``drop N``                the next N bytes are lost
@@ -8,7 +8,7 @@
 ``garbage N``             N bytes come that nobody sent
 ``silence T s``           nothing comes through for so long, both ways: a torn or shorted line
 ``space T s``             the same, and boards hear a break: a line that is held at space
-``reset B``, ``brown-out B``  board B begins anew; it does not know where its steppers are
+``reset B``, ``brown-out B``  board B begins again; it does not know where its steppers are
 ``freeze AXIS``, ``thaw AXIS``  a sensor says the same until it is thawed
 ``lose AXIS N``           a stepper stays N microsteps behind its command
 ``joystick X Y Z [B]``    hold the joystick of board 1 there, 0 to 4095, and buttons bit by bit
@@ -54,7 +54,7 @@ def inject(boards: VirtualBoards, command: str) -> None:
     if name not in _COMMANDS:
         known = ", ".join(sorted(_COMMANDS))
         raise FaultCommandError(
-            message("engine", "fault {strip}: there is no such command; say {known}").fill(
+            message("engine", "fault {strip}: unknown command; use {known}").fill(
                 strip=repr(command.strip()), known=known
             )
         )
@@ -87,7 +87,7 @@ class RandomFaults:
         self._next_s = boards.now_s + self._pause_s()
 
     def live(self, to_s: float) -> None:
-        """Live on until this time, s, with what goes wrong until then."""
+        """Advance until this time, s, with what goes wrong until then."""
         while self._next_s <= to_s:
             self._boards.live(self._next_s)
             what = _RANDOM[int(self._chance.integers(len(_RANDOM)))]
@@ -151,7 +151,7 @@ def _lose(boards: VirtualBoards, _: str, words: list[str]) -> None:
     index = _axis(boards, words)
     if not boards.machine.stepper[index]:
         raise FaultCommandError(
-            message("engine", "{names} is no stepper: it has no steps").fill(
+            message("engine", "{names} is not a stepper axis and has no steps").fill(
                 names=boards.machine.names[index]
             )
         )
@@ -169,8 +169,8 @@ def _joystick(boards: VirtualBoards, _: str, words: list[str]) -> None:
         raise FaultCommandError(
             message(
                 "engine",
-                "there must be three readings, 0 to {most_reading}, and after them buttons, 0 to "
-                "{most_buttons}, or none",
+                "enter three readings, 0 to {most_reading}, then optionally buttons, 0 to "
+                "{most_buttons}",
             ).fill(most_reading=_MOST_READING, most_buttons=_MOST_BUTTONS)
         )
     boards.set_inputs((readings[0], readings[1], readings[2]), sum(buttons))
@@ -214,7 +214,7 @@ def _axis(boards: VirtualBoards, words: list[str]) -> int:
     names = boards.machine.names
     if not words or words[0] not in names:
         raise FaultCommandError(
-            message("engine", "there must be an axis: one of {names}").fill(names=", ".join(names))
+            message("engine", "enter an axis: one of {names}").fill(names=", ".join(names))
         )
     return names.index(words.pop(0))
 
@@ -242,9 +242,9 @@ def _duration_s(words: list[str]) -> float:
         value_s = inf
     if not (isfinite(value_s) and 0.0 <= value_s <= _MOST_S):
         raise FaultCommandError(
-            message(
-                "engine", "there must be a time as '5 ms' or '2 s', of {most_s} s at most"
-            ).fill(most_s=_MOST_S)
+            message("engine", "enter a time such as '5 ms' or '2 s', at most {most_s} s").fill(
+                most_s=_MOST_S
+            )
         )
     return value_s
 
@@ -252,5 +252,5 @@ def _duration_s(words: list[str]) -> float:
 def _end(words: list[str]) -> None:
     if words:
         raise FaultCommandError(
-            message("engine", "{names} has no place here").fill(names=repr(" ".join(words)))
+            message("engine", "{names} is not allowed here").fill(names=repr(" ".join(words)))
         )

@@ -1,4 +1,4 @@
-"""One board as a program: what it does at every tick of its control, and how it halts.
+"""The firmware of one virtual board: its control tick, and how it halts.
 
 It is called at the ticks at which something is due, and lets its drives generate what lies between.
 What frames ask of it is in ``messages.py``.
@@ -108,7 +108,7 @@ class Firmware:
         drive.bound(*kept.limits(axis), kept.speed(axis), kept.acceleration(axis))
 
     def reset(self, fault: Fault) -> None:
-        """Begin anew, as after power came: nobody knows where the steppers are."""
+        """Restart as after power-up: the positions of the steppers are unknown."""
         self.kept.recall(self.now_s)
         for axis, drive in enumerate(self.drives):
             self.rebound(axis, drive)
@@ -316,7 +316,7 @@ class Firmware:
             self.ways[axis] = float(change) or self.ways[axis]
 
     def preview(self, ticks: int) -> FloatArray | None:
-        """Return the commands (ticks, axes) to come if no frame does; None if nobody knows.
+        """Return the coming commands (ticks, axes) if no frame arrives, or None if unknown.
 
         While set-points play, these are fewer: up to the last one that waits.
         """

@@ -1,4 +1,4 @@
-"""How a board finds where its steppers are: to the low switch, slowly back, and on to zero."""
+"""Homing by a board: to the low switch, slowly back, and to zero."""
 
 from enum import Enum, auto
 
@@ -16,7 +16,7 @@ class _Phase(Enum):
 
 
 class HomingAxis:
-    """One stepper that is being homed; ``step`` follows its switch and tells when it counts."""
+    """One stepper during homing; ``step`` follows its switch."""
 
     def __init__(self, axis: int, drive: AxisDrive, kept: ParameterMemory) -> None:
         self.axis = axis
@@ -27,7 +27,7 @@ class HomingAxis:
         drive.drive(-kept.homing_speed(axis))
 
     def step(self, closed: bool) -> bool:
-        """Go on; ``closed`` is the low switch. Return whether it has just opened."""
+        """Advance; ``closed`` is the low switch. Return whether it has just opened."""
         if self._phase is _Phase.SEEK and closed:
             self._drive.halt()
             self._phase = _Phase.HALT

@@ -1,7 +1,7 @@
 """A serial line with the boards at its end, byte by byte in time.
 
 Paced, a byte has come, and has left, when its stop bit is over: ten bits after the one before. On a
-shared bus the boards answer after the slot in which the host may go on.
+shared bus the boards answer after the slot in which the host may continue.
 """
 
 from collections import deque
@@ -81,7 +81,7 @@ class SerialLine:
         ends_s = inf if said is None else said.begin_s + len(said.data) * self.byte_s
         return min(ends_s, self._delayed[0][0] if self._delayed else inf)
 
-    def hear(self, data: bytes, at_s: float) -> None:
+    def receive(self, data: bytes, at_s: float) -> None:
         """Let the host have written bytes at a time that is not before the latest one."""
         data = self.to_board.passed(data, at_s)
         at_s += self.to_board.delay_s
@@ -122,11 +122,11 @@ class SerialLine:
                 self._send(encoded(board.framed(message)), at_s, board)
 
     def disturb(self, data: bytes, at_s: float, *, towards_host: bool) -> None:
-        """Let bytes be on the line that nobody sent."""
+        """Put spurious bytes on the line."""
         if towards_host:
             self._send(data, at_s, None)
         else:
-            self.hear(data, at_s)
+            self.receive(data, at_s)
 
     def taken(self, to_s: float) -> bytes:
         """Return the bytes that have reached the host by then."""

@@ -1,4 +1,4 @@
-"""A plant that looks ahead of the present: far fewer, longer runs.
+"""A plant simulated ahead of the present, in far fewer, longer runs.
 
 A run of the plant costs the same for one tick as for a hundred. Boards look at it at every sample
 of telemetry; so the machine is simulated beyond the present over the commands that will come if
@@ -106,7 +106,7 @@ class PlantRun:
         return self._state
 
     def take_over(self, plant: Plant, state: PlantState) -> None:
-        """Go on with another plant, from its state at the present tick."""
+        """Continue with another plant, from its state at the present tick."""
         self._settle()
         self._plant, self._state = plant, state
 

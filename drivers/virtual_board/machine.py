@@ -1,4 +1,4 @@
-"""The machine that the boards move: plant, sensors, limit switches, and what boards count from."""
+"""The machine behind the boards: plant, sensors, limit switches, and counters."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -19,7 +19,7 @@ _KEPT = 512  # readings that are kept for captures, ticks
 
 
 class Machine:
-    """The plant behind both boards. It is simulated when somebody looks, many ticks at once.
+    """The plant behind both boards. It is simulated when someone looks, many ticks at once.
 
     A stepper's counters, of its commands and of its measuring system, begin somewhere: their
     origins lead from steps to the position of the machine.
@@ -83,16 +83,16 @@ class Machine:
         self.command_origin[index] -= steps * self.step[index]
 
     def freeze(self, index: int) -> None:
-        """Let a sensor say the same from now on."""
+        """Freeze a sensor."""
         self.simulate()
         self._frozen[index] = float(self.reading[index])
 
     def thaw(self, index: int) -> None:
-        """Let a sensor tell the truth again."""
+        """Release a frozen sensor."""
         self._frozen.pop(index, None)
 
     def set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
-        """Go on with other effects, from where the axes are and as fast as they are."""
+        """Continue with other effects, from where the axes are and as fast as they are."""
         self.simulate()
         plant = Plant.of(replace(self._robot, effects=effects), closed_loop=True)
         self._run.take_over(plant, taken_over(plant, self._plant, self._run.settled()))

@@ -1,4 +1,4 @@
-"""What a board does with a frame: executes it once, and answers."""
+"""Handling of frames by a board: each is executed once, and answered."""
 
 from rotemina.drivers.errors import ProtocolError
 from rotemina.drivers.mc68hc11 import reports, requests

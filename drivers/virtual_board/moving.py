@@ -1,4 +1,4 @@
-"""What a board does with the frames that move axes."""
+"""Handling of the frames that move axes."""
 
 from collections.abc import Callable
 from typing import Any

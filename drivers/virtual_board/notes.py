@@ -1,4 +1,4 @@
-"""What happened on the boards, for whoever watches: events, and how long stops took."""
+"""Notes about the boards for observers: events, and the latency of stops."""
 
 from collections import deque
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""The parameters that a board keeps, and what follows from them."""
+"""The parameters stored in a board, and values derived from them."""
 
 from collections import deque
 from collections.abc import Sequence

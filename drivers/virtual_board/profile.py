@@ -1,4 +1,4 @@
-"""A motion that a board makes alone, at its own control rate: differences of one axis, added up."""
+"""A motion executed by a board at its own rate: summed differences of one axis."""
 
 from binascii import crc_hqx
 
@@ -50,7 +50,7 @@ class Profile:
         self.axis, self._announced = axis, segments
 
     def add(self, told: Segments) -> bool:
-        """Take segments whose turn it is, or that are here already; tell whether they are."""
+        """Take segments whose turn it is, or that are here already; return whether they are."""
         segments, own = list(told.segments()), self._segments
         if told.index < len(own):
             return own[told.index : told.index + len(segments)] == segments
@@ -65,7 +65,7 @@ class Profile:
         self.since, self._from, self.trigger = tick, position, None
 
     def end(self) -> None:
-        """Move no more; it may be armed again."""
+        """End the motion; it may be armed again."""
         self.since = self.trigger = None
 
     def clear(self) -> None:

@@ -1,4 +1,4 @@
-"""What a board refuses, and the questions that most frames raise."""
+"""Refusals of a board, and checks common to most frames."""
 
 from rotemina.drivers.mc68hc11.codes import Fault, Refusal
 from rotemina.drivers.virtual_board.firmware import Firmware
@@ -24,7 +24,7 @@ def axis_of(board: Firmware, axis: int) -> int:
 
 
 def axes_of(board: Firmware, bits: int) -> list[int]:
-    """Return the numbers of axes that are given bit by bit; refuse if there is none, or no such."""
+    """Return the axis numbers of a bit mask; refuse none, or unknown ones."""
     demand(0 < bits < 1 << len(board.axes), Refusal.BAD_VALUE)
     return [axis for axis in range(len(board.axes)) if bits >> axis & 1]
 

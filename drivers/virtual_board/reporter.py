@@ -1,4 +1,4 @@
-"""What a board tells of its axes: samples that are due, and what waits to be polled."""
+"""Reports of a board about its axes: due samples, and data to be polled."""
 
 from collections import deque
 from dataclasses import dataclass, field

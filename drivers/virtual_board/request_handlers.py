@@ -1,4 +1,4 @@
-"""How a board handles frames that ask, and those that change the parameters it keeps."""
+"""Handling of frames that query, or change the stored parameters."""
 
 from collections.abc import Callable
 from typing import Any

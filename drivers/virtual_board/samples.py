@@ -1,4 +1,4 @@
-"""The samples of a board: what its sensors say, beside the commands that act."""
+"""Samples of a board: sensor readings, beside the active commands."""
 
 from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.mc68hc11.reports import Inputs, Telemetry

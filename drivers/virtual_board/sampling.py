@@ -1,4 +1,4 @@
-"""When a board takes samples: for telemetry, and for a capture."""
+"""The sampling instants of a board, for telemetry and captures."""
 
 from rotemina.drivers.mc68hc11.framing import MAX_PAYLOAD
 from rotemina.drivers.mc68hc11.reports import Captured

@@ -1,4 +1,4 @@
-"""The stream of set-points in a board: segments that wait, and what each of them commands when."""
+"""The stream of set-points in a board: queued segments, and their commands over time."""
 
 from collections import deque
 from collections.abc import Callable, Sequence

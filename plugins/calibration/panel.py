@@ -1,4 +1,4 @@
-"""Sensor calibration: the guided procedure, its result, and what is stored."""
+"""Sensor calibration: the guided procedure, its result, and stored calibrations."""
 
 from collections.abc import Callable
 from datetime import datetime

@@ -1,4 +1,4 @@
-"""What came of a calibration: the errors before and after, and the figures."""
+"""The result of a calibration: errors before and after, and figures."""
 
 from html import escape
 
@@ -79,7 +79,7 @@ class ResultView(QWidget):
         self._write_title()
 
     def show_result(self, result: Calibration | None) -> None:
-        """Show a calibration, or that there is none."""
+        """Show a calibration, or its absence."""
         self.figures.show_rows(figures(result) if result is not None else ())
         self.iso.show_rows(iso(result) if result is not None else ())
         self.verdict.setText(verdict(result) if result is not None else "")

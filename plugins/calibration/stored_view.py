@@ -1,4 +1,4 @@
-"""The stored calibrations: which is on, and switching one on or off."""
+"""The stored calibrations, and the switch for the one in use."""
 
 from pathlib import Path
 
@@ -53,7 +53,7 @@ class StoredView(QWidget):
         return self.stored[rows.pop()] if rows else None
 
     def show_stored(self, stored: tuple[Stored, ...]) -> None:
-        """Show what is stored; what was chosen stays chosen."""
+        """Show the stored calibrations, and keep the selection."""
         chosen = self.chosen
         self.table.clearSelection()
         self.stored = stored

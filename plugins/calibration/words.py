@@ -1,4 +1,4 @@
-"""What the calibration panel says and draws, free of widgets."""
+"""Text and figures of the calibration panel, free of widgets."""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -117,7 +117,7 @@ def progress(state: RunState, duration_s: float) -> str:
 
 
 def verdict(calibration: Calibration) -> str:
-    """Return what a calibration is worth, and what was noted."""
+    """Return the benefit of a calibration, and its notes."""
     unit = calibration.unit
     if calibration.refusal is not None:
         text = translate("calibration", "Refused: {reason}.").format(
@@ -171,7 +171,7 @@ def stored_row(one: Stored) -> tuple[str, ...]:
 
 
 def cycles(robot: Robot, axis: str) -> bool:
-    """Tell whether the axis makes the cycles of ISO 230-2."""
+    """Return whether the axis makes the cycles of ISO 230-2."""
     return isinstance(robot.axes[axis], StepperAxis)
 
 

@@ -1,4 +1,4 @@
-"""Model and real of a whole run: figures of every tap, and the traces of the chosen one."""
+"""Comparison of model and real over a run: figures of each tap, and traces of the chosen one."""
 
 from collections.abc import Sequence
 from html import escape

@@ -1,1 +1,1 @@
-"""Compensation of hysteresis: learn an inverse, check it, put it on, tune a loop around it."""
+"""Compensation of hysteresis: train, check and apply an inverse, and tune a loop around it."""

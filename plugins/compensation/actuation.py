@@ -1,4 +1,4 @@
-"""What acts on the machine: an inverse, a loop, the sweep between them, and trials of all."""
+"""Actions on the machine: inverse, loop, sweep, and trials."""
 
 from collections.abc import Callable
 
@@ -33,7 +33,7 @@ from rotemina.sim.tuning.result import Tuning
 
 
 class Actuation:
-    """Puts on and takes off, and tries.
+    """Applies and removes inverses and loops, and runs trials.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class Actuation:
         self.trials: dict[Aid, Trial] = {}
 
     def switch(self, learned: Learned | None, source: str) -> None:
-        """Put the chosen inverse on its axis, or take off what is on."""
+        """Apply the chosen inverse to its axis, or remove the present one."""
         session, axis = self._workbench.session, self._controls.chosen
         if axis in session.inverses.applied:
             self._workbench.ask(lambda: session.inverses.remove(axis))
@@ -103,7 +103,7 @@ class Actuation:
             self._play(lambda: conditioning(self._workbench.robot, inverse.model, start))
 
     def try_it(self, begun: Callable[[], None]) -> None:
-        """Play swings that fade; what is left is shown beside what other states left.
+        """Play decaying swings, and show the error beside those of other states.
 
         ``begun`` is called if they are played.
         """
@@ -115,7 +115,7 @@ class Actuation:
         self.trials.clear()
         self._live.clear()
 
-    def heard(self, event: Event) -> None:
+    def on_event(self, event: Event) -> None:
         """Take what a trial left from its record."""
         if not isinstance(event, PlaybackFinished) or event.record is None or not event.completed:
             return

@@ -1,4 +1,4 @@
-"""The panel's controls: learn, put on, tune, each with what it needs."""
+"""The panel's controls for training, applying and tuning."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
@@ -96,7 +96,7 @@ class Controls(QWidget):
         return self.axis.currentData() or ""
 
     def tell(self, text: str, share: float | None) -> None:
-        """Say what is done, and how much of it."""
+        """Show the current work and its progress."""
         self.doing.setText(text)
         self.progress.setVisible(share is not None)
         self.progress.setValue(round(1000.0 * (share or 0.0)))

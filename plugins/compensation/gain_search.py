@@ -1,4 +1,4 @@
-"""Gains in hand: searched, tried on the simulated loop, kept in a file and read from one."""
+"""The gains in use: searched, tried on the simulated loop, saved and loaded."""
 
 from pathlib import Path
 from threading import Event as Flag
@@ -48,7 +48,7 @@ class GainSearch(QObject):
 
     @property
     def running(self) -> bool:
-        """Whether a search goes on."""
+        """Whether a search continues."""
         return self._job.running
 
     def tune(self, robot: Robot, axis: str, model: InverseModel | None, source: str) -> None:
@@ -113,7 +113,7 @@ class GainSearch(QObject):
             done,
         )
 
-    def enough(self) -> None:
+    def stop(self) -> None:
         """End the search; it keeps what it found."""
         self._enough.set()
 

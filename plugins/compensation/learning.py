@@ -1,4 +1,4 @@
-"""Inverses learned for the panel, from records or from the simulated axis; free of widgets."""
+"""Training of inverses for the panel, on records or the simulated axis; free of widgets."""
 
 import hashlib
 from collections.abc import Callable, Sequence
@@ -28,7 +28,7 @@ Listener = Callable[[str, float], None]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Loop:
-    """What was told and where the axis came, (n,) SI, and what the inverse makes of that place."""
+    """Commands and resulting positions, (n,) SI, and the inverse's commands for these."""
 
     command: FloatArray
     position: FloatArray

@@ -1,4 +1,4 @@
-"""Compensation of hysteresis: learn, check, put on, tune."""
+"""Compensation of hysteresis: train, check, apply, tune."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -147,7 +147,7 @@ class CompensationPanel(Panel):
     # --- act and tune -----------------------------------------------------------------------------
 
     def try_it(self) -> None:
-        """Play swings that fade; what is left is shown beside what other states left."""
+        """Play decaying swings, and show the error beside those of other states."""
         self.actuation.try_it(lambda: self.tabs.setCurrentIndex(LIVE))
 
     def tune(self) -> None:
@@ -160,7 +160,7 @@ class CompensationPanel(Panel):
     def stop(self) -> None:
         """Stop the machine's trial, or end what is worked on; a search keeps what it found."""
         if self.search.running:
-            self.search.enough()
+            self.search.stop()
         elif self.job.running:
             self.job.stop()
             self.controls.tell(translate("compensation", "Stopped; nothing was replaced."), None)
@@ -170,7 +170,7 @@ class CompensationPanel(Panel):
     # --- inside -----------------------------------------------------------------------------------
 
     def _robot(self) -> Robot:
-        """Return the robot with the effects that act on the simulated machine just now."""
+        """Return the robot with the effects that act on the simulated machine at present."""
         robot, effects = self.workbench.robot, self.workbench.session.service.effects
         return robot if effects is None else replace(robot, effects=effects)
 
@@ -316,7 +316,7 @@ class CompensationPanel(Panel):
         self.job.finished.connect(self._finished)
         self.job.failed.connect(self._failed)
         self.search.failed.connect(self._failed)
-        self._happened.connect(self.actuation.heard)
+        self._happened.connect(self.actuation.on_event)
         self._unsubscribe = self.workbench.session.subscribe(self._happened.emit)
         self.follow(self._refresh)
         self.workbench.theme_changed.connect(self._use_theme)

@@ -1,4 +1,4 @@
-"""The motion by which compensation is tried, and what is left on it; free of widgets."""
+"""The motion that tests compensation, and its remaining error; free of widgets."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -57,7 +57,7 @@ def trial_motion(robot: Robot, axis: str) -> Record:
 
 
 def trial_of(record: Record, axis: str) -> Trial | None:
-    """Return what a record of the motion tells of an axis; None if it is no whole one."""
+    """Return the result of a recorded trial of an axis; None if incomplete."""
     if record.metadata.get("trajectory") != NAME or not record.has(axis, Tap.MEAS):
         return None
     since = record.time_s >= record.time_s[0] + _SKIPPED_S

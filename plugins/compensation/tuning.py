@@ -32,7 +32,7 @@ def search(
     tell: Callable[[Generation], bool],
     inverse: str,
 ) -> Tuning:
-    """Search until the end, or until ``tell`` says that it is enough; return what was found.
+    """Search until the end or until ``tell`` requests a stop; return the result.
 
     Raises
     ------

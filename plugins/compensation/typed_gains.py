@@ -1,4 +1,4 @@
-"""Gains that are typed, in place of those of a front's point."""
+"""Typed gains that replace those of a front's point."""
 
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 
@@ -99,7 +99,7 @@ def typed_loop(robot: Robot, axis: str, gains: Gains) -> NamedRegulation:
     EffectError
         If an effect of the robot cannot be used.
     """
-    told = ", ".join(f"{letter} {getattr(gains, name):.6g}" for name, letter, _ in _AMOUNTS)
+    told = ", ".join(f"{letter} {rounded(getattr(gains, name), 6)}" for name, letter, _ in _AMOUNTS)
     return NamedRegulation(Regulation(robot, axis, gains, RATE_HZ), f"typed gains, {told}")
 
 

@@ -1,4 +1,4 @@
-"""The pictures of the panel: loops, the front of a search, and how a loop answers."""
+"""Plots of the panel: loops, the front of a search, and responses of a loop."""
 
 from html import escape
 
@@ -248,7 +248,7 @@ class FrontView(QWidget):
         self.triangle.set_unit(unit)
 
     def show_generation(self, found: Generation, against: SecondObjective) -> None:
-        """Draw the front of a search that goes on."""
+        """Draw the front of a search that continues."""
         points = [objectives_of(one.figures, against) for one in found.front]
         self._draw(np.array(points).reshape(-1, 2))
         self._mark.setData([], [])

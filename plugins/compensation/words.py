@@ -1,4 +1,4 @@
-"""What the panel says, and in which numbers; free of widgets."""
+"""Text and numbers of the panel; free of widgets."""
 
 from collections.abc import Mapping
 
@@ -82,7 +82,7 @@ def residual_text(trial: Trial | None, unit: str) -> str:
 
 
 def owners_text(owners: Mapping[str, str]) -> str | None:
-    """Return why the axes cannot be played: somebody drives one still."""
+    """Return why the axes cannot be played: someone drives one still."""
     for axis, owner in owners.items():
         text = translate("compensation", "{owner} still controls axis {axis}; wait, or stop it")
         return text.format(axis=label(axis), owner=spoken(owner))

@@ -1,1 +1,1 @@
-"""Connection panel: the device, its settings, and what the operator must know before it moves."""
+"""Connection panel: the device, its settings, and conditions for motion."""

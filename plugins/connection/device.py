@@ -1,4 +1,4 @@
-"""Which driver, with which settings; connect, disconnect, reconnect."""
+"""Choice of driver and settings; connect, disconnect, reconnect."""
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QStandardItemModel
@@ -44,7 +44,7 @@ class PortFinder(QObject):
         workbench.closing.connect(self._background.wait)
 
     def look(self) -> None:
-        """Look once more."""
+        """Look again."""
         self._background.run("ports", serial_ports, self.found.emit, self._failed)
 
     def _failed(self, message: str) -> None:

@@ -58,7 +58,7 @@ class SettingField(QObject):
 
     Signals
     -------
-    changed() : somebody has written or chosen something else.
+    changed() : someone has written or chosen something else.
     """
 
     changed = Signal()
@@ -105,7 +105,7 @@ class SettingField(QObject):
             self.widget.setText(text)
 
     def complaint(self) -> str | None:
-        """Return what is wrong with the field, and mark it; None where nothing is."""
+        """Return the problem of the field and mark it, or None."""
         wrong = None
         try:
             self.value()
@@ -171,7 +171,7 @@ class SettingForm(QWidget):
         return [field for field in self.fields.values() if field.is_port]
 
     def complaint(self) -> str | None:
-        """Return what is wrong with the first field that is, and mark all that are."""
+        """Return the first problem, and mark all invalid fields."""
         wrong = [field.complaint() for field in self.fields.values()]
         return next((one for one in wrong if one is not None), None)
 

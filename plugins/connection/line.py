@@ -1,4 +1,4 @@
-"""How the line to the device does, and how long a stop takes."""
+"""The quality of the line, and the latency of stops."""
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import marked, translate

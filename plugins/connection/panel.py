@@ -1,4 +1,4 @@
-"""The device and how it stands: what an operator sees to before anything moves."""
+"""The connected device and its state: everything to settle before motion."""
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 

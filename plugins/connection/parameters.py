@@ -1,4 +1,4 @@
-"""Where the device's parameters differ from the robot file: write them, or accept."""
+"""Differences between device parameters and robot file: write or accept them."""
 
 from PySide6.QtWidgets import QHeaderView
 
@@ -22,7 +22,7 @@ _MOST_ROWS_SHOWN = 6
 
 
 class ParameterSection(Section):
-    """A table of what differs, and the two ways to settle it."""
+    """A table of the differences, and the two ways to settle them."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(translate("connection", "Parameters"))

@@ -1,4 +1,4 @@
-"""Where the axes are: homing, a doubtful position, the way back, and who drives what."""
+"""Positions of the axes: homing, doubt, the way back, and owners."""
 
 from PySide6.QtWidgets import QHBoxLayout, QPushButton
 

@@ -1,4 +1,4 @@
-"""Why something cannot be done now, in a clause; None where it can."""
+"""Reasons why an action is unavailable, as a clause; None if it is available."""
 
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.shell.language import translate
@@ -44,7 +44,7 @@ def against_disconnecting(state: SessionState) -> str | None:
 
 
 def against_reconnecting(state: SessionState) -> str | None:
-    """Why not connect once more."""
+    """Why not connect again."""
     if state.connection is Connection.CONNECTING:
         return translate("connection", "the connection is being opened")
     return (

@@ -1,4 +1,4 @@
-"""How the session stands: its phase, why nothing moves, and the emergency stop."""
+"""The state of the session: its phase, locks, and the emergency stop."""
 
 from PySide6.QtWidgets import QHBoxLayout, QLabel
 

@@ -1,4 +1,4 @@
-"""The tip's height above its floor: taught and taken away only after a question."""
+"""The tip's height above its floor; teaching and removing it asks first."""
 
 from math import isfinite
 

@@ -1,4 +1,4 @@
-"""A piezo amplifier's voltage, put out for service: only after a question, and only at rest."""
+"""Direct output of an amplifier voltage for service, after a question and at rest."""
 
 from functools import partial
 

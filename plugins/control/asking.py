@@ -1,4 +1,4 @@
-"""A large move is asked for twice: typed, read back with its unit, and confirmed. Free of Qt."""
+"""Two-step confirmation of a large move: typed, read back, confirmed. Free of Qt."""
 
 from dataclasses import dataclass
 
@@ -35,7 +35,7 @@ class Confirmation:
         return self._pending.what
 
     def take(self, target: float, command: float, now_s: float) -> Permit | None:
-        """Return the permit to go, or None: a large move has to be asked for once more.
+        """Return the permit to go, or None: a large move has to be asked for again.
 
         It is that of the question: no stop that came after it lets the answer count.
         """
@@ -52,7 +52,7 @@ class Confirmation:
         return self._pending.permit
 
     def withdraw(self) -> None:
-        """Wait for nothing any more."""
+        """Cancel the pending question."""
         self._pending.withdraw()
 
     def follow(self, command: float | None) -> None:

@@ -1,4 +1,4 @@
-"""One axis at a time: its range, which can be narrowed, and how it comes to its targets."""
+"""Range and approach of one axis."""
 
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 

@@ -1,4 +1,4 @@
-"""One axis of the control menu: readout, place in the range, jog, go-to."""
+"""One axis of the control menu: readout, range bar, jog, go-to."""
 
 import time
 from collections.abc import Sequence

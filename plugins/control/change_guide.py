@@ -1,4 +1,4 @@
-"""Changing the pin or the dish, step by step; with the new one nothing comes down by itself."""
+"""Guided change of pin or dish; nothing descends by itself with the new one."""
 
 from collections.abc import Callable, Mapping
 from math import isfinite
@@ -19,7 +19,7 @@ _THERE = 1e-9  # m or rad
 
 
 class Step(NamedTuple):
-    """What is to be done, by which word; why not now; and whether it has been."""
+    """A step: its action, its button, why it is unavailable, and whether it is done."""
 
     text: str
     word: str
@@ -83,7 +83,7 @@ class ChangeGuide(QDialog):
         self.raise_()
 
     def refresh(self, state: SessionState) -> None:
-        """Go on where a step is done, and say which one is next."""
+        """Continue where a step is done, and say which one is next."""
         if not self.isVisible():
             return
         if self._begun and self.steps[self._at].done(state):
@@ -194,7 +194,7 @@ class ChangeGuide(QDialog):
         self._bench.ask(lambda: self._bench.microscope.track(False))
 
     def _teach(self) -> None:
-        """Ask once more; a stop withdraws the question."""
+        """Ask again; a stop withdraws the question."""
         if self._teaching.take():
             self._bench.teach_floor()
         else:

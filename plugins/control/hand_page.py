@@ -1,4 +1,4 @@
-"""How the stick moves the robot, who drives, and taking over."""
+"""Steering by stick: mode, law, owner, and taking over."""
 
 from PySide6.QtWidgets import (
     QButtonGroup,

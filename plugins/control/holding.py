@@ -1,4 +1,4 @@
-"""Hold-to-jog: an axis goes while its button is held, and by nothing else."""
+"""Hold-to-jog: an axis moves only while its button is held."""
 
 import time
 from contextlib import suppress
@@ -22,7 +22,7 @@ class Holding(QObject):
     A stop, release, loss of focus, another window or program, a locked screen, a menu or dialog, a
     modifier key, a dock that is hidden or a button that is locked end it; so does a key that stops
     repeating, for its release may be lost, and a window that hangs, because nobody renews the lease
-    then. After a stop the button has to be pressed anew.
+    then. After a stop the button has to be pressed again.
     """
 
     def __init__(

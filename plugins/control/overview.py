@@ -1,4 +1,4 @@
-"""What is read at a glance above the axes: who drives and how, the tip, and the speed of moves."""
+"""Overview above the axes: steering, the tip, and the speed of moves."""
 
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
 

@@ -1,4 +1,4 @@
-"""The control menu of both stages: where each axis is, and the ways to move it."""
+"""The control menu of both stages: positions of the axes, and ways to move them."""
 
 from collections.abc import Mapping, Sequence
 

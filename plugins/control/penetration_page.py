@@ -1,4 +1,4 @@
-"""The penetration's two buttons, as they are in its own panel, and what goes on."""
+"""The two buttons of the penetration, as in its own panel, and its progress."""
 
 import time
 

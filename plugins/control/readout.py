@@ -1,4 +1,4 @@
-"""A reading that shows its age, and the bar of a range."""
+"""A reading with its age, and a range bar."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""The step of a stage's jog buttons, and the speed of all moves from this menu."""
+"""The jog step of a stage, and the speed of all moves from this menu."""
 
 from collections.abc import Iterable
 

@@ -1,4 +1,4 @@
-"""The tip's keep-out: where the tip is, what bounds it, and how close the floor is."""
+"""The keep-out of the tip: its position, its bounds, and the distance to the floor."""
 
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent

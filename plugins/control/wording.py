@@ -1,4 +1,4 @@
-"""What the control menu says of an axis, and what a typed target means."""
+"""Text of the control menu for an axis, and parsing of a typed target."""
 
 from enum import StrEnum
 
@@ -130,7 +130,7 @@ def is_little(position: float | None, ends: Range) -> bool:
 
 
 def range_tip(axis: str, position: float | None, ends: Range, scale: Scale) -> str:
-    """Return the range of an axis, and what is left of it on both sides."""
+    """Return the range of an axis, and the travel left on both sides."""
     low, high = ends
     text = translate("control", "{label} range: {low} … {high}").format(
         label=label(axis), low=scale.text(low), high=scale.text(high)
@@ -281,7 +281,7 @@ def _millimetres(metres: float) -> str:
 
 
 def taken(state: SessionState) -> tuple[str, ...]:
-    """Return the axes that somebody else drives from whom they may be taken over."""
+    """Return the axes that someone else drives from whom they may be taken over."""
     return tuple(axis for axis, owner in state.owners.items() if owner not in _NOT_TAKEN)
 
 

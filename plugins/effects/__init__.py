@@ -1,1 +1,1 @@
-"""Effects of the running simulator: switched, tuned, loaded and saved."""
+"""Effects of the running simulator: switch, tune, load and save them."""

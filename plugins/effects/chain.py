@@ -1,4 +1,4 @@
-"""The effects that an operator asks for, in the order in which a signal meets them. Free of Qt."""
+"""The effects chosen by an operator, in signal order. Free of Qt."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -38,7 +38,7 @@ class Chain:
 
     @property
     def asked(self) -> tuple[AxisEffect, ...]:
-        """What robot files and simulators are told."""
+        """The effects for robot files and simulators."""
         return tuple(one.asked for one in self.effects)
 
     @property
@@ -84,12 +84,12 @@ class Chain:
 
 
 def with_value(one: Attached, name: str, value: float) -> AxisEffect:
-    """Return what is asked, with another value (SI) of one parameter."""
+    """Return the effect with another value (SI) of one parameter."""
     return replace(one.asked, parameters={**one.asked.parameters, name: value})
 
 
 def with_formulation(one: Attached, name: str) -> AxisEffect:
-    """Return what is asked by other equations; values that these know too are kept."""
+    """Return the effect with another formulation; common parameters keep their values."""
     formulation = one.effect.formulation(name)
     assert formulation is not None, "chosen from those that there are"
     kept: dict[str, float] = {}

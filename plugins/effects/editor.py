@@ -1,4 +1,4 @@
-"""The chosen effect: its formulation, where it comes from, and its parameters."""
+"""The selected effect: its formulation, source axis, and parameters."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (

@@ -1,4 +1,4 @@
-"""One parameter of an effect: a field with its unit, a slider, and the way back to the preset."""
+"""One parameter of an effect: a field with unit, a slider, and a reset to the preset."""
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import (
@@ -75,7 +75,7 @@ class ParameterField(QObject):
                 grid.addWidget(widget, row, column)
 
     def show_value(self, value: float, *, anew: bool = False) -> None:
-        """Show a value (SI); a text that was refused stays until it changes, or ``anew``."""
+        """Show a value (SI); a text that was refused stays until it changes, or ``again``."""
         if not anew and value == self._value and self.not_applied:
             return
         self._value = value

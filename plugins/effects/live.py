@@ -1,4 +1,4 @@
-"""Effects on their way to the running simulator: one change at a time, and how it ended."""
+"""Changes of effects on the running simulator: one at a time, with the outcome."""
 
 from enum import Enum, auto
 
@@ -19,7 +19,7 @@ Effects = tuple[AxisEffect, ...]
 
 
 class ApplyState(Enum):
-    """How what was asked stands to what the simulator does."""
+    """The state of a request relative to the simulator."""
 
     APPLIED = auto()
     UNDER_WAY = auto()
@@ -28,7 +28,7 @@ class ApplyState(Enum):
 
 
 class LiveEffects(QObject):
-    """Hands effects to a session and watches what becomes of them; nothing here waits.
+    """Sends effects to a session, and follows the outcome; never waits.
 
     The session checks at once and its worker does the rest, on its own thread: a first use compiles
     there. While a change is on its way the next one waits, and only the newest.
@@ -37,7 +37,7 @@ class LiveEffects(QObject):
     -------
     changed() : ``apply_state`` or ``reason`` did.
     refused(str) : at once, by the session. What its worker refuses, the workbench tells.
-    replaced(tuple) : somebody else put other effects in place.
+    replaced(tuple) : someone else put other effects in place.
     """
 
     changed = Signal()
@@ -70,7 +70,7 @@ class LiveEffects(QObject):
             self._pause.start()
 
     def refresh(self, state: SessionState) -> None:
-        """See what became of the change that is under way; once a frame."""
+        """Check the outcome of the running change; once a frame."""
         now = self._session.service.effects
         if self._sent is None:
             self._notice_others(now)
@@ -118,7 +118,7 @@ class LiveEffects(QObject):
         return len(self._cycles) > _CYCLES
 
     def _not_taken(self) -> None:
-        """Send once more what a stop swept out of the queue; tell of what was refused."""
+        """Send again what a stop swept out of the queue; tell of what was refused."""
         if self._told or self._tries > 1:
             self._end(
                 ApplyState.REFUSED,

@@ -1,4 +1,4 @@
-"""What the parameters of effects mean, as the model says it, marked for translation."""
+"""Meanings of effect parameters, marked for translation."""
 
 import re
 

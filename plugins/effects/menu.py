@@ -1,4 +1,4 @@
-"""What may be added: axis by axis, stage by stage, with the formulations that fit."""
+"""The menu of addable effects by axis and stage, with their formulations."""
 
 from collections.abc import Callable, Mapping
 

@@ -1,4 +1,4 @@
-"""How the parameters of effects are shown: units, digits, places on a slider; no widgets."""
+"""Display of effect parameters: units, digits, slider positions; no widgets."""
 
 import math
 from dataclasses import dataclass

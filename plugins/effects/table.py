@@ -1,4 +1,4 @@
-"""The effects in place, in the order in which a signal meets them."""
+"""The active effects, in signal order."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPalette

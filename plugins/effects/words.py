@@ -1,4 +1,4 @@
-"""What the panel calls effects, stages and formulations, in the language of the window.
+"""Names of effects, stages and formulations, in the language of the window.
 
 The model says them in English: these tables only mark its words for translation. What is not among
 them, as a plugin's effect, is shown as the model says it.
@@ -149,7 +149,7 @@ def effect_title(effect: Effect) -> str:
 
 
 def effect_summary(effect: Effect) -> str:
-    """Return by what an effect is known."""
+    """Return the characteristic of an effect."""
     return translate("effects", effect.summary)
 
 

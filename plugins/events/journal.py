@@ -1,4 +1,4 @@
-"""What happened at the machine, in the operator's words: moves, stops, locks, runs. Free of Qt."""
+"""Events at the machine in the operator's words: moves, stops, locks, runs. Free of Qt."""
 
 import logging
 from collections import deque
@@ -11,7 +11,7 @@ from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
 from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.motion.stop_request import LOCKED
+from rotemina.app.motion.stop import LOCKED
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level
@@ -84,7 +84,7 @@ class Journal:
         self._told_lock: str | None = None
 
     def tell(self, level: Level, text: str) -> None:
-        """Add an entry of what is logged already."""
+        """Add an entry for an already logged message."""
         self.entries.append(Entry(self._clock(), level, text))
         self.count += 1
 

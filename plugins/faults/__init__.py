@@ -1,1 +1,1 @@
-"""Faults panel: what went wrong and when, and faults on purpose for training."""
+"""Faults panel: past faults, and fault injection for training."""

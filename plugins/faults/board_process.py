@@ -1,4 +1,4 @@
-"""A virtual board as a process of its own, which ends with the window."""
+"""A virtual board as a separate process that ends with the window."""
 
 import os
 import re
@@ -19,14 +19,14 @@ TAKES_COMMANDS = os.name == "posix"
 
 
 class BoardProcess(QObject):
-    """Starts ``rotemina board``, tells its ports, and hands fault commands to it.
+    """Starts ``rotemina board``, reports its ports, and sends it fault commands.
 
     Signals
     -------
     listening(list of (port, who)) : all its ports are there.
     said(str) : a line of what it tells.
     complained(str) : a line of what it refuses.
-    ended(str) : why, or "" where that was asked for.
+    ended(str) : why, or "" where that was requested.
     """
 
     listening = Signal(object)
@@ -82,7 +82,7 @@ class BoardProcess(QObject):
         self._process.start(sys.executable, words)
 
     def inject(self, command: str) -> None:
-        """Hand a fault command over; what is wrong with it, it says itself."""
+        """Send a fault command; the process reports errors."""
         self._process.write(f"{command}\n".encode())
 
     def end(self) -> None:

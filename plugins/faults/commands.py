@@ -1,4 +1,4 @@
-"""Faults that a virtual board can be given, as commands with parameters. Free of widgets."""
+"""Faults of a virtual board, as commands with parameters. Free of widgets."""
 
 from dataclasses import dataclass
 

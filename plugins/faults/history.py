@@ -1,4 +1,4 @@
-"""Faults, lost links, refusals and recoveries, each with its time.
+"""Faults, lost links, refusals and recoveries, with their times.
 
 Entries are kept and written in English, and shown in the language of the window.
 """
@@ -26,7 +26,7 @@ _TURNS = 2  # a link that is lost and found again and again takes no more than t
 
 
 class Kind(StrEnum):
-    """What an entry tells of, as files have it."""
+    """The kind of an entry, as stored in files."""
 
     FAULT = marked("faults", "fault")
     LOST = marked("faults", "lost")
@@ -88,7 +88,7 @@ class History:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """What is kept."""
+        """The kept entries."""
         return tuple(self._entries)
 
     def clear(self) -> None:

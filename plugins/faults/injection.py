@@ -1,4 +1,4 @@
-"""Faults on purpose: a virtual board started from here, and a row of controls for each fault."""
+"""Fault injection: a virtual board, and a row of controls for each fault."""
 
 from collections.abc import Callable
 

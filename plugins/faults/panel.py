@@ -1,4 +1,4 @@
-"""What went wrong and when, and faults on purpose."""
+"""Past faults, and fault injection."""
 
 from datetime import datetime
 from pathlib import Path

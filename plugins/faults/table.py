@@ -1,4 +1,4 @@
-"""The history as a table, newest first; chosen rows can be copied."""
+"""The fault history as a table, newest first; selected rows can be copied."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""What comes of an answer: a twin, a report, a document; each is a file that is asked for."""
+"""What comes of an answer: a twin, a report, a document; each is a file that is requested."""
 
 from collections.abc import Callable, Sequence
 from html import escape

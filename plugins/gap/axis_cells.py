@@ -186,7 +186,7 @@ class AxisCells(QWidget):
         return QSize(WIDTH, max(rows * (HEIGHT + SPACING) - SPACING, 0))
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
-        """Place the cells anew."""
+        """Place the cells again."""
         super().resizeEvent(event)
         self._place()
 

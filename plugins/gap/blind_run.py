@@ -1,4 +1,4 @@
-"""A blind test under way as a process of its own: its progress, its end, and its stop."""
+"""A blind test under way as a separate process: its progress, its end, and its stop."""
 
 import sys
 from collections.abc import Sequence
@@ -44,7 +44,7 @@ class BlindRun(QObject):
         return self._process is not None
 
     def start(self, robot: str, cases: int, seed: int, folder: Path, *, score: bool) -> None:
-        """Begin, or go on where a test of these cases was stopped; ``score``: only score it."""
+        """Begin, or continue where a test of these cases was stopped; ``score``: only score it."""
         assert not self.running
         arguments = ["--cases", str(cases), "--seed", str(seed), "--robot", robot]
         # One process at a time: a core stays free for the machine and the window.

@@ -1,4 +1,4 @@
-"""The blind test as a process of its own, which ends with its own children when it is told to."""
+"""The blind test as a separate process, which ends with its own children when it is told to."""
 
 import signal
 import sys

@@ -23,14 +23,14 @@ _RETELL_MS = 500
 
 
 class StoppedError(Exception):
-    """The operator wants no answer any more."""
+    """The operator has cancelled the request."""
 
 
 class Diagnosing(QObject):
     """Runs one diagnosis at a time.
 
     The workbench's own thread stays free for what must not wait: a record that was played is
-    written down and compared while a diagnosis goes on.
+    written down and compared while a diagnosis continues.
 
     Signals
     -------
@@ -102,7 +102,7 @@ class Diagnosing(QObject):
         )
 
     def stop(self) -> None:
-        """Want no answer any more; the work ends at its next step, and nobody waits for it."""
+        """Discard the answer; the work ends at its next step, without waiting."""
         self._stopped.set()
         self._clock.stop()
 

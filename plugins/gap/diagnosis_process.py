@@ -49,7 +49,7 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Unwanted:
-    """Says that no answer to a request is wanted any more."""
+    """Cancels a request."""
 
     number: int
 
@@ -110,7 +110,7 @@ class DiagnosisProcess:
         raise error
 
     def close(self) -> int | None:
-        """End the process, if there is one, and return its status."""
+        """End the process, if any, and return its status."""
         process, self._process = self._process, None
         if process is None:
             return None

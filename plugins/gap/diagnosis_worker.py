@@ -26,7 +26,7 @@ class _UnwantedError(Exception):
 
 
 class _Requests:
-    """Reads requests, and which are wanted no more, on a thread of its own."""
+    """Reads requests, and which are wanted no more, on its own thread."""
 
     def __init__(self, stream: IO[bytes]) -> None:
         self.waiting: SimpleQueue[Request | None] = SimpleQueue()

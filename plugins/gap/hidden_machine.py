@@ -19,7 +19,7 @@ _SEEDS = 1 << 30
 
 
 class HiddenMachineTrial(QObject):
-    """Puts a hidden machine in the simulator's place, and tells in the end what it has."""
+    """Replaces the simulator by a hidden machine, and finally reveals its effects."""
 
     def __init__(self, workbench: Workbench, parent: QWidget) -> None:
         super().__init__(parent)

@@ -49,7 +49,7 @@ class ProgressView(QSplitter):
         self.show_step(Progress("reading", None, None, 0.0))
 
     def show_step(self, step: Progress) -> None:
-        """Say what is done now, and how candidates stand."""
+        """Show the current step and the candidates' state."""
         if step.ranking is not None and step.axis is not None:
             if step.axis not in self.rankings:
                 view = self.rankings[step.axis] = RankingView(self._theme)

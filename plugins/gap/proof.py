@@ -58,7 +58,7 @@ class Shrunk:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Proof:
-    """What is left of the gap on one new record, the axes that shrink most first."""
+    """The remaining gap on one new record, the axes that shrink most first."""
 
     name: str
     shrunk: tuple[Shrunk, ...]

@@ -94,7 +94,7 @@ class Records(QObject):
     Signals
     -------
     changed() : the list, a tick or a gap did.
-    complete() : the files that were asked for last are read, as far as they can be.
+    complete() : the files that were requested last are read, as far as they can be.
     """
 
     changed = Signal()

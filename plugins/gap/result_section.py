@@ -139,7 +139,7 @@ class ResultSection(QWidget):
         self.headline.show_answer(answer, None)
 
     def show_proof(self, answer: Answer, proof: Proof) -> None:
-        """Show what a new motion says of a diagnosis."""
+        """Show the result of a new motion for a diagnosis."""
         self.proof.show_proof(proof)
         self.headline.show_answer(answer, proof)
 

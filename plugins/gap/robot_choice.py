@@ -78,7 +78,7 @@ class RobotChoice(QComboBox):
         self.changed.emit(robot)
 
     def _follow_model(self, model: ModelInUse) -> None:
-        """Go on with the model in use where that is what is looked beyond."""
+        """Continue with the model in use where that is what is looked beyond."""
         if self.itemData(self._place) is not _BEYOND:
             return
         if model.corrected:

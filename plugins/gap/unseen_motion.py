@@ -19,7 +19,7 @@ class UnseenMotion(QObject):
     Signals
     -------
     experiment_played(Run) : of the answer; its record is to be diagnosed with the others.
-    proved(Proof, bool) : what a new motion says of the answer, and whether it was asked for here.
+    proved(Proof, bool) : what a new motion says of the answer, and whether it was requested here.
     """
 
     experiment_played = Signal(object)

@@ -1,1 +1,1 @@
-"""What a record says about the machine: frequency response, loop, steps, a fitted model."""
+"""Identification from a record: frequency response, loop, steps, a fitted model."""

@@ -1,4 +1,4 @@
-"""The row of choices: axis, input, output, view, and the settings of the view in sight."""
+"""The row of choices: axis, input, output, view, and the settings of the visible view."""
 
 from pathlib import Path
 
@@ -117,7 +117,7 @@ class Controls(QWidget):
         self._show_settings()
 
     def question(self, name: str, robot: Robot, folder: Path | None = None) -> Question | None:
-        """Return what is asked, or None where the axis has no pair to ask of."""
+        """Return the query, or None if the axis has no pair of signals."""
         if self._record is None or not (self.drive.count() and self.answer.count()):
             return None
         return Question(

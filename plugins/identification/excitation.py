@@ -1,4 +1,4 @@
-"""What the operator asks an axis to do, the motion that this makes, and what checks say of it."""
+"""The excitation of an axis requested by the operator, its motion, and its checks."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -7,7 +7,7 @@ from enum import StrEnum
 import numpy as np
 
 from rotemina.app.display import duration_text, label
-from rotemina.app.shell.engine_words import error_text
+from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.identification.views import View
 from rotemina.sim.errors import InputError
@@ -110,7 +110,7 @@ class Prepared:
             time=_lasting(self.dry_run.duration_s),
         )
         change = translate("identification", "Reduced to the limits: {change}.")
-        changed = (change.format(change=each.message) for each in self.made.adjustments)
+        changed = (change.format(change=spoken(each.message)) for each in self.made.adjustments)
         verdict = translate(
             "identification", "Dry run: within all limits and the bounds of the tip."
         )

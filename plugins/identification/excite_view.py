@@ -1,4 +1,4 @@
-"""The section that excites an axis: what to play, what that asks of it, play, stop."""
+"""The section that excites an axis: choose a motion, see its demands, play, stop."""
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QShowEvent
@@ -255,7 +255,7 @@ class ExciteView(QWidget):
         self._workbench.plan_changed.connect(self._plan_changed)
 
     def _typed(self) -> None:
-        """Make the motion anew where a text is another; leaving a field alone changes nothing."""
+        """Make the motion again where a text is another; leaving a field alone changes nothing."""
         for field, unit in ((self.frequency, "Hz"), (self.time, "s")):
             if parsed(field.text()) is not None:
                 field.setText(f"{field.text().strip()} {unit}")  # its name is covered by the number

@@ -1,4 +1,4 @@
-"""Texts that a file has in English, and the window in its own language."""
+"""Texts in English for files, and in the window's language for display."""
 
 from typing import Self
 
@@ -20,7 +20,7 @@ class FilledTemplate(str):
 
 
 def localized(text: str) -> str:
-    """Return a text, a marked or a filled one or anybody's, in the language of the window."""
+    """Return a text, a marked or a filled one or anyone's, in the language of the window."""
     if isinstance(text, FilledTemplate):
         filled = {
             name: localized(value) if isinstance(value, str) else value

@@ -1,4 +1,4 @@
-"""What one look at a record has found: pictures, a sheet of figures, numbers to keep, notices."""
+"""Findings of one analysis: pictures, figures, numbers to save, notices."""
 
 import logging
 from collections.abc import Callable

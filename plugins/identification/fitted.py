@@ -1,4 +1,4 @@
-"""A low-order model fitted to the pair: natural frequency, damping, gain, and how well it fits."""
+"""A low-order model fitted to the pair: natural frequency, damping, gain, and quality."""
 
 from dataclasses import replace
 
@@ -180,7 +180,7 @@ def _mode_rows(mode: NaturalMode) -> list[tuple[str, ...]]:
 
 
 def _columns(model: IdentifiedModel) -> tuple[Column, ...]:
-    """Return the transfer function itself: what another program needs to go on."""
+    """Return the transfer function itself: what another program needs to continue."""
     transfer = model.transfer_function
     above = tuple(map(float, transfer.numerator))
     below = tuple(map(float, transfer.denominator))

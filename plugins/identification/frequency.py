@@ -1,4 +1,4 @@
-"""Frequency response of the pair: interval, coherence, and the nominal model's beside it."""
+"""Frequency response of the pair: interval, coherence, and that of the nominal model."""
 
 from typing import NamedTuple
 

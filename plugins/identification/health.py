@@ -1,4 +1,4 @@
-"""The health card of the axis: what this record tells, beside the last card that was kept."""
+"""The health card of the axis, beside the last stored card."""
 
 from datetime import datetime
 

@@ -1,4 +1,4 @@
-"""Output over input: the loop that it draws, its width and area."""
+"""Output over input: the loop, its width and area."""
 
 from collections.abc import Callable
 

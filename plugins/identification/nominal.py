@@ -1,4 +1,4 @@
-"""What the nominal model answers to the same inputs, to be looked at in the same way."""
+"""The nominal model's answer to the same inputs, for the same analysis."""
 
 from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.question import Question

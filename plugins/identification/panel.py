@@ -1,4 +1,4 @@
-"""The identification page: one axis of a record, one pair of taps, five ways to look at it."""
+"""The identification page: one axis of a record, one pair of taps, five views."""
 
 from pathlib import Path
 

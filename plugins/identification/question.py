@@ -1,4 +1,4 @@
-"""What the operator asks of a record: an axis, a pair of taps, and how to look."""
+"""The operator's query of a record: axis, pair of taps, and view."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -69,7 +69,7 @@ class Question:
         return signals_of(self.record, [(self.axis, self.drive)], [(self.axis, self.answer)])
 
     def check(self) -> None:
-        """Refuse a pair that is none, or that the record lacks.
+        """Refuse an invalid pair, or one that the record lacks.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Step figures of a record that holds steps: rise, overshoot, settling, static gain."""
+"""Step figures of a record: rise, overshoot, settling, static gain."""
 
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Figures of many steps or cycles as one sheet: the middle one and the extremes."""
+"""Statistics of many steps or cycles on one sheet: median and extremes."""
 
 from collections.abc import Sequence
 from typing import NamedTuple

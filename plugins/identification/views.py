@@ -1,4 +1,4 @@
-"""The ways to look at a pair of taps, in the order in which the panel offers them."""
+"""The views of a pair of taps, in the order of the panel."""
 
 from collections.abc import Callable
 from enum import StrEnum
@@ -14,7 +14,7 @@ from rotemina.plugins.identification.staircase import step_findings
 
 
 class View(StrEnum):
-    """A way to look, as files name it."""
+    """A view, as named in files."""
 
     FREQUENCY = marked("identification", "Frequency response")
     LOOP = marked("identification", "Loop")

@@ -1,1 +1,1 @@
-"""Input devices: what is plugged in, what it says, what it does, and how it is set up."""
+"""Input devices: connected ones, their readings, their functions, and their set-up."""

@@ -1,4 +1,4 @@
-"""What a device says, drawn: bars of its axes, lamps of its buttons, a response curve."""
+"""Drawings of a device's readings: axis bars, button lamps, a response curve."""
 
 from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent, QPen, QPolygonF
@@ -16,7 +16,7 @@ _CURVE_HEIGHT = 96
 
 
 class AxisBar(QWidget):
-    """One axis from −1 to 1: thin what the device says, thick what comes of it."""
+    """One axis from −1 to 1: reading (thin) and deflection (thick)."""
 
     def __init__(self, theme: Theme, name: str) -> None:
         super().__init__()
@@ -46,7 +46,7 @@ class AxisBar(QWidget):
     def show_axis(
         self, raw: float | None, deflection: float, trusted: bool, calibration: AxisCalibration
     ) -> None:
-        """Show what an axis says and what comes of it."""
+        """Show reading and deflection of an axis."""
         shown = (raw, deflection, trusted, calibration)
         if shown != (self._raw, self._deflection, self._trusted, self._calibration):
             self._raw, self._deflection, self._trusted, self._calibration = shown
@@ -147,7 +147,7 @@ class Lamps(QWidget):
         painter.end()
 
     def event(self, event: QEvent) -> bool:
-        """Tell the name of the lamp under the mouse."""
+        """Show the name of the lamp under the mouse."""
         if event.type() is QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
             for name, place in zip(self._names, self._places(self.width()), strict=True):
                 if place.contains(event.pos()):
@@ -170,7 +170,7 @@ class Lamps(QWidget):
 
 
 class Curve(QWidget):
-    """The deflection that comes of what a device says, both −1 to 1, and where it is now."""
+    """The response curve from reading to deflection, both −1 to 1, with the present point."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()

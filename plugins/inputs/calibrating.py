@@ -1,4 +1,4 @@
-"""A calibration in the making: measured in steps, then curve, sense and travel.."""
+"""A calibration in progress: measured in steps, then curve, direction and travel."""
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, replace
@@ -56,7 +56,7 @@ class Calibrating:
 
     @property
     def measurable(self) -> tuple[str, ...]:
-        """Axes that are measured unless somebody wishes otherwise."""
+        """Axes that are measured unless someone wishes otherwise."""
         return tuple(axis for axis in self.device.axes if not _begins(axis, _SWITCHES))
 
     @property
@@ -96,7 +96,7 @@ class Calibrating:
         self._run = CalibrationRun(self.device.axes, wanted, sides, last)
         self.step, self._begun_s, self.problems = Step.REST, now_s, {}
 
-    def hear(self, readings: Sequence[InputReading]) -> None:
+    def receive(self, readings: Sequence[InputReading]) -> None:
         """Take in what the device has said since the measurement began."""
         if self._run is not None:
             for reading in readings:
@@ -108,7 +108,7 @@ class Calibrating:
         return max(REST_S - (now_s - self._begun_s), 0.0) if self.step is Step.REST else 0.0
 
     def sweep(self) -> None:
-        """Go on to the ends."""
+        """Continue to the ends."""
         assert self._run is not None
         self._run.sweep()
         self.step = Step.SWEEP
@@ -122,7 +122,7 @@ class Calibrating:
         self.cancel()
 
     def cancel(self) -> None:
-        """Measure no more."""
+        """Cancel the measurement."""
         self._run = None
         self.step = Step.EDIT
 

@@ -1,4 +1,4 @@
-"""The calibration of one device: measured in steps, then curve, sense and travel of each axis."""
+"""Calibration of one device: measurement, then curve, direction and travel of each axis."""
 
 from PySide6.QtWidgets import QCheckBox, QFormLayout, QWidget
 
@@ -21,7 +21,7 @@ _MM = 1e3
 
 
 class CalibrationSection(Section):
-    """Measuring, and the settings of each axis; used and kept when somebody says so."""
+    """Measuring, and the settings of each axis; used and kept when someone says so."""
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(translate("inputs", "Calibration"))
@@ -118,14 +118,14 @@ class CalibrationSection(Section):
         raw = next((a.raw for a in device.axes if a.control == self.axis.currentData()), None)
         self.curve.show_curve(self._shown, raw)
 
-    def hear(self, snapshot: InputSnapshot) -> None:
+    def receive(self, snapshot: InputSnapshot) -> None:
         """Take in what the devices have said."""
         for key, readings in snapshot.readings.items():
             if key in self._all:
-                self._all[key].hear(readings)
+                self._all[key].receive(readings)
 
     def leave(self) -> None:
-        """Forget what was not kept; somebody is told of it."""
+        """Forget what was not kept; someone is told of it."""
         lost = [device_name(one.device.identity) for one in self._all.values() if one.changed]
         self._all.clear()
         self._now = None

@@ -1,4 +1,4 @@
-"""What is plugged in, whether it drives, and what is wrong."""
+"""The connected devices, which one is in control, and their problems."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
@@ -21,7 +21,7 @@ _ROOM = 6
 
 
 class DeviceList(Section):
-    """The devices, one of which is looked at."""
+    """The devices, one of which is examined."""
 
     def __init__(self) -> None:
         super().__init__(translate("inputs", "Devices"))
@@ -41,12 +41,12 @@ class DeviceList(Section):
 
     @property
     def key(self) -> str:
-        """The device that is looked at; empty: there is none."""
+        """The device that is examined; empty: there is none."""
         item = self.list.currentItem()
         return "" if item is None else str(item.data(Qt.ItemDataRole.UserRole))
 
     def show_entries(self, entries: tuple[Entry, ...]) -> None:
-        """Show other devices; the one that is looked at stays."""
+        """Show other devices; the one that is examined stays."""
         if entries == self._entries:
             return
         same = [one.key for one in entries] == [one.key for one in self._entries]
@@ -78,7 +78,7 @@ class DeviceList(Section):
 
 
 class Troubles(QWidget):
-    """What is wrong, each in a frame."""
+    """Problems, each in a frame."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -88,7 +88,7 @@ class Troubles(QWidget):
         self._shown: tuple[Trouble, ...] = ()
 
     def show_troubles(self, troubles: tuple[Trouble, ...]) -> None:
-        """Show what is wrong now."""
+        """Show the present problems."""
         if troubles == self._shown:
             return
         self._shown = troubles

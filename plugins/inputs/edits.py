@@ -1,4 +1,4 @@
-"""Changes of a profile, one control at a time; the profile itself never changes..
+"""Changes of a profile, one control at a time; profiles are immutable.
 
 Whether what comes of it can be used is for whoever uses it: two owners are refused there.
 """

@@ -1,4 +1,4 @@
-"""*Move it now*: which control of a device is moved, for one row of the mapping.."""
+"""*Move it now*: finds the moved control of a device for one row of the mapping."""
 
 from rotemina.app.motion.teleoperation.detection import Detection, Findings, Kind
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
@@ -31,7 +31,7 @@ class Finding:
             for detection in self._detections.values():
                 detection.feed(self._key, view.newest)
 
-    def hear(self, snapshot: InputSnapshot) -> None:
+    def receive(self, snapshot: InputSnapshot) -> None:
         """Take in what a step has read; what was said before is known already."""
         for reading in snapshot.readings.get(self._key, ()):
             if self._newest is not None and reading.host_time_s < self._newest.host_time_s:
@@ -55,7 +55,7 @@ class Finding:
         return axis if now_s - self._axis_since_s >= BUTTON_WAIT_S else Findings(None, axis.message)
 
     def _found(self, kind: Kind, now_s: float) -> Findings:
-        """Return what was moved; an axis that has come back to its rest was let go of."""
+        """Return what was moved; an axis that has come back to its rest was release."""
         found = self._detections[kind].findings(now_s)
         if kind is Kind.BUTTON or found.detected is None or self._newest is None:
             return found

@@ -1,4 +1,4 @@
-"""What a device says now: bars of its axes and lamps of its buttons."""
+"""Live readings of a device: axis bars and button lamps."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QVBoxLayout

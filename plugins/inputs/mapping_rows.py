@@ -1,4 +1,4 @@
-"""Rows of the mapping: what each thing is done by, and how."""
+"""Rows of the mapping: the control of each function."""
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QGridLayout, QPushButton, QToolButton, QWidget

@@ -1,4 +1,4 @@
-"""The mapping of one device: which control does what, found by moving it."""
+"""Mapping of one device: controls are assigned by moving them."""
 
 from collections.abc import Callable
 
@@ -32,7 +32,7 @@ _SEATS = {
 
 
 class MappingSection(Section):
-    """What the controls of the device that is looked at do.
+    """What the controls of the device that is examined do.
 
     Changes are used at once; nothing is sent while they are made.
     """
@@ -115,15 +115,15 @@ class MappingSection(Section):
         for row in self._rows:
             row.show_edited(edited, self.message.text() if row is self._row else None)
 
-    def hear(self, snapshot: InputSnapshot) -> None:
+    def receive(self, snapshot: InputSnapshot) -> None:
         """Take in what the devices have said."""
         if self._finding is not None:
-            self._finding.hear(snapshot)
+            self._finding.receive(snapshot)
 
     # --- finding a control ------------------------------------------------------------------------
 
     def cancel(self) -> None:
-        """Look for no control any more."""
+        """Cancel the search for a control."""
         self._finding = self._row = None
         self._tell(translate("inputs", HINT))
 

@@ -1,4 +1,4 @@
-"""The steps of measuring a device: which axes, at rest, to all ends, what came of it."""
+"""The steps of measuring a device: choice of axes, rest, ends, outcome."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget

@@ -1,4 +1,4 @@
-"""A field for one number with its unit; what is no number in bounds is refused and marked."""
+"""A field for one number with its unit; invalid input is refused and marked."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLineEdit, QWidget
@@ -22,7 +22,7 @@ class NumberField(QLineEdit):
 
     Signals
     -------
-    entered(object) : somebody has typed another number; None: it was emptied.
+    entered(object) : someone has typed another number; None: it was emptied.
     """
 
     entered = Signal(object)
@@ -56,7 +56,7 @@ class NumberField(QLineEdit):
         self.editingFinished.connect(self._commit)
 
     def show_number(self, value: float | None) -> None:
-        """Show a number; what somebody is typing stays."""
+        """Show a number; what someone is typing stays."""
         self._value = value
         if not self.hasFocus() and not self._wrong:
             self.setText(self._shown())

@@ -1,4 +1,4 @@
-"""Input devices: what is plugged in, what it says and does, and setting it up."""
+"""Input devices: list, live readings, and set-up."""
 
 from collections import deque
 from collections.abc import Callable
@@ -163,8 +163,8 @@ class InputsPanel(Panel):
         mapping, calibration = self._make_set_up()
         while self._snapshots:
             snapshot = self._snapshots.popleft()
-            mapping.hear(snapshot)
-            calibration.hear(snapshot)
+            mapping.receive(snapshot)
+            calibration.receive(snapshot)
         page = self.page
         mapping.setVisible(page is Page.MAPPING and device is not None)
         mapping.message.setVisible(page is Page.MAPPING and device is not None)
@@ -207,7 +207,7 @@ class InputsPanel(Panel):
     # --- setting up -------------------------------------------------------------------------------
 
     def leave(self) -> None:
-        """Set up no more: what the devices ask for is sent again, after all were at rest."""
+        """Leave the set-up: devices act again once all were seen at rest."""
         self.set_up.setChecked(False)
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)

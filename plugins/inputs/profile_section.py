@@ -1,4 +1,4 @@
-"""Which profile is used; keeping a changed one."""
+"""Choice of the profile in use; saving a changed one."""
 
 from PySide6.QtGui import QStandardItemModel
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
@@ -90,7 +90,7 @@ class ProfileSection(Section):
         allow(self.discard, unchanged, translate("inputs", "Discard the changes of the profile"))
 
     def _suggest(self) -> None:
-        """Write a name, unless somebody has written one."""
+        """Write a name, unless someone has written one."""
         suggestion = self.profiles.suggestion()
         if suggestion != self._suggested and self.name.text() == self._suggested:
             self.name.setText(suggestion)

@@ -1,4 +1,4 @@
-"""Which profile is used: remembered between starts, changed, kept.."""
+"""The profile in use: remembered between starts, changed, saved."""
 
 import re
 from dataclasses import dataclass, replace
@@ -60,7 +60,7 @@ class ProfileChoice:
         self.look()
 
     def begin(self) -> str | None:
-        """Use what was chosen when the program ran last; return what is wrong with that."""
+        """Use the profile of the last start; return its problem, if any."""
         name = self._settings.get(SETTING, AUTOMATIC)
         if name == AUTOMATIC:
             return None

@@ -1,4 +1,4 @@
-"""What screens say of input devices."""
+"""Text about input devices."""
 
 import re
 from collections.abc import Collection, Mapping
@@ -152,7 +152,7 @@ def entries(view: DevicesView, hub: InputHub) -> tuple[Entry, ...]:
 
 
 def troubles(view: DevicesView, hub: InputHub) -> tuple[Trouble, ...]:
-    """Return what is wrong with sources, devices and the profile."""
+    """Return the problems of sources, devices and the profile."""
     names = {one.key: one.name for one in hub.devices}
     found = [
         Trouble(

@@ -1,1 +1,1 @@
-"""What runs now, how far it is, and how to pause or stop it."""
+"""The running job, its progress, and its pause and stop buttons."""

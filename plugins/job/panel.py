@@ -1,4 +1,4 @@
-"""What runs now, with pause and stop, and what came of the last run."""
+"""Running jobs with pause and stop, and the outcome of the last run."""
 
 from collections.abc import Callable
 
@@ -33,7 +33,7 @@ _STEPS = 1000
 
 
 class Card(QFrame):
-    """Shows how something stands, with a row of buttons below it."""
+    """Shows the state of a job, with a row of buttons below it."""
 
     def __init__(self, kind: str) -> None:
         super().__init__()
@@ -70,7 +70,7 @@ class Card(QFrame):
         return button
 
     def show_running(self, running: Running | None) -> None:
-        """Show how it stands; None hides the card."""
+        """Show the state; None hides the card."""
         self.setVisible(running is not None)
         if running is None:
             return

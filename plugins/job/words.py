@@ -1,4 +1,4 @@
-"""What runs, in words. Free of Qt."""
+"""Text about running jobs. Free of Qt."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -16,7 +16,7 @@ from rotemina.plugins.penetration.words import headline
 
 
 class Running(NamedTuple):
-    """How something stands.
+    """The state of a job.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Running(NamedTuple):
 
 
 def playback(state: PlaybackState, name: str) -> Running:
-    """Return how a playback stands, or that ``name`` waits to be played."""
+    """Return the state of a playback, or that ``name`` is ready to be played."""
     if not name:
         return Running(translate("job", "No trajectory is loaded"))
     if state.phase is PlaybackPhase.IDLE:
@@ -49,14 +49,14 @@ def playback(state: PlaybackState, name: str) -> Running:
 
 
 def penetration(status: PenetrationStatus) -> Running | None:
-    """Return how a penetration stands; None while nothing is armed."""
+    """Return the state of a penetration; None while nothing is armed."""
     if status.phase is Phase.DISARMED:
         return None
     return Running(headline(status), spoken(status.reason) if status.reason else "")
 
 
 def recording(path: Path, since_s: float, size: int, failure: str | None) -> Running:
-    """Return how a recording stands: its name, how long and how large it is, or why it is none."""
+    """Return the state of a recording: name, duration and size, or why there is none."""
     doing = translate("job", "not recording: {why}").format(why=failure) if failure else ""
     return Running(path.name, doing or size_text(size), duration_text(since_s))
 

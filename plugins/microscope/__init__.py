@@ -1,1 +1,1 @@
-"""Microscope panel: the picture, and what the microscope does with the machine."""
+"""Microscope panel: the picture, and motion by the microscope."""

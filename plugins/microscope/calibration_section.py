@@ -1,4 +1,4 @@
-"""Guided calibration of each stage: what it needs, how it goes, what came of it."""
+"""Guided calibration of each stage: requirements, progress, result."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QLabel, QProgressBar, QWidget
@@ -64,7 +64,7 @@ class CalibrationSection(Section):
         self.known.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
 
     def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
-        """Show how it goes, and what is known."""
+        """Show the progress, and the stored results."""
         why = against_moving(status, state)
         allow(
             self.micro,

@@ -1,4 +1,4 @@
-"""What was typed for a camera, made into settings.."""
+"""Conversion of typed camera settings."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Which camera, with which settings, behind which objective."""
+"""Choice of camera, settings and objective."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QLineEdit, QWidget
@@ -57,7 +57,7 @@ class CameraSection(Section):
         self.open.setProperty("primary", True)
         self.close_button = button(
             translate("microscope", "Close"),
-            lambda: workbench.ask(microscope.camera.let_go),
+            lambda: workbench.ask(microscope.camera.close_and_forget),
             translate("microscope", "Close the camera"),
         )
         self.objective = SteadyChoice(
@@ -83,7 +83,7 @@ class CameraSection(Section):
         self.said = self.add_text()
 
     def refresh(self, status: MicroscopeStatus) -> None:
-        """Show what is there and in use."""
+        """Show the available cameras and the one in use."""
         listed = [(spoken(one.name), one.key) for one in status.cameras]
         _offer(self.choice, listed, None if status.camera is None else status.camera.key)
         _offer(self.objective, [(name, name) for name in status.objectives], None)
@@ -183,7 +183,7 @@ class SettingsSection(Section):
             field.returnPressed.connect(self._apply)
 
     def refresh(self, status: MicroscopeStatus) -> None:
-        """Show what is in force, unless somebody is typing."""
+        """Show what is in force, unless someone is typing."""
         feed = status.feed
         can = feed.description
         self.form.setEnabled(can is not None)

@@ -1,4 +1,4 @@
-"""Contrast: from a camera's numbers to colours of the screen, by one table. Free of Qt."""
+"""Contrast: conversion of camera values to screen colours by one table. Free of Qt."""
 
 from dataclasses import dataclass
 from enum import StrEnum

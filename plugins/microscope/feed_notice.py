@@ -1,4 +1,4 @@
-"""How the camera is doing, in words over the picture.."""
+"""The state of the camera as text over the picture."""
 
 from dataclasses import dataclass
 
@@ -55,7 +55,7 @@ class FeedNotice:
 
 
 def feed_notice(view: FeedView) -> FeedNotice:
-    """Return what is to be said of a camera's moment."""
+    """Return the text for the present state of a camera."""
     state, tone = view.state, TONES[view.state]
     if state is FeedState.LIVE and view.frame is None:
         return FeedNotice(

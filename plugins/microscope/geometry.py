@@ -1,4 +1,4 @@
-"""Where a pixel of the picture is on the screen. Free of Qt.
+"""Mapping of picture pixels to the screen. Free of Qt.
 
 A pixel's number is that of its middle: pixel 0 reaches from −0.5 to 0.5.
 """
@@ -97,7 +97,7 @@ class Viewport:
         )
 
     def holds(self, column: float, row: float) -> bool:
-        """Tell whether that is a pixel of the picture."""
+        """Return whether that is a pixel of the picture."""
         return -0.5 <= column < self.columns - 0.5 and -0.5 <= row < self.rows - 0.5
 
     def part(self) -> Part:

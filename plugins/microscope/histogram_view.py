@@ -1,4 +1,4 @@
-"""The histogram of the picture, with two handles: what becomes black, and what white."""
+"""The histogram of the picture, with two handles for the black and the white level."""
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
@@ -96,5 +96,5 @@ class HistogramView(QWidget):
         self.update()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Let go of it."""
+        """Release it."""
         self._held = None

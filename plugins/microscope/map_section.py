@@ -1,4 +1,4 @@
-"""The map of the tip beside the picture: choose a place by a click, go there by a button."""
+"""The map of the tip beside the picture: click to choose a place, press a button to go there."""
 
 import time
 from functools import partial
@@ -62,7 +62,7 @@ class MapSection(Section):
         self.whole = button(
             translate("microscope", "Reach"),
             lambda: self.view.fit(whole=True),
-            translate("microscope", "Show all that the axes can reach"),
+            translate("microscope", "Show everything within reach of the axes"),
         )
         self.clear = button(
             translate("microscope", "Clear trail"),
@@ -114,7 +114,7 @@ class MapSection(Section):
         unknown = None
         if not (state.position_known and state.command):
             unknown = translate("microscope", "the position is not known")
-        tip_text = translate("microscope", "Lift the tip above both places, go across, come down")
+        tip_text = translate("microscope", "Raise the tip above both places, move across, lower it")
         allow(self.go, none or locked or unknown or moves, tip_text)
 
     def choose(self, place: MapPlace | None, x: float, y: float) -> None:
@@ -141,7 +141,7 @@ class MapSection(Section):
             if self._asked.what != goal:
                 self._asked.put(goal)
                 self._asked_s = self._clock()
-                self.go.setText(translate("microscope", "A far way: go?"))
+                self.go.setText(translate("microscope", "Far away: go there?"))
                 return
             if self._clock() - self._asked_s < _SETTLE_S:
                 return

@@ -1,4 +1,4 @@
-"""The map from above: reach, trail, places, the tip; a click chooses, the wheel comes nearer."""
+"""The map from above: reach, trail, places, the tip; click to choose, wheel to zoom."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""Moves by clicks: what a click would do, the way back, and targets to visit."""
+"""Moves by click: preview, way back, and targets to visit."""
 
 from collections.abc import Callable
 

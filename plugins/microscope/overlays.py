@@ -1,4 +1,4 @@
-"""What is drawn over the picture, in its pixels.."""
+"""Overlays of the picture, in its pixels."""
 
 from dataclasses import dataclass
 from enum import StrEnum

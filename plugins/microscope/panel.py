@@ -1,4 +1,4 @@
-"""The microscope: its picture, and beside it the tools that work with it."""
+"""The microscope: its picture, with tools beside it."""
 
 from collections.abc import Callable
 

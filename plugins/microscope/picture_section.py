@@ -1,4 +1,4 @@
-"""How the picture is shown: levels, gamma, colours, and what lies over it."""
+"""Display of the picture: levels, gamma, colours, and overlays."""
 
 from dataclasses import replace
 

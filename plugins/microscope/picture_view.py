@@ -1,4 +1,4 @@
-"""The picture: the newest one always, with zoom, pan, and what is drawn over it."""
+"""The newest picture, with zoom, pan, and overlays."""
 
 from collections.abc import Callable
 from enum import StrEnum

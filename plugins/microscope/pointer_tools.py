@@ -1,4 +1,4 @@
-"""What a press, a drag and a release in the picture do, by the mode that is on."""
+"""Press, drag and release in the picture, by the active mode."""
 
 from collections.abc import Callable
 
@@ -67,7 +67,7 @@ class PointerTools(QObject):
         return reasons
 
     def refresh(self, status: MicroscopeStatus) -> None:
-        """End the mode Move where somebody has stopped, or the picture is not live any more."""
+        """End the mode Move where someone has stopped, or the picture is not live any more."""
         before, self._permit = self._permit, self._workbench.session.permit()
         stopped = before.epoch != self._permit.epoch
         doubtful = against_aiming(status) is not None
@@ -160,7 +160,7 @@ class PointerTools(QObject):
         self._microscope.cancel_plan()
 
     def _may_move(self) -> bool:
-        """Tell whether the machine may move by this picture, and say why not."""
+        """Return whether the machine may move by this picture, and say why not."""
         why = against_clicking(self._microscope.status, self._workbench.session.snapshot())
         if why is not None:
             self._workbench.refused.emit(translate("microscope", "no move: {why}").format(why=why))

@@ -1,4 +1,4 @@
-"""What is under the cursor, and angles and lengths in words.."""
+"""Values under the cursor, and angles and lengths as text."""
 
 from math import degrees
 

@@ -1,4 +1,4 @@
-"""Pictures and films of the microscope kept as files.."""
+"""Saving of pictures and videos."""
 
 from collections.abc import Callable
 from datetime import datetime
@@ -21,7 +21,7 @@ STAMP = "%Y-%m-%d_%H-%M-%S-%f"
 def circumstances(
     status: MicroscopeStatus, state: SessionState, now: datetime, recording: str = ""
 ) -> Circumstances:
-    """Return what is known beside a picture at this moment."""
+    """Return the present circumstances of a picture."""
     return Circumstances(
         taken=now.isoformat(timespec="milliseconds"),
         camera="" if status.camera is None else f"{status.camera.name} ({status.camera.key})",
@@ -92,7 +92,7 @@ class VideoCapture:
 
     @property
     def status(self) -> VideoStatus | None:
-        """How the present film does; None: there is none."""
+        """The status of the running video, or None."""
         return None if self.video is None else self.video.status
 
     def begin(
@@ -156,7 +156,7 @@ class VideoCapture:
     def due(self, recorder: SessionRecorder | None) -> bool | None:
         """Return whether to begin (True) or end (False) now, because a recording did.
 
-        None: nothing is to be done. One that was begun by hand goes on beside a recording.
+        None: nothing is to be done. One that was begun by hand continues beside a recording.
         """
         before, self._followed = self._followed, recorder if self.follows else None
         if self._followed is not None and before is not self._followed:

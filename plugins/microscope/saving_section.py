@@ -1,4 +1,4 @@
-"""A picture or a film at the press of a button."""
+"""Buttons that save a picture or a video."""
 
 from datetime import datetime
 

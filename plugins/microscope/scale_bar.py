@@ -1,4 +1,4 @@
-"""A scale bar of a round length.."""
+"""A scale bar of a round length."""
 
 from math import floor, log10
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""A z-stack: first, last, step; a TIFF with a page for each place."""
+"""A z-stack: first, last, step; a TIFF with one page per position."""
 
 from datetime import datetime
 from pathlib import Path
@@ -75,7 +75,7 @@ class StackSection(Section):
             self._write(stack)
 
     def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
-        """Show how a stack goes on."""
+        """Show how a stack continues."""
         names = [one.name for one in status.focus_axes]
         if names != [self.place.itemData(row) for row in range(self.place.count())]:
             self.place.clear()

@@ -1,4 +1,4 @@
-"""Where the tip has been, and places that it can be sent to. Free of Qt."""
+"""Past positions of the tip, and places that it can be sent to. Free of Qt."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

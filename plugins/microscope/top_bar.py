@@ -1,4 +1,4 @@
-"""Above the picture: what the left button does, zoom, and the tools beside the picture."""
+"""The bar above the picture: click modes, zoom, and tools."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
@@ -42,7 +42,7 @@ class TopBar(QWidget):
 
     Signals
     -------
-    chosen(PointerTool) : somebody wants the left button to do this.
+    chosen(PointerTool) : someone wants the left button to do this.
     """
 
     chosen = Signal(object)

@@ -1,4 +1,4 @@
-"""What is found in the picture: tip, cell, focus, drift."""
+"""Findings in the picture: tip, cell, focus, drift."""
 
 from PySide6.QtWidgets import QCheckBox, QLineEdit
 
@@ -47,7 +47,7 @@ class TipSection(Section):
             lambda: workbench.ask(microscope.take_background),
             translate("microscope", "Save the background without the tip in the picture"),
         )
-        self.drift = QCheckBox(translate("microscope", "watch the drift"))
+        self.drift = QCheckBox(translate("microscope", "monitor drift"))
         self.drift.setToolTip(
             plain_tip(translate("microscope", "Displacement of the background since it was taken"))
         )

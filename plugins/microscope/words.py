@@ -1,4 +1,4 @@
-"""What the panel says of calibration, moves, focus, tip and cell.."""
+"""Text about calibration, moves, focus, tip and cell."""
 
 from math import degrees
 
@@ -32,7 +32,7 @@ _PHASES = {
 
 
 def stage_text(name: str, stage: StageCalibration | None) -> str:
-    """Return what is known of a stage, in a few lines."""
+    """Return the calibration of a stage, in a few lines."""
     if stage is None:
         return translate("microscope", "{name}: not calibrated").format(name=spoken(name))
     found, when = stage.map.geometry, stage.date[:16].replace("T", " ")
@@ -61,7 +61,7 @@ def geometry_text(found: Geometry) -> str:
 
 
 def calibration_text(status: CalibrationStatus | None) -> str:
-    """Return how the latest calibration goes on, or went."""
+    """Return how the latest calibration continues, or went."""
     if status is None:
         return ""
     text = translate("microscope", "{phase}: picture {done} of {moves}").format(
@@ -87,7 +87,7 @@ def residual_lines(fit: StageFit | None) -> list[str]:
 
 
 def visit_text(status: VisitStatus | None) -> str:
-    """Return what became of the latest move to a clicked place."""
+    """Return the outcome of the latest move to a clicked point."""
     if status is None:
         return ""
     if status.visit is Visit.FAILED:
@@ -183,7 +183,7 @@ def drift_text(seen: DriftSeen) -> str:
 
 
 def focus_text(status: FocusStatus | None) -> str:
-    """Return how the latest autofocus goes on, or went."""
+    """Return how the latest autofocus continues, or went."""
     if status is None:
         return ""
     if status.search is Search.FAILED:

@@ -1,1 +1,1 @@
-"""Automatic cell penetration: parameters, what they give, the run, and the log of runs."""
+"""Automatic cell penetration: parameters, their consequences, the run, and the log."""

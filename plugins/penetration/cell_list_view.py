@@ -1,4 +1,4 @@
-"""The list of cells: next, skip, penetrate; each motion is a press of its own."""
+"""The list of cells: next, skip, penetrate; each motion needs its own press."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A cell for demonstrations on the simulator: put it ahead of the tip, take it away."""
+"""A demonstration cell on the simulator: place it ahead of the tip, remove it."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget

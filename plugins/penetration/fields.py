@@ -1,4 +1,4 @@
-"""Fields of the form: numbers with units, and choices that the wheel leaves alone."""
+"""Fields of the form: numbers with units, and choices that ignore the wheel."""
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QLabel, QLineEdit
@@ -57,7 +57,7 @@ class NumberField(QObject):
         self.complaint()
 
     def complaint(self) -> str | None:
-        """Return what is wrong with the text, and mark the field; None: nothing."""
+        """Return the problem of the text and mark the field, or None."""
         wrong = None
         try:
             self.value  # noqa: B018 (whether it can be read)

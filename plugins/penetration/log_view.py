@@ -1,4 +1,4 @@
-"""The latest runs in a table, and all of the one that is chosen."""
+"""The latest runs in a table, and the details of the selected one."""
 
 from collections.abc import Iterable
 from datetime import datetime
@@ -23,7 +23,7 @@ class LogView(QWidget):
         super().__init__()
         self.list = RunList()
         self.table = Table(
-            translate("penetration", "Runs, the latest first"),
+            translate("penetration", "Runs, latest first"),
             [translate("penetration", one) for one in COLUMNS],
             row_height=24,
         )

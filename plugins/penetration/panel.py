@@ -1,4 +1,4 @@
-"""Automatic cell penetration: what it is to be like, the run, and the log of runs."""
+"""Automatic cell penetration: parameters, the run, and the log."""
 
 from pathlib import Path
 
@@ -190,7 +190,7 @@ class PenetrationPanel(Panel):
     # --- parameters -------------------------------------------------------------------------------
 
     def _change(self) -> None:
-        """Plan anew, and keep the parameters a little later."""
+        """Plan again, and keep the parameters a little later."""
         if not self.form.complaint and self.form.parameters != self.plan_preview.parameters:
             self._plan()
             self._keep.start()

@@ -1,4 +1,4 @@
-"""What the parameters give before anything moves: speeds, depth, room, and the curves. No Qt."""
+"""Preview of a penetration: speeds, depth, travel, and curves. No Qt."""
 
 from dataclasses import dataclass
 from typing import NamedTuple, Self
@@ -33,7 +33,7 @@ class Curve(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlanPreview:
-    """A plan, or why there is none.
+    """A plan, or the reason for none.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ def measured_curve(trace: ThrustTrace) -> Curve:
 
 
 def way_text(way: float) -> str:
-    """Return a way as text, µm."""
+    """Return a distance as text, µm."""
     return f"{fixed(1e6 * way, 2)} µm"
 
 

@@ -1,4 +1,4 @@
-"""The thrust over time: wanted, commanded, and measured once it has run."""
+"""The thrust over time: desired, commanded, and measured after a run."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget

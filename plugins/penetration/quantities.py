@@ -1,4 +1,4 @@
-"""The numbers of a penetration as an operator types them: unit, bounds, what they do."""
+"""Numbers of a penetration as typed by an operator: unit, bounds, effect."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -233,7 +233,7 @@ QUANTITIES = {
         ),
         Quantity(
             "retract_speed",
-            marked("penetration", "Speed back"),
+            marked("penetration", "Return speed"),
             "µm/s",
             _UM,
             Group.RETRACT,
@@ -241,7 +241,7 @@ QUANTITIES = {
         ),
         Quantity(
             "depth_tolerance",
-            marked("penetration", "Depth off by"),
+            marked("penetration", "Depth tolerance"),
             "%",
             _PERCENT,
             Group.LIMITS,

@@ -1,4 +1,4 @@
-"""What is read while it runs, what the plan gives before, and the tool's switch."""
+"""Readouts during a run, the plan's figures before it, and the tool's switch."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""Arm, the one big button, and the strip of phases: always in sight."""
+"""Arm, the main button, and the strip of phases, always visible."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Runs of the log as rows and in full, and which of them are shown.."""
+"""Logged runs as rows and in full, and the choice of those shown."""
 
 import json
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""The table of a thrust as text: a line a point, time share and depth share.."""
+"""The table of a thrust as text: one point per line, time share and depth share."""
 
 from itertools import pairwise
 

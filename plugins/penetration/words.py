@@ -1,4 +1,4 @@
-"""What the panel says of a penetration, and what its two buttons do now."""
+"""Text about a penetration, and the present function of its two buttons."""
 
 from enum import StrEnum
 
@@ -138,7 +138,7 @@ def headline(status: PenetrationStatus) -> str:
 
 
 def message(status: PenetrationStatus, why_not: str | None) -> str:
-    """Return what goes on, or what came of the latest run and whether it may be armed."""
+    """Return the running phase, or the latest outcome and whether arming is possible."""
     phase = status.phase
     if phase in UNDER_WAY:
         return translate("penetration", _DOING[phase]) + (

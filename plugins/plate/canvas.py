@@ -1,4 +1,4 @@
-"""Where the plate is drawn: turned by dragging, zoomed by the wheel, with a bar of colours."""
+"""The drawing of the plate: drag to rotate, wheel to zoom, with a colour bar."""
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt

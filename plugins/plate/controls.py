@@ -1,4 +1,4 @@
-"""Sliders over the range of motion, and choices of what is shown."""
+"""Sliders over the range of motion, and choices of the view."""
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal

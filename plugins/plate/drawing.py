@@ -1,4 +1,4 @@
-"""A coloured surface drawn in perspective-free 3-D without OpenGL: turned, filled, smoothed."""
+"""Drawing of a coloured surface in parallel 3-D without OpenGL: rotated, filled, smoothed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

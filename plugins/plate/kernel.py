@@ -1,4 +1,4 @@
-"""Triangles filled into a picture with a depth for every pixel, compiled."""
+"""Rasterisation of triangles with a depth buffer, compiled."""
 
 import numba
 import numpy as np

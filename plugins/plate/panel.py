@@ -1,4 +1,4 @@
-"""The holding plate: solved on demand, shown in 3-D over the range of motion and in its modes."""
+"""The holding plate: solved on demand, shown in 3-D over its range and in its modes."""
 
 import time
 from math import tau
@@ -142,7 +142,7 @@ class PlatePanel(Panel):
         self._show_state()
 
     def end(self) -> None:
-        """Want no answer any more."""
+        """Discard the answer."""
         self.solving.stop()
         self.doing.setText(translate("plate", "Stopped."))
         self._show_state()

@@ -1,4 +1,4 @@
-"""The plate as a coloured surface: its hub moved, or vibrating in a mode."""
+"""The plate as a coloured surface, with its hub moved or vibrating in a mode."""
 
 from dataclasses import dataclass
 

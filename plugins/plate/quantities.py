@@ -1,4 +1,4 @@
-"""What of the plate can be shown in colours."""
+"""Quantities of the plate that colours can show."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""A solved plate, with what drawing it takes."""
+"""A solved plate, with data for drawing."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""A plate solved away from the window's thread."""
+"""Solution of a plate in the background."""
 
 from PySide6.QtCore import QObject, Signal
 
@@ -12,7 +12,7 @@ from rotemina.sim.robot.model import Robot
 
 
 class Solving(QObject):
-    """Solves one plate at a time; an end is asked for between its stages.
+    """Solves one plate at a time; an end is requested between its stages.
 
     Signals
     -------
@@ -55,7 +55,7 @@ class Solving(QObject):
         self._job.start(work)
 
     def stop(self) -> None:
-        """Want no answer any more; nobody waits for the thread."""
+        """Discard the answer without waiting for the thread."""
         self._job.stop()
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""What the panel says of a solved plate."""
+"""Text about a solved plate."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Spectra, and loops thinned without hiding what they do. Free of Qt."""
+"""Spectra, and loops thinned without hiding extremes. Free of Qt."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""The live plot of one axis, with the size of its gap, or what its cursors read, in words."""
+"""The live plot of one axis, with its gap or its cursor values as text."""
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType

@@ -1,4 +1,4 @@
-"""Another run beside the present one: which it is, and by how much it is moved in time."""
+"""The choice and time shift of another run beside the present one."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What two cursors read: places, differences, and their inverse."""
+"""Values of two cursors: positions, differences, and their inverse."""
 
 from enum import StrEnum
 from typing import NamedTuple

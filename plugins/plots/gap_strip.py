@@ -1,4 +1,4 @@
-"""The gap over time below a plot, against what noise makes and what the robot file allows."""
+"""The gap over time below a plot, with noise bounds and the following bound."""
 
 import math
 

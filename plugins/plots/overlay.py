@@ -1,4 +1,4 @@
-"""Another run beside the live plots: what it holds, and its time shift for the best match.
+"""Another run beside the live plots: its data, and the time shift of the best match.
 
 Free of Qt.
 """

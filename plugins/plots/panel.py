@@ -1,4 +1,4 @@
-"""Plots of every axis: over time, loops, spectra; cursors, another run beside, and export."""
+"""Plots of every axis: over time, loops, spectra; cursors, a second run, and export."""
 
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -117,7 +117,7 @@ class PlotsPanel(Panel):
         self.grid.share_height()
 
     def refresh(self) -> None:
-        """Draw the newest samples, unless paused or out of sight; recording goes on."""
+        """Draw the newest samples, unless paused or out of sight; recording continues."""
         if self._is_due():
             self._draw(self._newest())
 
@@ -318,7 +318,7 @@ class PlotsPanel(Panel):
         self._draw_again()
 
     def _use_model(self, _: object) -> None:
-        """Begin the gap anew, and name the nominal model where another is in use."""
+        """Begin the gap again, and name the nominal model where another is in use."""
         self._told_s = float("-inf")
         self._use_theme(self.workbench.theme)
 

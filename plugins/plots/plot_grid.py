@@ -1,4 +1,4 @@
-"""The plots in their places: the stages side by side, or all axes in one strip."""
+"""The layout of the plots: stages side by side, or all axes in one strip."""
 
 from collections.abc import Mapping, Sequence
 

@@ -1,4 +1,4 @@
-"""What plots draw: a stretch of the live history. Free of Qt."""
+"""The data of the plots: a stretch of the live history. Free of Qt."""
 
 from dataclasses import replace
 from typing import NamedTuple

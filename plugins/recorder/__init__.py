@@ -1,1 +1,1 @@
-"""Recorder: sessions recorded, recovered, listed, exported and shown again."""
+"""Recorder: record, recover, list, export and replay sessions."""

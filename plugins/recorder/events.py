@@ -1,4 +1,4 @@
-"""The events of the recording that is shown; a click on one jumps there."""
+"""The events of the displayed recording; a click jumps to one."""
 
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -126,7 +126,7 @@ class EventsView(QWidget):
         workbench.theme_changed.connect(self.model.use_theme)
 
     def jump(self, row: int) -> None:
-        """Let the replay go on from just after an event."""
+        """Let the replay continue from just after an event."""
         if self._replaying.paced is not None:
             self._replaying.paced.seek(self.model.events[row].at_s + _AFTER_S)
 

@@ -1,4 +1,4 @@
-"""The recorder: record a session, recover what a crash left, look through the library."""
+"""The recorder: record a session, recover interrupted recordings, browse the library."""
 
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (

@@ -1,4 +1,4 @@
-"""The recording itself: begin and end it, how it stands, remarks."""
+"""The running recording: start, end, state, remarks."""
 
 import time
 from pathlib import Path
@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display import duration_text, size_text
-from rotemina.app.motion.recording.merging import UNFINISHED
+from rotemina.app.motion.recording.recovery import UNFINISHED
 from rotemina.app.motion.run_labels import MOST_LETTERS, RunLabels
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import translate
@@ -52,7 +52,7 @@ def room_text(free: int | None, written: int, since_s: float) -> str:
 
 
 def scarce(free: int | None, written: int) -> str | None:
-    """Return what is to be done about too little room; None where there is enough."""
+    """Return the remedy for too little disk space, or None."""
     if free is None or free > written + _SPARE_BYTES:
         return None
     return translate(

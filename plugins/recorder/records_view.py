@@ -1,4 +1,4 @@
-"""The library of records: open one, export a stretch, make a trajectory of it, delete it."""
+"""The library of records: open, export a section, make a trajectory, delete."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
 from rotemina.app.display import size_text
 from rotemina.app.motion.recording import exporting
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import SUFFIX
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.records.entry import Entry, Kind
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where

@@ -1,4 +1,4 @@
-"""What a crash left unfinished, and the button that makes recordings of it."""
+"""Interrupted recordings, and the button that recovers them."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -43,7 +43,7 @@ class UnfinishedBox(QFrame):
         self.hide()
 
     def show_unfinished(self, unfinished: Sequence[Unfinished]) -> None:
-        """Show what was left."""
+        """Show the interrupted recordings."""
         self._waiting = tuple(one.path for one in unfinished if not one.busy)
         self.text.setText(unfinished_text(unfinished))
         self.setVisible(bool(unfinished))

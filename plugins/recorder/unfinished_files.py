@@ -1,17 +1,17 @@
-"""What a crash has left in the folder of recordings."""
+"""Interrupted recordings in the folder of recordings."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import being_recorded, recover, unfinished
+from rotemina.app.motion.recording.recovery import being_recorded, recover, unfinished
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import translate
 
 
 @dataclass(frozen=True, slots=True)
 class Unfinished:
-    """A recording that nobody has ended; ``busy`` if a program records it still."""
+    """An interrupted recording; ``busy`` if a program is still recording it."""
 
     path: Path
     size: int
@@ -19,7 +19,7 @@ class Unfinished:
 
 
 def look(folder: Path, own: frozenset[Path]) -> tuple[Unfinished, ...]:
-    """Return what nobody has ended in a folder, but what this program records or ends itself.
+    """Return the interrupted recordings in a folder, except those of this program.
 
     Raises
     ------
@@ -40,7 +40,7 @@ def look(folder: Path, own: frozenset[Path]) -> tuple[Unfinished, ...]:
 
 
 def recovered(paths: tuple[Path, ...]) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """Recover recordings; return those that came of it, and why others could not be."""
+    """Recover recordings; return the results, and the problems of others."""
     done: list[Path] = []
     refused: list[str] = []
     for path in paths:

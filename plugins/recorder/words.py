@@ -1,4 +1,4 @@
-"""The words of the recorder panel, and the span that somebody types."""
+"""Text of the recorder panel, and parsing of a typed time span."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,7 @@ BEGIN, END = marked("recorder", "start"), marked("recorder", "end")
 
 
 class SpanError(InputError):
-    """A stretch of a recording that is none."""
+    """An invalid time span of a recording."""
 
 
 def unfinished_text(unfinished: Sequence[Unfinished]) -> str:
@@ -45,7 +45,7 @@ def listed(names: Sequence[str]) -> str:
 
 
 def span(begin: str, end: str, duration_s: float) -> tuple[float, float]:
-    """Return the stretch that somebody typed, s from the begin; nothing means begin or end.
+    """Return the stretch that someone typed, s from the begin; nothing means begin or end.
 
     Raises
     ------

@@ -1,1 +1,1 @@
-"""Teleoperation panel: who drives, in which mode and scale, and a pad on the screen."""
+"""Teleoperation panel: control, mode, scale, and an on-screen pad."""

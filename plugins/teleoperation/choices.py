@@ -1,4 +1,4 @@
-"""Mode, law and step preset: buttons, and what acts now."""
+"""Buttons for mode, law and step preset, with the active ones."""
 
 from collections.abc import Callable, Iterable
 from typing import Generic, TypeVar

@@ -1,4 +1,4 @@
-"""The coordinates of the present mode: stick, reference, and what full deflection means."""
+"""Coordinates of the present mode: stick, reference, and meaning of full deflection."""
 
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen

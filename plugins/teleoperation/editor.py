@@ -1,4 +1,4 @@
-"""The scales of the present mode: how far, fast and heavily full deflection moves a coordinate."""
+"""Scales of the present mode: distance, speed and force at full deflection."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit
@@ -98,7 +98,7 @@ class ScaleEditor(Section):
         self.choice.blockSignals(False)
 
     def _show(self) -> None:
-        """Write the scale into the fields, but for the one in which somebody types."""
+        """Write the scale into the fields, but for the one in which someone types."""
         name = self.choice.currentData()
         if name not in self._coordinates:
             return

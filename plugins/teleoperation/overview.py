@@ -1,4 +1,4 @@
-"""Who drives, whether that is trusted, and why nothing moves."""
+"""The device in control, its trust, and reasons for no motion."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy

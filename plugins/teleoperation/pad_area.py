@@ -1,4 +1,4 @@
-"""The pad on the screen: a cross for x and y, a slider for z, and keys; all spring back."""
+"""The on-screen pad: a cross for x and y, a slider for z, and keys; all spring back."""
 
 from collections.abc import Mapping
 
@@ -89,7 +89,7 @@ class PadArea(QWidget):
             self.release()
 
     def release(self) -> None:
-        """Let go of everything."""
+        """Release everything."""
         self._renewing.stop()
         self._stick.release_all()
         self.update()
@@ -122,14 +122,14 @@ class PadArea(QWidget):
         self._follow()
 
     def keyReleaseEvent(self, event: QKeyEvent) -> None:  # noqa: N802 (Qt's name)
-        """Let go of a key."""
+        """Release a key."""
         key = event.key()
         if key in _SCALING:
             self._scale(event.modifiers() & ~_SCALING[key])
         elif key not in _KEYS:
             super().keyReleaseEvent(event)
         elif not event.isAutoRepeat():
-            self._stick.let_go(_KEYS[key])
+            self._stick.release(_KEYS[key])
         self._follow()
 
     # --- pointer ----------------------------------------------------------------------------------
@@ -144,7 +144,7 @@ class PadArea(QWidget):
         self._drag(event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Move what was taken; what was let go of meanwhile has to be taken anew."""
+        """Move what was taken; what was release meanwhile has to be taken again."""
         if event.buttons() & Qt.MouseButton.LeftButton and self._stick.dragging:
             self._drag(event.position())
 
@@ -174,12 +174,12 @@ class PadArea(QWidget):
         self.update()
 
     def focusOutEvent(self, event: QFocusEvent) -> None:  # noqa: N802 (Qt's name)
-        """Let go of everything, whatever took the focus."""
+        """Release everything, whatever took the focus."""
         self.release()
         super().focusOutEvent(event)
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 (Qt's name)
-        """Let go of everything."""
+        """Release everything."""
         self.release()
         super().hideEvent(event)
 

@@ -1,4 +1,4 @@
-"""The pad with what belongs to it: its deflection, its keys, taking over."""
+"""The pad with its deflection, its keys, and the take-over."""
 
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout
 

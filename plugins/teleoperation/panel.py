@@ -1,4 +1,4 @@
-"""Steering by hand: who drives, how, and a pad for those without a joystick."""
+"""Manual steering: control, mode, and a pad for use without a joystick."""
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 

@@ -1,4 +1,4 @@
-"""Scales and felt dynamics in words: what an operator reads beside a law."""
+"""Scales and perceived dynamics as text beside a law."""
 
 from math import degrees
 

@@ -1,4 +1,4 @@
-"""What is left of the piezos, what the tool's orientation has cost, and re-centring."""
+"""Remaining piezo range, rotation of the tool, and re-centring."""
 
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QProgressBar
 

@@ -1,4 +1,4 @@
-"""The fields of a scale: names, units, text, and what is refused.."""
+"""Fields of a scale: names, units, text, and refusals."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -191,7 +191,7 @@ def without(scales: Scales, mode: str) -> Scales:
 
 
 def texts(scale: Scale, coordinate: Coordinate) -> Mapping[str, str]:
-    """Return what stands in each field."""
+    """Return the text of each field."""
     return {
         field.name: shown(field, coordinate).number(getattr(scale, field.name)) for field in FIELDS
     }

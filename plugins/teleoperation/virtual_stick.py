@@ -67,7 +67,7 @@ class VirtualStick:
 
     @property
     def deflections(self) -> dict[str, float]:
-        """What is asked for of each axis, −1 to 1."""
+        """What is requested of each axis, −1 to 1."""
         found = dict.fromkeys(AXES, 0.0)
         for key in self._keys & _MOVES.keys():
             axis, way = _MOVES[key]
@@ -80,7 +80,7 @@ class VirtualStick:
         self._keys.add(key)
         self._tell()
 
-    def let_go(self, key: Key) -> None:
+    def release(self, key: Key) -> None:
         """Release a key."""
         self._keys.discard(key)
         self._tell()
@@ -108,12 +108,12 @@ class VirtualStick:
         self._pad.hold(Action.TAKE_OVER, held)
 
     def renew(self) -> None:
-        """Say that what is held still is; what the pad has let go of meanwhile stays so."""
+        """Say that what is held still is; what the pad has release meanwhile stays so."""
         if not self._pad.renew():
             self.release_all()
 
     def release_all(self) -> None:
-        """Let go of everything."""
+        """Release everything."""
         self._keys, self._dragged = set(), {}
         self._scaled = dict.fromkeys(self._scaled, False)
         self._told = {}

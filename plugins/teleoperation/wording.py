@@ -1,4 +1,4 @@
-"""Teleoperation in words: who drives, modes, laws, places.."""
+"""Teleoperation in words: who drives, modes, laws, places."""
 
 from collections.abc import Collection
 from dataclasses import replace
@@ -33,7 +33,7 @@ _TIP_SCALE = scale_in("mm", decimals=5)
 
 
 class Choice(NamedTuple):
-    """A choice that a button offers: what stands on it, and one sentence about it."""
+    """A choice of a button: its text, and one sentence about it."""
 
     text: str
     tip: str
@@ -167,7 +167,7 @@ def trust_text(view: DevicesView) -> str:
 
 
 def standing(view: DevicesView, state: TeleoperationState, *, stale: bool) -> tuple[str, Tone]:
-    """Return how it stands in one word, and how grave that is."""
+    """Return the state in one word, and its severity."""
     if stale:
         return translate("teleoperation", "no answer"), Tone.DANGER
     if state.driving:
@@ -220,7 +220,7 @@ def pad_of(view: DevicesView) -> DeviceView | None:
 
 
 def is_trainee(pad: DeviceView | None) -> bool:
-    """Whether somebody else drives first, and the pad may take over."""
+    """Whether someone else drives first, and the pad may take over."""
     return pad is not None and pad.seat is OperatorRole.TRAINEE
 
 
@@ -239,7 +239,7 @@ def factor_text(factor: float, held: Collection[Action]) -> str:
 
 
 def clutch_text(law: LawKind, held: Collection[Action]) -> str:
-    """Return what the clutch does, or does just now."""
+    """Return what the clutch does, or does at present."""
     if Action.CLUTCH in held:
         return translate("teleoperation", "Clutch pressed: the stick moves without the robot.")
     if law is LawKind.RATE:
@@ -306,7 +306,7 @@ def reserve_text(state: TeleoperationState) -> str:
 def tilt_shown(state: TeleoperationState) -> str:
     """Return by how much the tool was turned."""
     if state.tilt is None:
-        return translate("teleoperation", "not by this mode") if state.coordinates else "–"
+        return translate("teleoperation", "not in this mode") if state.coordinates else "–"
     return plain_units.tilt_text(round(state.tilt, _TILT_DIGITS))
 
 

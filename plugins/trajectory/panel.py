@@ -225,7 +225,7 @@ class TrajectoryPanel(Panel):
         )
 
     def _take_part(self) -> None:
-        """Plan the part that is asked for; what cannot be is told, and all of it is back."""
+        """Plan the part that is requested; what cannot be is told, and all of it is back."""
         if self._whole is None:
             return
         name, whole = self._whole

@@ -92,7 +92,7 @@ class PathView(QWidget):
         painter.end()
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
-        """Draw anew in another font or style."""
+        """Draw again in another font or style."""
         super().changeEvent(event)
         self._renew()
 

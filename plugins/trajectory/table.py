@@ -62,7 +62,7 @@ def gap_text(gap: Gap, si_unit: str) -> str:
 
 
 def read_bound(text: str, si_unit: str) -> float | None:
-    """Return what somebody typed as a bound, m or rad; None for nothing.
+    """Return what someone typed as a bound, m or rad; None for nothing.
 
     Raises
     ------

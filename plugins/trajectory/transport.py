@@ -1,4 +1,4 @@
-"""The controls of a playback: play, pause, go on, step through it, and at which pace."""
+"""The controls of a playback: play, pause, continue, step through it, and at which pace."""
 
 from PySide6.QtWidgets import (
     QComboBox,
@@ -132,7 +132,7 @@ class Transport(QWidget):
         self._show_progress(state)
 
     def show_plan(self) -> None:
-        """Begin anew with another trajectory, at its own pace."""
+        """Begin again with another trajectory, at its own pace."""
         self.speed.setValue(1.0)
 
     def _lay_out(self) -> None:

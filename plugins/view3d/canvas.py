@@ -99,7 +99,7 @@ class Canvas(QWidget):
             self._soon.start(round(1e3 * wait_s) + 1)
 
     def _newest(self) -> list[Drawn]:
-        """Return what is to be painted, computed anew if anything has changed."""
+        """Return what is to be painted, computed again if anything has changed."""
         changes = self._scene.changes(self._revision)
         for command in changes.commands:
             self.picture.obey(command)
@@ -128,7 +128,7 @@ class Canvas(QWidget):
             self._see(lambda camera: camera.turned(right, up))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Let go of it."""
+        """Release it."""
         self._grabbed = None
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
@@ -212,7 +212,7 @@ class Canvas(QWidget):
 
 
 def _moved(before: list[Drawn], after: list[Drawn]) -> bool:
-    """Tell whether a picture differs from another one so that it can be seen."""
+    """Return whether a picture differs from another one so that it can be seen."""
     if len(before) != len(after):
         return True
     for one, other in zip(before, after, strict=True):

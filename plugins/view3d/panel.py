@@ -76,7 +76,7 @@ def written() -> Words:
             "thx, thy, zn enlarged {factor:g} × about mid-range; the tip is not drawn in its place",
         ),
         silent=translate("view3d", "The program does not answer: the drawing is out of date."),
-        quiet=translate("view3d", "No news from the program: the drawing is out of date."),
+        quiet=translate("view3d", "No data from the program: the drawing is out of date."),
     )
 
 
@@ -92,7 +92,7 @@ def colours_of(theme: Theme) -> Colours:
 
 
 class View3dPanel(Panel):
-    """Draws the robot, and serves it to browsers from the first that is asked for."""
+    """Draws the robot, and serves it to browsers from the first that is requested."""
 
     title = marked("panels", "3-D view")
     area = Area.BOTTOM

@@ -35,7 +35,7 @@ class Serving:
                 self.server = server
 
     def close(self) -> None:
-        """End the server, for good."""
+        """Stop the server permanently."""
         with self._lock:
             self._closed = True
             if self.server is not None:

@@ -1,4 +1,4 @@
-"""Actuators as the generator makes them: gain, curve, hysteresis, creep, lost and micro-steps."""
+"""Actuators of the generator: gain, curve, hysteresis, creep, lost steps and microsteps."""
 
 from math import pi
 

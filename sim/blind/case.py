@@ -1,4 +1,4 @@
-"""One case: its machine, the parts that it is given, their sizes, and its label."""
+"""One case: its machine, its added parts, their sizes, and its label."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

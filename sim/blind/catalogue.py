@@ -1,4 +1,4 @@
-"""What the generator can put into a machine: effect ids, their stage and the axes they sit on."""
+"""Everything that the generator can add to a machine: effect ids, stages and axes."""
 
 from typing import Literal, NamedTuple
 

@@ -1,4 +1,4 @@
-"""Electronics as the generator makes it: delay, lag, slew limit, saturation, coarse steps."""
+"""Electronics of the generator: delay, lag, slew limit, saturation, coarse steps."""
 
 from math import pi
 

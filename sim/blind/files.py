@@ -1,4 +1,4 @@
-"""Cases as folders of record files, and their labels in a file apart."""
+"""Cases as folders of record files, with their labels in a separate file."""
 
 from collections.abc import Iterator
 from functools import partial

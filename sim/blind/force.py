@@ -1,4 +1,4 @@
-"""Cases of an axis that a force moves under its controller, such as a ball screw on a DC motor.
+"""Cases of a controlled force axis, such as a ball screw on a DC motor.
 
 The position hides most of the gap there: sizes are told in what the controller's output shows.
 """

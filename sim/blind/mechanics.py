@@ -89,7 +89,7 @@ def load_force(
     k: int,
     step_s: float,
 ) -> float:
-    """Return the force of one load at position q and speed v; its ``memory`` goes on a step."""
+    """Return the force of one load at position q and speed v; its ``memory`` continues a step."""
     code = int(row[0])
     if code == SLIP:
         return -_maxwell(row, memory, v, step_s)

@@ -1,4 +1,4 @@
-"""Which function makes which effect."""
+"""The function of each effect."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What a machine also does and nobody will ever name: small, smooth and the same in every run."""
+"""A remainder that no catalogue names: small, smooth and the same in every run."""
 
 from collections.abc import Callable
 from math import pi

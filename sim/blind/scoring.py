@@ -1,4 +1,4 @@
-"""How right the answers of a diagnosis are: names, sets, accusations, closure, calibration."""
+"""Scores of a diagnosis: names, sets, accusations, closure, calibration."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -33,12 +33,12 @@ class Outcome:
 
     @property
     def kind(self) -> str:
-        """What kind of case it is: told by the label, or read off it."""
+        """The kind of the case, from its label."""
         return str(self.label.get("kind") or _kind(self.label))
 
     @property
     def floors(self) -> float | None:
-        """Gap in noise floors, or None where the label does not tell."""
+        """Gap in noise floors, or None if the label lacks it."""
         value = self.label.get("floors")
         return None if value is None else float(value)
 
@@ -74,7 +74,7 @@ class Outcome:
 
     @property
     def exact(self) -> bool:
-        """Whether the named causes are those that are there, no more and no fewer."""
+        """Whether the named causes are exactly the true ones."""
         return self.verdict in NAMING and Counter(self.named) == Counter(self.truth)
 
     @property
@@ -210,7 +210,7 @@ def expected_calibration_error(table: FloatArray) -> float:
 
 
 def confusion(outcomes: Iterable[Outcome]) -> dict[tuple[str, str], int]:
-    """Count (what is there, what was named first), over cases with at most one effect."""
+    """Count pairs (true effect, effect named first) over cases with at most one effect."""
     counts: Counter[tuple[str, str]] = Counter()
     for outcome in outcomes:
         if len(outcome.truth) > 1:

@@ -1,4 +1,4 @@
-"""Sensors as the generator makes them: gain, curve, lag, noise, steps, drift, outliers, clock."""
+"""Sensors of the generator: gain, curve, lag, noise, steps, drift, outliers, clock."""
 
 from math import pi
 

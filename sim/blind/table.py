@@ -1,4 +1,4 @@
-"""The figures of the blind test in words: a table for the terminal, a page of Markdown."""
+"""The figures of the blind test as text: a table for the terminal, a page of Markdown."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -39,7 +39,7 @@ HALVES = {
 
 
 def shown(figure: Figure, form: str) -> str:
-    """Return a figure with its interval, or a dash where no case tells."""
+    """Return a figure with its interval, or a dash without a case."""
     if figure.value is None or figure.low is None or figure.high is None:
         return "–"
     if form == "share":

@@ -1,4 +1,4 @@
-"""Runs of a machine that show what its parts do, and size them by it."""
+"""Trial runs of a machine that show and size the effects of its parts."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -140,7 +140,7 @@ def residual_difference(
 
 
 def beyond(values: FloatArray, shapes: Sequence[FloatArray]) -> FloatArray:
-    """Return what is left of ``values`` (rows,) beside the best sum of ``shapes``."""
+    """Return the residual of ``values`` (rows,) after the best sum of ``shapes``."""
     if not shapes:
         return values
     matrix = np.column_stack(shapes)

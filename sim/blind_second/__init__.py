@@ -1,1 +1,1 @@
-"""A second generator of blind cases, by equations that are none of the first one's."""
+"""A second generator of blind cases, with none of the first one's equations."""

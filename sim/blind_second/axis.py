@@ -1,4 +1,4 @@
-"""An axis as this generator sees it, and the course of one record."""
+"""An axis in this generator, and the time course of one record."""
 
 from dataclasses import dataclass
 from typing import NamedTuple

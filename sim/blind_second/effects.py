@@ -1,4 +1,4 @@
-"""What each effect does, in equations of its own: functions of a drawn shape and a size."""
+"""Effects in their own equations: functions of a drawn shape and a size."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace

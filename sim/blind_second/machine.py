@@ -1,4 +1,4 @@
-"""A machine: its axes, their linear mechanics, and what is added to them."""
+"""A machine: its axes, their linear mechanics, and its additions."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ _LEAD_S = 1.0  # for the way to the first command
 
 
 class Motion(NamedTuple):
-    """What is asked for: ``values`` (n, m), SI, one row every ``step_s``, held until the next."""
+    """What is requested: ``values`` (n, m), SI, one row every ``step_s``, held until the next."""
 
     step_s: float
     values: FloatArray

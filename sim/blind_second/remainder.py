@@ -1,4 +1,4 @@
-"""What a machine also does: no catalogue holds it, and it is the same in every run."""
+"""A remainder outside every catalogue, the same in every run."""
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d

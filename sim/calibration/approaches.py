@@ -1,4 +1,4 @@
-"""Where a record's set-point rested, and from which side it had come."""
+"""Rests of a record's set-point, and the direction of each approach."""
 
 from typing import NamedTuple
 

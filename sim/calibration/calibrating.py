@@ -1,4 +1,4 @@
-"""A sensor's calibration from records with a laser: the model, its figures, and what it is worth.
+"""Calibration of a sensor from records with a laser: model, figures, and benefit.
 
 What it is worth is told by runs that were left out of the fit: the correction, made of the other
 runs, is applied to them as a session would. One that does not make them better is refused.
@@ -46,7 +46,7 @@ class Figure(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Calibration:
-    """What the runs tell of one axis' sensor.
+    """The calibration of one axis' sensor from runs.
 
     Attributes
     ----------
@@ -86,9 +86,9 @@ class Calibration:
             return None
         return message(
             "engine",
-            "{axis}: at runs that were left out of the fit the reading's error "
-            "is {after} {unit} rms with the calibration and {before} {same} "
-            "without; it is not better and not used",
+            "{axis}: in the runs left out of the fit the reading's error is {after} {unit} "
+            "rms with the calibration and {before} {same} without; the calibration is not "
+            "better and is not used",
         ).fill(
             axis=self.axis,
             after=rounded(self.after_rms, 4),

@@ -1,4 +1,4 @@
-"""A sensor's reading put right as it comes: causal, portion by portion.
+"""Causal correction of a sensor's reading, portion by portion.
 
 The lag is made good by what the axis moves on meanwhile, ``x = y + T v``, with its speed v from
 the latest readings (a low pass, so that noise is not made larger); the rest is the model turned

@@ -110,7 +110,7 @@ class Gram(NamedTuple):
         )
 
     def solved(self) -> FloatArray:
-        """Return the least squares; what the rows cannot tell is 0."""
+        """Return the least-squares solution; undetermined parameters are 0."""
         scale = _scale(self.matrix)
         inverse = np.linalg.pinv(self.matrix / np.outer(scale, scale), rcond=_TINY, hermitian=True)
         return np.asarray(inverse @ (self.vector / scale) / scale)
@@ -122,7 +122,7 @@ class Gram(NamedTuple):
         return np.asarray(inverse / np.outer(scale, scale))
 
     def mean_square(self, parameters: FloatArray) -> float:
-        """Return the mean square of what parameters leave of the target."""
+        """Return the mean square residual of parameters."""
         left = self.square - 2.0 * parameters @ self.vector + parameters @ self.matrix @ parameters
         return max(float(left), 0.0) / self.rows
 

@@ -1,4 +1,4 @@
-"""What a calibration refuses."""
+"""Errors of a calibration."""
 
 from rotemina.sim.errors import InputError
 

@@ -1,4 +1,4 @@
-"""The fit of a sensor's model to runs: its structure by held-out runs, its figures with intervals.
+"""Fit of a sensor's model to runs: structure by held-out runs, figures with intervals.
 
 A model is as rich as the runs bear out: each part is kept if the runs left out of the fit are
 predicted better with it, by more than the standard error of that gain (Breiman et al.,
@@ -150,7 +150,7 @@ class _Candidate(NamedTuple):
 
 
 def _gains(before: FloatArray, after: FloatArray) -> bool:
-    """Tell whether errors (runs,) fell by more than chance, and by enough to matter."""
+    """Return whether errors (runs,) fell by more than chance, and by enough to matter."""
     fall = before - after
     error = float(fall.std(ddof=1)) / np.sqrt(len(fall))
     return bool(fall.mean() > max(error, _WORTH * float(before.mean())))

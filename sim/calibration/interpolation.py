@@ -1,4 +1,4 @@
-"""The period of an encoder's interpolation error, found in what a smooth model leaves.
+"""The period of an encoder's interpolation error, from the residual of a smooth model.
 
 Where the axis crept, the remainder has lines in its spectrum over position. Powers of the creeping
 stretches are added without their phases (Lomb, Astrophysics and Space Science 39 (1976) 447–462,
@@ -55,7 +55,7 @@ class _Stretches(NamedTuple):
 
 
 def found_period(runs: list[Run], remainders: list[FloatArray]) -> float:
-    """Return the period, m or rad, of what repeats over position; 0 where nothing does."""
+    """Return the period over position, m or rad, or 0 if nothing repeats."""
     stretches = _stretches(runs, remainders)
     if stretches is None:
         return 0.0

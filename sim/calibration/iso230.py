@@ -58,7 +58,7 @@ def positioning(deviations: FloatArray) -> Positioning:
             message(
                 "engine",
                 "each target was approached {shape} times from each side; ISO 230-2 needs "
-                "{iso_runs} runs, a spread {least_runs} at the least",
+                "{iso_runs} runs, a spread at least {least_runs}",
             ).fill(shape=deviations.shape[1], iso_runs=ISO_RUNS, least_runs=LEAST_RUNS)
         )
     mean = deviations.mean(axis=1)

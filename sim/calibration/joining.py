@@ -1,4 +1,4 @@
-"""A laser's own record, with a clock of its own, joined to the record of a machine.
+"""Joining a laser's record, with its own clock, to the record of a machine.
 
 The clocks' difference is found by the motion itself: roughly by correlating the speeds, then by
 least squares of ``reading = a + b · laser(t + s + r t)``. A lag of the sensor goes into s, so it
@@ -37,9 +37,9 @@ def joined(record: Record, laser: Record, axis: str) -> Record:
     """
     if not record.has(axis, Tap.MEAS):
         raise CalibrationError(
-            message("engine", "record: there is no column {axis}.meas to join a laser's with").fill(
-                axis=axis
-            )
+            message(
+                "engine", "record: there is no column {axis}.meas to match with the laser"
+            ).fill(axis=axis)
         )
     tap = next((each for each in (Tap.REF, Tap.CMD) if laser.has(axis, each)), None)
     if tap is None:
@@ -58,8 +58,8 @@ def joined(record: Record, laser: Record, axis: str) -> Record:
         raise CalibrationError(
             message(
                 "engine",
-                "laser: its motion and that of {axis} in the record are not alike at any shift of "
-                "the clocks; join the files of one run",
+                "laser: its motion does not match that of {axis} in the record at any shift "
+                "of the clocks; use the files of one run",
             ).fill(axis=axis)
         )
     names = [name for name in record.columns if name != Channel(axis, Tap.REF)]
@@ -78,7 +78,7 @@ def _coarse(time_s: FloatArray, reading: FloatArray, seen_s: FloatArray, seen: F
         grid_s = np.arange(0.0, own_s[-1], 1.0 / _COARSE_HZ)
         if len(grid_s) < 2:
             raise CalibrationError(
-                message("engine", "a record of less than 20 ms cannot be joined with another")
+                message("engine", "a record of less than 20 ms cannot be matched with another")
             )
         speeds.append(np.gradient(np.interp(grid_s, own_s, signal)))
     answer = correlate(speeds[1], speeds[0])

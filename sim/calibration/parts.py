@@ -37,7 +37,7 @@ class Part(NamedTuple):
 
 
 class Comparison(NamedTuple):
-    """What a record tells of one axis' sensor.
+    """A record's comparison of one axis' sensor with the reference.
 
     ``sound`` (n,) are the rows at which the laser was there; ``losses`` are words.
     """
@@ -130,7 +130,7 @@ def _check(record: Record, axis: str, robot: Robot, name: str) -> None:
     if len(record.time_s) < LEAST_ROWS:
         raise CalibrationError(
             message(
-                "engine", "{name}: {count} rows; a calibration needs {least_rows} at the least"
+                "engine", "{name}: {count} rows; a calibration needs at least {least_rows}"
             ).fill(name=name, count=len(record.time_s), least_rows=LEAST_ROWS)
         )
 
@@ -142,7 +142,7 @@ def _check_travel(travel: float, axis: str, robot: Robot, name: str) -> None:
             message(
                 "engine",
                 "{name}: {axis} travels {travel} by the laser, {share} of its range; a "
-                "calibration needs {least_share}: {least}; move it further",
+                "calibration needs {least_share}: {least}; move it farther",
             ).fill(
                 name=name,
                 axis=axis,
@@ -157,7 +157,7 @@ def _check_travel(travel: float, axis: str, robot: Robot, name: str) -> None:
 def _frozen(
     time_s: FloatArray, reading: FloatArray, reference: FloatArray, moved: float
 ) -> BoolArray:
-    """Tell where the laser repeats one value to the last digit while the sensor goes on."""
+    """Tell where the laser repeats one value to the last digit while the sensor continues."""
     lost = np.zeros(len(time_s), dtype=np.bool_)
     edges = np.flatnonzero(np.diff(reference) != 0.0) + 1
     bounds = np.concatenate([[0], edges, [len(time_s)]])

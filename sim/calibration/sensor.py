@@ -1,4 +1,4 @@
-"""The model of a sensor: what it reads when the axis is somewhere.
+"""The model of a sensor: its reading at each position of the axis.
 
     y = o + (1 + e) q̃ + (1 − ξ²) Σ b_k ξ^k + Σ w_j E_j(q̃) + S₁ sin φ + C₁ cos φ + S₂ … + C₂ …
 

@@ -1,4 +1,4 @@
-"""Stop operators: the part of a motion by which a loop of hysteresis lags behind.
+"""Stop operators: the part of a motion by which hysteresis lags behind.
 
 ``E_r(x) = x − P_r(x)`` with the play ``P_r = max(x − r, min(x + r, P_r))``: it follows x and stops
 at ±r. A weighted sum of them, beside a straight line, is the Prandtl–Ishlinskii model (Kuhnen,
@@ -13,7 +13,7 @@ from rotemina.sim.arrays import FloatArray
 
 @numba.njit(cache=True, error_model="numpy")
 def stops(x: FloatArray, radii: FloatArray, state: FloatArray) -> FloatArray:
-    """Return ``E_r`` (n, k) of x (n,) for radii (k,); ``state`` (k,), the plays, goes on."""
+    """Return ``E_r`` (n, k) of x (n,) for radii (k,); ``state`` (k,), the plays, continues."""
     result = np.empty((len(x), len(radii)))
     for row in range(len(x)):
         for each in range(len(radii)):

@@ -1,4 +1,4 @@
-"""What no calibration removes: a zero that wanders with time, not with the axis."""
+"""A drifting zero, which depends on time, not on the axis, and cannot be calibrated."""
 
 import numpy as np
 
@@ -37,8 +37,7 @@ def zero_drifts(runs: list[Run], remainders: list[FloatArray], unit: str) -> lis
     return [
         message(
             "engine",
-            "the zero drifts by {drift} rms while the runs last: it goes with "
-            "time and not with the axis, and no calibration removes it; warm up, "
-            "or calibrate often",
+            "the zero drifts by {drift} rms during the runs: it depends on time, not on the "
+            "axis, and no calibration removes it; warm up, or calibrate often",
         ).fill(drift=drift)
     ]

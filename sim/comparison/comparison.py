@@ -1,4 +1,4 @@
-"""How far the nominal model is from a record of the real machine, tap by tap."""
+"""Deviation of the nominal model from a record of the real machine, tap by tap."""
 
 from collections.abc import Collection
 from dataclasses import asdict, dataclass

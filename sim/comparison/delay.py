@@ -1,4 +1,4 @@
-"""How much later a real signal comes than the modelled one."""
+"""The delay of a real signal relative to the modelled one."""
 
 import numpy as np
 import scipy

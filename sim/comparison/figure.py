@@ -1,4 +1,4 @@
-"""A picture of a comparison: model and real on the left, what is left between them on the right."""
+"""A picture of a comparison: model and real on the left, their difference on the right."""
 
 from pathlib import Path
 from typing import BinaryIO
@@ -23,7 +23,7 @@ _ROW_INCHES = 2.1
 
 
 def save_figure(comparison: Comparison, path: Path) -> None:
-    """Write the picture, whole or not at all; the name's ending tells its format.
+    """Write the picture, completely or not at all; the name's ending sets its format.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def format_of(path: Path) -> str:
     """
     if path.suffix.lower() not in FORMATS:
         raise InputError(
-            message("engine", "{path}: a picture's name ends in {names}").fill(
+            message("engine", "{path}: the name of a picture must end in {names}").fill(
                 path=path, names=", ".join(FORMATS)
             )
         )

@@ -51,7 +51,7 @@ def moving(time_s: FloatArray, command: FloatArray) -> BoolArray:
 def gap_figure(
     counted: BoolArray, measured: FloatArray, model: FloatArray, nominal: FloatArray | None = None
 ) -> GapFigure | None:
-    """Return the gap of one axis over the samples that count; None where there are none.
+    """Return the gap of one axis over the counted samples, or None.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ _IMPULSE_ROWS = 4000  # samples after which a controller's answer to one noise s
 
 
 class NoiseFloor(NamedTuple):
-    """Root mean square of what no model can explain, in the tap's SI unit, and where it is from.
+    """The unexplainable rms in the tap's SI unit, and its source.
 
     ``source`` is ``"declared"``, ``"at rest"``, ``"period to period"``, or None with no ``rms``.
     """
@@ -111,7 +111,7 @@ def _at_rest(record: Record, axis: str, tap: Tap) -> float | None:
 
 
 def _was_measured(floor: float, signal: FloatArray) -> bool:
-    """Tell whether what scatters is noise: a computed signal has none but its rounding."""
+    """Return whether what scatters is noise: a computed signal has none but its rounding."""
     return floor > _ROUNDING * float(np.abs(signal).max())
 
 

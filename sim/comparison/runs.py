@@ -1,4 +1,4 @@
-"""Two runs of a machine compared as a run and a model are: tap by tap, and along the tip's path."""
+"""Comparison of two runs of a machine: tap by tap, and along the tip's path."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -56,9 +56,8 @@ def compare_runs(robot: Robot, run: Record, other: Record) -> RunComparison:
             raise InputError(
                 message(
                     "engine",
-                    "axis {axis} is in {unit} in one run and in {other_unit} in the other; these "
-                    "are "
-                    "not of one machine",
+                    "axis {axis} is in {unit} in one run and in {other_unit} in the other; "
+                    "the runs are from different machines",
                 ).fill(axis=axis, unit=run.units[axis], other_unit=other.units[axis])
             )
     kept = [c for c in run.columns if c in common or c.tap is Tap.CMD]

@@ -19,7 +19,7 @@ HEAD = (
 
 
 def table(comparison: Comparison, wording: Wording | None = None) -> str:
-    """Return the figures as aligned text, with a head line; in English unless told otherwise."""
+    """Return the figures as aligned text with a head line; in English by default."""
     wording = wording or Wording()
     head = [wording.text("engine", text) for text in HEAD]
     return aligned([head, *([wording.shown(c) for c in cells(tap)] for tap in comparison.taps)])

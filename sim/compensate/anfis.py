@@ -1,4 +1,4 @@
-"""An adaptive neuro-fuzzy inference system of Takagi and Sugeno's kind, trained as Jang does.
+"""An adaptive neuro-fuzzy inference system (Takagi and Sugeno), trained after Jang.
 
     x = Σ_r φ_r (a_r0 + a_r1 z + Σ_j a_r,j+1 E_j),   φ_r = Π_i μ_ri(v_i) / Σ_s Π_i μ_si(v_i)
 
@@ -100,9 +100,9 @@ def train(
         raise ConvergenceError(
             message(
                 "engine",
-                "ANFIS: the training did not converge: after {count} epochs it leaves {error} rms "
-                "of commands that vary by {spread}; nothing was replaced. Record slower motions "
-                "over the whole range, or take another kind",
+                "ANFIS: the training did not converge: after {count} epochs it leaves "
+                "{error} rms of commands that vary by {spread}; nothing was replaced. Record "
+                "slower motions over the whole range, or use another kind",
             ).fill(count=len(history), error=rounded(error, 3), spread=rounded(spread, 3))
         )
     return Anfis(Premises(plays, grid[0], grid[1]), consequents, history)

@@ -1,9 +1,9 @@
-"""A sweep after which an inverse and its axis have the same past.
+"""A sweep that gives an inverse and its axis the same history.
 
 An inverse that is put on does not know what its axis went through, which decides where an axis with
 hysteresis stands. A swing through the inverse over all that it saw wipes out what was before, in
 the axis and in the inverse alike (Mayergoyz, "Mathematical Models of Hysteresis" (1991), sec. 1.2).
-What creeps goes on creeping.
+What creeps continues creeping.
 """
 
 from math import inf, isfinite
@@ -28,7 +28,7 @@ _SLACK = 1e-3  # of the span
 
 
 def conditioning(robot: Robot, model: InverseModel, start: float) -> Record:
-    """Return a way from ``start`` (m or rad) to the high end, to the low end, and to it again.
+    """Return a path from ``start`` (m or rad) to the high end, the low end, and back.
 
     It is to be played with the inverse on. It turns as near to the ends of what the inverse saw
     as commands stay inside the machine's range; the axis' speed and acceleration are kept.
@@ -47,8 +47,8 @@ def conditioning(robot: Robot, model: InverseModel, start: float) -> Record:
         raise CompensationError(
             message(
                 "engine",
-                "axis {axis}: a sweep from {start}: it must begin between {low} and {high}, its "
-                "range as far as its inverse saw it",
+                "axis {axis}: a sweep from {start}: must begin between {low} and {high}, the "
+                "training range of its inverse",
             ).fill(
                 axis=model.axis,
                 start=exact(start, model.unit, size=high),

@@ -8,4 +8,4 @@ class CompensationError(InputError):
 
 
 class ConvergenceError(CompensationError):
-    """A training that did not converge; nothing takes the place of what was there."""
+    """A training that did not converge; the previous result is kept."""

@@ -141,7 +141,7 @@ class _Document(_Strict):
 
 
 def write_trained(path: str | PathLike[str], trained: Trained, provenance: Provenance) -> None:
-    """Write the file, whole or not at all.
+    """Write the file, completely or not at all.
 
     Raises
     ------
@@ -203,7 +203,7 @@ def read_trained(path: str | PathLike[str]) -> tuple[Trained, Provenance]:
         place = ".".join(map(str, first["loc"])) or marked("engine", "the file")
         raise CompensationError(
             message(
-                "engine", "{name}: {place}: {first}; train it anew, or take an unchanged copy"
+                "engine", "{name}: {place}: {first}; train it again, or use an unchanged copy"
             ).fill(name=name, place=place, first=first["msg"])
         ) from error
     models = {each.kind: _model(document, each) for each in document.inverses}

@@ -1,4 +1,4 @@
-"""An inverse for a device that only holds set-points and runs between them at its own ramps.
+"""An inverse for a device that holds set-points and moves between them at its own ramps.
 
 Nobody asks it at every tick, so lag and resonance are left out, and creep is that of a set-point
 which stands for :data:`SETTLED_S`: relaxations up to that time have settled, slower ones have not
@@ -83,7 +83,7 @@ class HeldInverse:
         return out
 
     def rate(self, target: float) -> float:
-        """Return by what a speed on the way to a target is to be multiplied.
+        """Return the factor for a speed on the way to a target.
 
         It is the least slope of the map there: the axis goes nowhere faster than is wanted.
         """
@@ -97,7 +97,7 @@ class HeldInverse:
         return float(slopes.min()) if len(slopes) else 1.0
 
     def walked(self, path: FloatArray, sent: float) -> Self:
-        """Go on from the end of a path (n,) of wanted positions that brought ``sent`` about.
+        """Continue from the end of a path (n,) of wanted positions that brought ``sent`` about.
 
         What ``sent`` differs by from a held set-point there, mostly slow creep, stays as an offset.
         """

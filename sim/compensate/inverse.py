@@ -1,4 +1,4 @@
-"""An inverse at work: the command that brings a desired position about, sample by sample.
+"""An inverse in operation: the command for a desired position, sample by sample.
 
     inverse = Inverse(model, sample_s=1e-3)
     command = inverse.step(desired)      # one sample; never waits, about a microsecond
@@ -80,7 +80,7 @@ class Inverse:
 
     @property
     def state(self) -> FloatArray:
-        """A copy of the memory; setting it goes on from there."""
+        """A copy of the memory; setting it continues from there."""
         return self._state.copy()
 
     @state.setter
@@ -89,8 +89,8 @@ class Inverse:
             raise CompensationError(
                 message(
                     "engine",
-                    "inverse of axis {axis}: a state of shape {shape} with finite numbers must "
-                    "have shape {state_shape}; take one of this inverse",
+                    "inverse of axis {axis}: a state of shape {shape} with finite numbers "
+                    "must have shape {state_shape}; use a state of this inverse",
                 ).fill(
                     axis=self.model.axis,
                     shape=str(np.shape(state)),

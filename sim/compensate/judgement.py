@@ -1,4 +1,4 @@
-"""How far an inverse is from what was commanded, and which of several is recommended."""
+"""The error of an inverse's commands, and the recommendation of one."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -25,7 +25,7 @@ NAMES: dict[Kind, str] = {
 
 @dataclass(frozen=True, slots=True)
 class Residual:
-    """What is left between the command of an inverse and the one that was given.
+    """The difference between the command of an inverse and the recorded one.
 
     Attributes
     ----------
@@ -73,8 +73,8 @@ def residual(model: InverseModel, runs: Sequence[tuple[Samples, int]]) -> Residu
         raise CompensationError(
             message(
                 "engine",
-                "axis {axis}: no row lies within {low} to {high}, which the inverse was trained "
-                "on; judge it on such a record, or train it on a wider one",
+                "axis {axis}: no row lies within {low} to {high}, the training range of the "
+                "inverse; use such a record for the check, or train with a wider one",
             ).fill(
                 axis=model.axis, low=exact(low, model.unit, size=high), high=exact(high, model.unit)
             )
@@ -125,8 +125,8 @@ def reason(residuals: Mapping[Kind, Residual], chosen: Kind) -> Message:
         said.append(
             message(
                 "engine",
-                "All swings are of one size, so that richer kinds would guess at other sizes: "
-                "train on swings that grow or fade.",
+                "All swings have one size, so richer kinds would only guess at other sizes: "
+                "train with swings that grow or fade.",
             )
         )
     elif residuals[chosen].rms > least:

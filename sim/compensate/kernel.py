@@ -37,7 +37,7 @@ class Numbers(NamedTuple):
 
 @numba.njit(cache=True, error_model="numpy")
 def advance(numbers: Numbers, state: FloatArray, desired: float) -> tuple[float, int]:
-    """Return the command of the next sample, SI, and what is said of it; ``state`` goes on."""
+    """Return the command of the next sample, SI, and what is said of it; ``state`` continues."""
     fixed = numbers.fixed
     said = 0
     if desired < fixed[3]:

@@ -1,4 +1,4 @@
-"""Lag and creep of an axis, found together with its hysteresis by variable projection.
+"""Lag and creep of an axis, fitted together with its hysteresis by variable projection.
 
 What is linear in its coefficients (the stops of the position) is solved for at every trial of what
 is not (Golub and Pereyra, Inverse Problems 19 (2003) R1–R26).

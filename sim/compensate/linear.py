@@ -1,4 +1,4 @@
-"""The inverse that knows of no memory: a straight line from the position to the command."""
+"""The inverse without memory: a straight line from position to command."""
 
 import numpy as np
 

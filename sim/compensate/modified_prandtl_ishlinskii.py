@@ -1,4 +1,4 @@
-"""The modified form: one-sided dead zones behind the plays, for loops that are bent or saturate.
+"""The modified form: one-sided dead zones after the plays, for bent or saturating loops.
 
     y = S[H[x]],   S⁻¹(y) = offset + b₀ y + Σ b_j max(y − d_j, 0),  increasing
 

@@ -1,4 +1,4 @@
-"""What an inverse is trained and judged on: commands and the positions that they brought about."""
+"""Samples for training and checking an inverse: commands and resulting positions."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -114,8 +114,9 @@ def _sample_s(time_s: FloatArray, name: str) -> float:
         raise CompensationError(
             message(
                 "engine",
-                "{name}: row {row} comes {lengths} s after the one before, others {sample_s} s; an "
-                "inverse needs even time: resample the record (rotemina convert)",
+                "{name}: row {row} comes {lengths} s after the previous one, others "
+                "{sample_s} s; an inverse needs evenly spaced rows: resample the record "
+                "(rotemina convert)",
             ).fill(
                 name=name,
                 row=row,
@@ -135,7 +136,7 @@ def _known_from(command: FloatArray) -> int:
 
 
 def one_size(samples: Sequence[Samples]) -> bool:
-    """Tell whether nearly all swings of the commands are of one size.
+    """Return whether nearly all swings of the commands are of one size.
 
     Then they cannot tell how a loop grows with its size, nor apart what comes late and what turns
     late: an inverse rich enough to follow that loop would only guess at others.

@@ -1,4 +1,4 @@
-"""Inverses of all kinds from the same rows, judged side by side on rows that none of them saw."""
+"""Inverses of all kinds from the same rows, compared on rows that none was trained with."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ _FAR = 0.2  # of the range: so far outside it a position has an origin of its ow
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trained:
-    """What came of a training.
+    """The result of a training.
 
     Attributes
     ----------
@@ -86,8 +86,8 @@ def train(
         raise CompensationError(
             message(
                 "engine",
-                "{name}: axis {axis}: less than {fewest} rows are left to train on, after the "
-                "first swing over the whole range; record longer",
+                "{name}: axis {axis}: fewer than {fewest} rows are left to train on, after "
+                "the first swing over the whole range; record longer",
             ).fill(name=first.name, axis=first.axis, fewest=_FEWEST)
         )
     axis = robot.axes[first.axis]

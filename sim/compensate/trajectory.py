@@ -1,4 +1,4 @@
-"""A trajectory sent through inverses: what a machine is told so that it goes as it should."""
+"""A trajectory sent through inverses: the commands that produce the desired motion."""
 
 from collections.abc import Mapping
 
@@ -12,7 +12,7 @@ from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
-from rotemina.sim.trajectory.violations import commands_of
+from rotemina.sim.trajectory.validation import commands_of
 
 _UNEVEN = 1e-3  # of a row's interval
 
@@ -52,16 +52,16 @@ def compensated(
             raise CompensationError(
                 message(
                     "engine",
-                    "inverse of axis {axis}: the trajectory commands {names}; it must command this "
-                    "piezo axis, or take the inverse of another one",
+                    "inverse of axis {axis}: the trajectory commands {names}; it must "
+                    "command this piezo axis, or use the inverse of another one",
                 ).fill(axis=axis, names=", ".join(commands))
             )
         if f"compensation {axis}" in metadata:
             raise CompensationError(
                 message(
                     "engine",
-                    "axis {axis}: the trajectory went through an inverse before ({metadata}); take "
-                    "the one that was wanted at first",
+                    "axis {axis}: the trajectory is already compensated ({metadata}); use "
+                    "the original one",
                 ).fill(axis=axis, metadata=metadata[f"compensation {axis}"])
             )
         commands[axis] = _sent(model, commands[axis], sample_s, preview=preview)
@@ -123,7 +123,7 @@ def _sample_s(time_s: FloatArray) -> float:
     lengths = np.diff(time_s)
     if len(lengths) == 0:
         raise CompensationError(
-            message("engine", "trajectory: it has one row; an inverse needs a path of several")
+            message("engine", "trajectory: it has only one row; an inverse needs a path of several")
         )
     sample_s = float(np.median(lengths))
     uneven = np.abs(lengths - sample_s) > _UNEVEN * sample_s
@@ -132,8 +132,8 @@ def _sample_s(time_s: FloatArray) -> float:
         raise CompensationError(
             message(
                 "engine",
-                "trajectory: row {row} comes {lengths} s after the one before, others {sample_s} "
-                "s; an inverse needs even time: resample the trajectory",
+                "trajectory: row {row} comes {lengths} s after the previous one, others "
+                "{sample_s} s; an inverse needs evenly spaced rows: resample the trajectory",
             ).fill(row=row, lengths=rounded(lengths[row - 1], 6), sample_s=rounded(sample_s, 6))
         )
     return sample_s

@@ -1,4 +1,4 @@
-"""Bandwidth of an amplifier: fast changes come late and small.
+"""Bandwidth of an amplifier: fast changes arrive late and attenuated.
 
 The parameter is a time constant τ, not a bandwidth ``1/(2πτ)``: the effect starts in proportion to
 τ, and τ = 0 is exactly an amplifier without lag. A fit needs no infinity for that.

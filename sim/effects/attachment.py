@@ -1,4 +1,4 @@
-"""Effects on the axes of a robot: what a robot file says of them, checked.
+"""Effects on the axes of a robot: the entries of a robot file, checked.
 
 In a robot file::
 
@@ -177,15 +177,15 @@ def _check_place(effect: Effect, formulation: Formulation, axis: Axis, where: st
             raise EffectError(
                 message(
                     "engine",
-                    "{where}{what}: sits on an axis of kind {names}; this one is of kind {kind}",
+                    "{where}{what}: acts on axes of kind {names}; this one is of kind {kind}",
                 ).fill(where=where, what=what, names=", ".join(sorted(kinds)), kind=repr(axis.kind))
             )
     if axis.static and isinstance(formulation.acts, Force | Change):
         raise EffectError(
             message(
                 "engine",
-                "{where}: formulation {name} acts on the dynamics of an axis, and this one is "
-                "static; give it mass, damping and stiffness or choose another formulation",
+                "{where}: formulation {name} acts on the dynamics of an axis, but this one "
+                "is static; give it mass, damping and stiffness, or choose another formulation",
             ).fill(where=where, name=repr(formulation.name))
         )
 

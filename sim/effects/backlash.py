@@ -1,4 +1,4 @@
-"""Backlash: at a reversal the table stays behind until the play is used up.
+"""Backlash: at a reversal the table stays in place until the play is taken up.
 
 The play may lie behind the springs of the axis (``rigid``, ``compliant``), or in the screw before
 them (``screw``): then the table, once it is taken along, rings as after any step.

@@ -1,4 +1,4 @@
-"""Transport delay: everything happens later, and nothing else."""
+"""Transport delay: everything happens later, otherwise unchanged."""
 
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,

@@ -1,4 +1,4 @@
-"""What an effect may know of the axis that it sits on."""
+"""Facts about the axis of an effect that the effect may use."""
 
 from dataclasses import dataclass
 from math import pi, sqrt

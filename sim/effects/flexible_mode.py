@@ -1,4 +1,4 @@
-"""A further mode of vibration, which the nominal model of the axis lacks."""
+"""A further vibration mode that the axis' nominal model lacks."""
 
 import numpy as np
 
@@ -36,8 +36,9 @@ def _appendage(values: Values, facts: Facts) -> LinearPart:
         raise EffectError(
             message(
                 "engine",
-                "flexible_mode: formulation 'appendage' pulls on the mass of an axis, and this "
-                "axis is static; give it mass, damping and stiffness or choose another formulation",
+                "flexible_mode: formulation 'appendage' pulls on the mass of an axis, but "
+                "this axis is static; give it mass, damping and stiffness, or choose another "
+                "formulation",
             )
         )
     rate, loss = _oscillator(values)

@@ -1,4 +1,4 @@
-"""What an effect is made of: its parameters, and what it does to a signal.
+"""The parts of an effect: its parameters, and its action on a signal.
 
 An :class:`Effect` has one or several :class:`Formulation`, each the same effect by other
 equations. A formulation *acts* in one of these ways:
@@ -332,7 +332,7 @@ class Effect:
     api_version: int = API_VERSIONS["rotemina.effects"]
 
     def formulation(self, name: str | None = None) -> Formulation | None:
-        """Return a formulation by name, by default the usual one; None if there is none."""
+        """Return a formulation by name, by default the usual one, or None."""
         if name is None:
             return self.formulations[0]
         return next((f for f in self.formulations if f.name == name), None)

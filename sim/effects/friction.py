@@ -1,4 +1,4 @@
-"""Friction in guides and screw: a force against motion, and against its beginning."""
+"""Friction in guides and screw: a force against motion and its onset."""
 
 from collections.abc import Iterator
 from dataclasses import replace

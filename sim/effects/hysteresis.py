@@ -1,4 +1,4 @@
-"""Hysteresis of a piezo: the way up differs from the way down at any speed.
+"""Hysteresis of a piezo: rising and falling paths differ at any speed.
 
 The gain from end to end of the range stays 1 (approximately if the loop is bent, or ℓ is not short
 compared with the range), which separates hysteresis from a gain error. A run starts as after a

@@ -1,4 +1,4 @@
-"""What a fit must know of an effect, besides its equations, to find it in records.
+"""Information that a fit needs to find an effect in records, besides its equations.
 
 Each effect itself provides the start of a fit, the domain of its parameters, and the parameters of
 a single record, so effects of plugins are found like built-in ones.
@@ -81,7 +81,7 @@ class View(Protocol):
 
     @property
     def answers(self) -> Sequence[Signals]:
-        """What the model says of each record (n,) so far, SI: takes a simulation."""
+        """The model's answer for each record (n,), SI; runs a simulation."""
 
     @property
     def unbent(self) -> tuple[Sequence[Signals], Sequence[Signals]]:
@@ -157,7 +157,7 @@ class Identification:
     fitted : bool
         Whether it can be fitted to a response, and not only be found by its sign.
     scout : str, optional
-        The formulation that is looked at first where none is quick to simulate.
+        The formulation that is examined first where none is quick to simulate.
     from_other : callable, optional
         Makes parameters of another formulation, as fitted, those from which this one begins.
     lateness_s : callable, optional

@@ -1,4 +1,4 @@
-"""Lost steps: a stepper that is asked too much falls into a later detent, four full steps off."""
+"""Lost steps: an overloaded stepper falls into a later detent, four full steps off."""
 
 import numpy as np
 

@@ -50,7 +50,7 @@ def effect_named(effect_id: str) -> Effect:
         meant = f"did you mean {near[0]!r}? " if near else ""
         known = ", ".join(sorted(_points()))
         raise EffectError(
-            message("engine", "there is no effect {effect_id}; {meant}there are {known}").fill(
+            message("engine", "there is no effect {effect_id}; {meant}available: {known}").fill(
                 effect_id=repr(effect_id), meant=meant, known=known
             )
         )
@@ -58,7 +58,7 @@ def effect_named(effect_id: str) -> Effect:
         effect = load(point)
         if not isinstance(effect, Effect):
             raise EffectError(
-                message("engine", "effect {effect_id} ({value}) is no Effect").fill(
+                message("engine", "effect {effect_id} ({value}) is not an Effect").fill(
                     effect_id=repr(effect_id), value=point.value
                 )
             )
@@ -71,7 +71,7 @@ def effect_named(effect_id: str) -> Effect:
         ) from error
     if effect.id != effect_id:
         raise EffectError(
-            message("engine", "effect {effect_id} ({value}) calls itself {id}").fill(
+            message("engine", "effect {effect_id} ({value}) has the id {id}").fill(
                 effect_id=repr(effect_id), value=point.value, id=repr(effect.id)
             )
         )

@@ -1,4 +1,4 @@
-"""The resonance is not where the model has it, or not as sharp."""
+"""A resonance whose frequency or sharpness differs from the model's."""
 
 from dataclasses import replace
 
@@ -31,8 +31,8 @@ def detuned(values: Values, axis: Axis) -> Axis:
         raise EffectError(
             message(
                 "engine",
-                "resonance_mismatch: nothing holds this axis, so it has no resonance; give it "
-                "mass, damping and stiffness or take the effect away",
+                "resonance_mismatch: nothing holds this axis, so it has no resonance; give "
+                "it mass, damping and stiffness, or remove the effect",
             )
         )
     faster = 1.0 + values["frequency_error"]

@@ -1,4 +1,4 @@
-"""Saturation: the output ends before the range of its input does."""
+"""Saturation: the output ends before the range of the input."""
 
 from collections.abc import Iterator, Sequence
 

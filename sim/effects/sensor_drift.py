@@ -1,4 +1,4 @@
-"""A sensor whose zero wanders, though nothing moves."""
+"""A sensor whose zero wanders while nothing moves."""
 
 import numpy as np
 

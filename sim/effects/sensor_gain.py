@@ -1,4 +1,4 @@
-"""A sensor whose sensitivity is not what its data sheet says."""
+"""A sensor whose sensitivity differs from its data sheet."""
 
 from rotemina.sim.effects.formulation import (
     EVERY_KIND,

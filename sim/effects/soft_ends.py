@@ -1,4 +1,4 @@
-"""Where and how softly an amplifier ends, read from the voltages that it gave."""
+"""The saturation of an amplifier, estimated from its output voltages."""
 
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ _BEYOND = (0.02, 0.3)  # of what was seen, that an end may lie further out
 
 
 class Bend(NamedTuple):
-    """The ends of an amplifier's output, V, and the softness with which it comes to them."""
+    """The limits of an amplifier's output, V, and their softness."""
 
     low: float
     high: float

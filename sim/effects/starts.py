@@ -1,4 +1,4 @@
-"""Where fits of several effects begin: in sizes, along a way, at lines of a spectrum."""
+"""Start parameters of fits for several effects: in sizes, along a path, at spectral lines."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 

@@ -1,4 +1,4 @@
-"""Step functions: the form in which an effect is written, compiled, and called by the plant.
+"""Step functions: the form of an effect's equations, compiled and called by the plant.
 
 A step function is plain Python on floats that numba can compile::
 
@@ -12,10 +12,10 @@ change. ``t`` is the time since the run began, s. What ``h``, ``other``, ``a`` a
 said by the place in the signal chain (:mod:`rotemina.sim.effects.formulation`).
 
 Memory outlives a change of parameters in mid-run, so figures that are worked out once and kept in
-``s`` must be worked out anew for another ``p``.
+``s`` must be worked out again for another ``p``.
 
 All step functions have one machine signature and are called through their address. So one
-compiled plant serves every robot and every effect, a third party's too, with no compilation anew.
+compiled plant serves every robot and every effect, a third party's too, with no compilation again.
 """
 
 from collections.abc import Callable, MutableSequence, Sequence

@@ -1,4 +1,4 @@
-"""A trajectory put together from the signals of its axes."""
+"""Assembly of a trajectory from the signals of its axes."""
 
 from collections.abc import Mapping
 from math import lcm

@@ -1,4 +1,4 @@
-"""The making of one axis' excitation: what the axis allows, and what was reduced to fit."""
+"""A draft of one axis' excitation: the limits of the axis, and the reductions to fit."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.excitation.moves import shortest_duration
 from rotemina.sim.excitation.quantity import Amount, ExcitationError, Share
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Listed, Message, message
 from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.robot.model import Axis, PiezoAxis
 from rotemina.sim.trajectory.limits import voltage_bounds
@@ -35,17 +35,23 @@ class Adjustment:
     cause: str
 
     @property
-    def message(self) -> str:
+    def message(self) -> Message:
         """What changed, by how much, and why."""
-        asked = exact(self.asked, self.unit)
-        used = exact(self.used, self.unit, size=self.asked)
-        factor = f"{self.used / self.asked:.4g}"
-        return f"axis {self.axis}: {self.parameter} {asked} → {used} (× {factor}), for {self.cause}"
+        return message(
+            "engine", "axis {axis}: {parameter} {asked} → {used} (× {factor}), for {cause}"
+        ).fill(
+            axis=self.axis,
+            parameter=self.parameter,
+            asked=exact(self.asked, self.unit),
+            used=exact(self.used, self.unit, size=self.asked),
+            factor=rounded(self.used / self.asked),
+            cause=self.cause,
+        )
 
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """What one axis is told: positions (n,) at the rate, m or rad.
+    """The commands of one axis: positions (n,) at the rate, m or rad.
 
     ``period`` is the rows after which it repeats, or None; ``parameters`` are those used.
     """
@@ -160,7 +166,7 @@ class Draft:
         share = isinstance(asked, Share)
         value = self.low + asked.of_whole * self.span if isinstance(asked, Share) else asked
         if not (isfinite(value) and self.low < value < self.high):
-            stated = f"{100 * asked.of_whole:.6g} %" if isinstance(asked, Share) else value
+            stated = f"{rounded(100 * asked.of_whole, 6)} %" if isinstance(asked, Share) else value
             said = stated if share else exact(value, self.unit, size=self.high)
             raise ExcitationError(
                 message(
@@ -178,7 +184,7 @@ class Draft:
     def amplitude(
         self, asked: Amount | None, offset: float, allowed: Mapping[str, float] | None = None
     ) -> float:
-        """Return the way to each side of ``offset``, m or rad, within the range and ``allowed``.
+        """Return the amplitude about ``offset``, m or rad, within the range and ``allowed``.
 
         Raises
         ------
@@ -188,7 +194,8 @@ class Draft:
         room = min(offset - self.low, self.high - offset)
         most = {self._range_cause(): room, **(allowed or {})}
         if self.most < inf:
-            most[f"{self._range_cause()} of the motion that the model predicts"] = self.most
+            predicted = message("engine", "{range} of the motion that the model predicts")
+            most[predicted.fill(range=self._range_cause())] = self.most
         self.reach = self._reach(asked, most)
         return self.reach
 
@@ -220,22 +227,26 @@ class Draft:
             allowed[self.acceleration_cause()] = self.acceleration / peak
         return allowed
 
-    def stroke_cause(self) -> str:
+    def stroke_cause(self) -> Message:
         """Name the limits of a move from rest to rest."""
-        causes = []
+        causes: list[str] = []
         if self.speed < inf:
             causes.append(self.speed_cause())
         if self.acceleration < inf:
             causes.append(self.acceleration_cause())
-        return " and ".join(causes) or "the limits"
+        if not causes:
+            return message("engine", "the limits")
+        return Message("", "{limits}", (("limits", Listed(tuple(causes))),))
 
-    def speed_cause(self) -> str:
+    def speed_cause(self) -> Message:
         """Name the limit of speed."""
-        return f"the speed limit {exact(self.speed, self.unit + '/s')}"
+        limit = exact(self.speed, self.unit + "/s")
+        return message("engine", "the speed limit {limit}").fill(limit=limit)
 
-    def acceleration_cause(self) -> str:
+    def acceleration_cause(self) -> Message:
         """Name the limit of acceleration."""
-        return f"the acceleration limit {exact(self.acceleration, self.unit + '/s²')}"
+        limit = exact(self.acceleration, self.unit + "/s²")
+        return message("engine", "the acceleration limit {limit}").fill(limit=limit)
 
     def top_speed(self) -> float:
         """Return the speed limit, or where none is declared the range in a second."""
@@ -324,9 +335,10 @@ class Draft:
         self.adjustments.append(Adjustment(self.axis, parameter, asked, used, unit, cause))
         return used
 
-    def _range_cause(self) -> str:
+    def _range_cause(self) -> Message:
         low = exact(self.low, self.unit, size=self.high or self.low)
-        return f"the range {low} to {exact(self.high, self.unit, size=self.high or self.low)}"
+        high = exact(self.high, self.unit, size=self.high or self.low)
+        return message("engine", "the range {low} to {high}").fill(low=low, high=high)
 
 
 def natural_frequency(axis: Axis) -> float | None:

@@ -1,4 +1,4 @@
-"""From excitations of single axes to a trajectory that the machine may play."""
+"""Generation of a playable trajectory from excitations of single axes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
 from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.violations import Quantity, Violation
+from rotemina.sim.trajectory.validation import Quantity, Violation
 
 _PER_RESONANCE = 4.0  # rows in a period of the fastest resonance, at the default rate
 _RATES_HZ = (1_000.0, 2_000.0, 5_000.0, 10_000.0)
@@ -99,7 +99,7 @@ def excite(
         If the model predicts a motion beyond the range whatever the amplitude.
     """
     if not plan:
-        raise ExcitationError(message("engine", "excitation: no axis is named; name one at least"))
+        raise ExcitationError(message("engine", "excitation: no axis is named; name at least one"))
     _check_names(robot, plan)
     rate = default_rate(robot, plan) if rate_hz is None else rate_hz
     _check_rate(robot, plan, rate)
@@ -190,7 +190,7 @@ def _check_rate(robot: Robot, plan: Mapping[str, Kind], rate_hz: float) -> None:
             raise ExcitationError(
                 message(
                     "engine",
-                    "axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device would "
-                    "stand between rows and jump, beyond its speed and acceleration",
+                    "axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device "
+                    "would rest between rows and jump, which exceeds its speed and acceleration",
                 ).fill(name=name, rate_hz=rounded(rate_hz, 6), slowest_hz=rounded(_SLOWEST_HZ, 6))
             )

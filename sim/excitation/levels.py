@@ -1,4 +1,4 @@
-"""Excitations that go from level to level: staircase, S-curve steps and PRBS."""
+"""Excitations between levels: staircase, S-curve steps and PRBS."""
 
 from dataclasses import dataclass
 from math import inf
@@ -118,7 +118,9 @@ class Steps:
             return max(_RISE_S, needed)
         if needed <= self.rise_s * (1.0 + 1e-9):
             return self.rise_s
-        cause = draft.stroke_cause() if jerk == inf else f"{draft.stroke_cause()} and the jerk"
+        cause = draft.stroke_cause()
+        if jerk < inf:
+            cause = message("engine", "{limits} and the jerk").fill(limits=cause)
         return draft.at_least("rise", self.rise_s, needed, "s", cause)
 
 

@@ -1,4 +1,4 @@
-"""Moves from rest to rest within a speed and an acceleration: what many excitations consist of.
+"""Moves from rest to rest within speed and acceleration limits, used by many excitations.
 
 Between two rows the judge of limits sees a second difference; it never exceeds the greatest
 acceleration of a continuous motion with continuous speed, so these bounds hold at any rate.
@@ -32,7 +32,7 @@ def longest_stroke(duration_s: float, speed: float, acceleration: float) -> floa
 
 
 def shortest_duration(stroke: float, speed: float, acceleration: float) -> float:
-    """Return the least time for a way (>= 0) from rest to rest, s; 0 where nothing binds."""
+    """Return the least time for a distance (>= 0) from rest to rest, s; 0 without limits."""
     if speed == inf or stroke * acceleration <= speed**2:
         return 2.0 * sqrt(stroke / acceleration)
     return stroke / speed + speed / acceleration

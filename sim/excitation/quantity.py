@@ -1,4 +1,4 @@
-"""Amounts as users state them: ``200urad``, ``5 um``, ``1 mm/s`` or ``30%`` of an axis."""
+"""Amounts as typed by users: ``200urad``, ``5 um``, ``1 mm/s`` or ``30%`` of an axis."""
 
 import re
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ class ExcitationError(InputError):
 
 @dataclass(frozen=True, slots=True)
 class Share:
-    """A share of what an axis has: ``Share(0.3)`` is 30 % of its range, or of its top speed."""
+    """A share of an axis' capability: ``Share(0.3)`` is 30 % of its range, or of its top speed."""
 
     of_whole: float
 

@@ -181,7 +181,7 @@ class Multisine:
         check_count(0, 1000, detection=self.detection)
         if self.detection == 1:
             raise ExcitationError(
-                message("engine", "detection = 1: would leave out every line; use 0 or 2 and more")
+                message("engine", "detection = 1: would leave out every line; use 0, or 2 or more")
             )
         if not abs(self.slope) <= 4.0:
             raise ExcitationError(

@@ -1,4 +1,4 @@
-"""One axis under a controller, simulated with all that its robot file and effects say.
+"""One axis under a controller, simulated with its robot file and effects.
 
 The plant is the engine's own (:mod:`rotemina.sim.plant`), stepped from sample to sample as a live
 one is; the controller is the one that runs live.

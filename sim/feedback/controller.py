@@ -21,7 +21,7 @@ _ANY = float(np.finfo(np.float64).max)  # of finite errors
 
 
 class Controller:
-    """Gives what to ask of an axis, sample by sample; begin with :meth:`start`.
+    """Computes the request to an axis, sample by sample; begin with :meth:`start`.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class Controller:
         From sample to sample.
     limits : OutputLimits
     feed_forward : FeedForward, optional
-        What is asked for a reference without feedback; the reference itself without.
+        What is requested a reference without feedback; the reference itself without.
 
     Raises
     ------
@@ -66,7 +66,7 @@ class Controller:
         self.begun_at = self.integral
 
     def hold(self, most: float) -> None:
-        """Keep the output within ``most`` (m or rad) of what it is now, until :meth:`lead`.
+        """Keep the output within ``most`` (m or rad) of its present value, until :meth:`lead`.
 
         A reading that is farther from the reference is not answered at all.
         """
@@ -102,7 +102,7 @@ class Controller:
         """Return the output of this sample, or the last one again where none can be found.
 
         That is where a number is not finite, or the reading of a held loop not believed. The
-        feed-forward goes on all the same, as a machine's does, which cannot wait.
+        feed-forward continues all the same, as a machine's does, which cannot wait.
         """
         feed = self.feed_forward.step(reference)
         error = reference - measured

@@ -1,4 +1,4 @@
-"""What the feedback of an axis refuses."""
+"""Errors of the feedback of an axis."""
 
 from rotemina.sim.errors import InputError
 

@@ -1,4 +1,4 @@
-"""What is asked of an axis for a reference, before any feedback.
+"""Feed-forward: the output for a reference, before any feedback.
 
 The reference is sent through an inverse of what the actuator does to a position. What the axis and
 the held command would lag behind it (:mod:`rotemina.sim.feedback.lead`) is added::
@@ -42,7 +42,7 @@ class FeedForward:
     taps : sequence of float
         Weights of the present reference and those before it.
     inverse : SampledInverse, optional
-        None: what is wanted is asked for. One that has a stage against lag of its own must do
+        None: what is wanted is requested. One that has a stage against lag of its own must do
         without it (``preview``), as the lead is in its place.
     """
 
@@ -54,7 +54,7 @@ class FeedForward:
         self._before = [0.0] * (len(self._taps) - 1)
 
     def start(self, reference: float) -> float:
-        """Rest at a reference and return what is asked there."""
+        """Rest at a reference, and return the output there."""
         self._before = [reference] * (len(self._taps) - 1)
         if self._inverse is None:
             return reference

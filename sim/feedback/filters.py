@@ -67,8 +67,8 @@ def _warped(name: str, frequency_hz: float, rate_hz: float) -> float:
         raise FeedbackError(
             message(
                 "engine",
-                "{name} at {frequency_hz} Hz: it must lie above 0 and below half the loop's rate, "
-                "{rate_hz} Hz",
+                "{name} at {frequency_hz} Hz: must lie above 0 and below half the loop's "
+                "rate, {rate_hz} Hz",
             ).fill(name=name, frequency_hz=frequency_hz, rate_hz=0.5 * rate_hz)
         )
     return 1.0 / tan(pi * frequency_hz / rate_hz)

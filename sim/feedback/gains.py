@@ -1,4 +1,4 @@
-"""What a controller is set to: its gains, its filters, its limits.
+"""The settings of a controller: gains, filters, limits.
 
 The controller gives positions to ask for (m or rad; V of an axis that a force moves), so that a
 proportional gain has no unit on a piezo or a stepper.

@@ -1,4 +1,4 @@
-"""The lead of a reference by what a sampled axis does to it, so that it is where it should be.
+"""Lead of a reference that cancels the lag of a sampled axis.
 
 A command that is held and an axis with poles z₁, z₂ make of a reference, with q = z⁻¹,
 

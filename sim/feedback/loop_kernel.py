@@ -1,4 +1,4 @@
-"""Loops around axes, compiled: the plant's own step and the controllers in turn."""
+"""Loops around axes, compiled: alternating steps of plant and controllers."""
 
 from typing import NamedTuple
 
@@ -14,9 +14,9 @@ from rotemina.sim.plant.machine import Machine
 class Loops(NamedTuple):
     """Where l loops sit, (l,) each, and their controllers.
 
-    ``column`` of the axis; ``per_asked`` is the input for a position that is asked for, ``offset``
+    ``column`` of the axis; ``per_asked`` is the input for a position that is requested, ``offset``
     the sensor's, ``delay`` by how many rows an output acts late. ``numbers`` (l, NUMBERS) and
-    ``memory`` (l, MEMORY) are the controllers'; the memory goes on.
+    ``memory`` (l, MEMORY) are the controllers'; the memory continues.
     """
 
     column: IntArray

@@ -1,4 +1,4 @@
-"""A plant of which some axes are under controllers, stepped as a live machine is."""
+"""A plant with some axes under controllers, stepped like a live machine."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -50,7 +50,7 @@ def advance(
     reference : (n, axes)
         Where those with one shall be, m or rad.
     controllers : mapping int -> Controller
-        By the number of the axis; they go on.
+        By the number of the axis; they continue.
     chance : Chance, optional
 
     Returns
@@ -204,7 +204,9 @@ def _watch(
             "of the range)",
         ).fill(much=amount(float(error[row]), unit, digits=3), share=percent(_LOST))
         if lost[row]
-        else message("engine", "it has added {much} ({share} of the range at most)").fill(
+        else message(
+            "engine", "it has added {much} (at most {share} of the range is permitted)"
+        ).fill(
             much=amount(float(added[row] - controller.begun_at), unit, digits=3),
             share=percent(_LED),
         )
@@ -212,8 +214,8 @@ def _watch(
     raise LostLoopError(
         message(
             "engine",
-            "axis {name}: its loop was given up, as nothing answers it: {what}; check the sensor "
-            "and the actuator, clear the fault, then close the loop again",
+            "axis {name}: its loop was opened because the axis does not respond: {what}; "
+            "check the sensor and the actuator, clear the fault, then close the loop again",
         ).fill(name=name, what=what)
     )
 
@@ -237,7 +239,6 @@ def _check(plant: Plant, position: FloatArray) -> None:
         raise PlantError(
             message(
                 "engine",
-                "axis {axes}: the response under a loop grows beyond what a number can hold; lower "
-                "the gains",
+                "axis {axes}: the response of the loop grows without bound; lower the gains",
             ).fill(axes=plant.axes[int(np.argmax(~finite))])
         )

@@ -1,4 +1,4 @@
-"""Gains that may be applied to a machine's axis: held against its model before anything moves."""
+"""Gains approved for a machine's axis: checked against its model before anything moves."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from rotemina.sim.robot.model import Robot
 
 
 class Regulation:
-    """A loop that may be closed around an axis: there is none that was not found stable.
+    """A loop approved for an axis, always found stable.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class Regulation:
                 raise UnstableError(
                     message(
                         "engine",
-                        "{error} (with gain or resonance off by {spread} %, as they may be)",
+                        "{error} (with gain or resonance off by {spread} %)",
                     ).fill(error=str(error), spread=100.0 * spread)
                 ) from error
         self.robot, self.axis, self.gains, self.rate_hz = robot, axis, gains, rate_hz
@@ -69,7 +69,7 @@ class Regulation:
         return 1.0 / self.rate_hz
 
     def controller(self, inverse: SampledInverse | None = None) -> Controller:
-        """Return a controller, fed forward through the lead and an inverse, if there is one.
+        """Return a controller, fed forward through the lead and an inverse, if any.
 
         The inverse is one at the loop's rate, without a stage against lag (``preview``).
         """

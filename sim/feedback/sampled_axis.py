@@ -1,4 +1,4 @@
-"""An axis as a sampled linear system: what the loop around it is analysed with.
+"""An axis as a sampled linear system, for the analysis of its loop.
 
 Held commands and exact steps (:mod:`rotemina.sim.plant.sampling`), with the linear states that
 effects bring, so that the analysis and the simulation are of the same axis::
@@ -34,7 +34,7 @@ class SampledAxis:
     interval_s : float
     a : (n, n)
     b, c : (n,)
-        The input is the position that is asked for, m or rad (V of an axis that a force moves).
+        The input is the position that is requested, m or rad (V of an axis that a force moves).
     through : float
         g.
     delay : int

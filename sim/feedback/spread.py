@@ -1,4 +1,4 @@
-"""An axis as its robot file has it, and as it may be too: gain and resonance off by a few %."""
+"""An axis with its tolerances: gain and resonance off by a few per cent."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Is a loop stable, and how far from its end? Poles, margins and peak sensitivity.
+"""Stability of a loop: poles, margins and peak sensitivity.
 
 With the loop's L = C G, ``S = 1/(1 + L)`` is what is left of a disturbance, and its peak Ms the
 inverse of the least distance of L from −1; Ms ≤ 1.7 leaves a gain margin of at least
@@ -135,8 +135,8 @@ def check_stability(
         raise UnstableError(
             message(
                 "engine",
-                "{where}: peak sensitivity Ms = {peak} at {peak_hz} Hz, "
-                "{most} at most; lower the gains; nothing was applied",
+                "{where}: peak sensitivity Ms = {peak} at {peak_hz} Hz, must be at most "
+                "{most}; lower the gains; nothing was applied",
             ).fill(
                 where=where,
                 peak=rounded(found.peak_sensitivity, 3),

@@ -63,9 +63,7 @@ def write_twin(text: str, path: str | PathLike[str]) -> None:
     """
     if Path(path).exists():
         raise FileWriteError(
-            message("gap", "{fspath}: it exists already; name another file").fill(
-                fspath=fspath(path)
-            )
+            message("gap", "{fspath} already exists; name another file").fill(fspath=fspath(path))
         )
     with replaced(path) as file:
         file.write(text.encode("utf-8"))

@@ -71,7 +71,7 @@ def check_alike(experiments: tuple[Signals, ...]) -> None:
     TooShortError, IdentificationError, ExcitationError
     """
     if not experiments:
-        raise TooShortError(message("engine", "experiments: none given; one at least is needed"))
+        raise TooShortError(message("engine", "experiments: none given; at least one is needed"))
     first = experiments[0]
     for number, each in enumerate(experiments):
         same_columns = (each.input_names, each.output_names) == (
@@ -82,8 +82,9 @@ def check_alike(experiments: tuple[Signals, ...]) -> None:
             raise IdentificationError(
                 message(
                     "engine",
-                    "experiment {number}: {inputs} → {outputs} at {rate_hz} Hz, the first has "
-                    "{first_inputs} → {first_outputs} at {first_rate_hz} Hz; all must be alike",
+                    "experiment {number}: {inputs} → {outputs} at {rate_hz} Hz, but the "
+                    "first has {first_inputs} → {first_outputs} at {first_rate_hz} Hz; all "
+                    "must be equal",
                 ).fill(
                     number=number,
                     inputs=", ".join(each.input_names),

@@ -84,8 +84,8 @@ def loops(
         raise TooShortError(
             message(
                 "engine",
-                "loops: {inputs} samples of input, {outputs} of output, {lag_samples} of lag; as "
-                "many of both and at least three are needed",
+                "loops: {inputs} samples of input, {outputs} of output, {lag_samples} of "
+                "lag; input and output must be equally long, with at least three samples left",
             ).fill(inputs=len(driven), outputs=len(answer), lag_samples=lag_samples)
         )
     x, y = driven[:count], answer[lag_samples:]

@@ -118,7 +118,7 @@ def periodic_response(
     spectra = [period_spectra(each, skip_periods) for each in experiments]
     if len({each.period_samples for each in spectra}) > 1:
         raise SettingError(
-            message("engine", "experiments: periods of {periods} samples; all must be alike").fill(
+            message("engine", "experiments: periods of {periods} samples; all must be equal").fill(
                 periods=str(sorted({each.period_samples for each in spectra}))
             )
         )

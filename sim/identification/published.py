@@ -142,7 +142,7 @@ def parse_models(text: str, source: str = "model file") -> PublishedModels:
                 message(
                     "engine",
                     "{source}: model.{name}: {count} coefficients over {denominator}; the "
-                    "denominator begins with 1 and is at least as long",
+                    "denominator must begin with 1 and be at least as long",
                 ).fill(
                     source=source,
                     name=name,

@@ -88,8 +88,8 @@ def _fraction(factor: float) -> tuple[int, int]:
         raise SettingError(
             message(
                 "engine",
-                "resampling factor {factor}: no fraction with a denominator up to {finest}; use "
-                "{fraction}",
+                "resampling factor {factor}: not a fraction with a denominator up to "
+                "{finest}; use {fraction}",
             ).fill(factor=repr(factor), finest=_FINEST, fraction=rounded(float(fraction), 9))
         )
     return fraction.numerator, fraction.denominator

@@ -69,7 +69,7 @@ def fit_resonance(
     inside = (frequency_hz >= band_hz[0]) & (frequency_hz <= band_hz[1])
     if not 0.0 <= band_hz[0] < band_hz[1]:
         raise SettingError(
-            message("engine", "resonance: band {band_hz} Hz; the lowest comes first").fill(
+            message("engine", "resonance: band {band_hz} Hz; the lower end comes first").fill(
                 band_hz=str(band_hz)
             )
         )

@@ -68,7 +68,8 @@ class Signals:
             raise IdentificationError(
                 message(
                     "engine",
-                    "signals: {inputs} samples of input, {outputs} of output; they must be as many",
+                    "signals: {inputs} samples of input, {outputs} of output; their numbers "
+                    "must be equal",
                 ).fill(inputs=len(self.inputs), outputs=len(self.outputs))
             )
         if not (np.isfinite(self.rate_hz) and self.rate_hz > 0):
@@ -150,7 +151,7 @@ def signals_of(
 def _channels(record: Record, side: str, pairs: Sequence[tuple[str, Tap]]) -> list[Channel]:
     if not pairs:
         raise IdentificationError(
-            message("engine", "{side}: no channel chosen; name one at least").fill(side=side)
+            message("engine", "{side}: no channel chosen; name at least one").fill(side=side)
         )
     channels = [Channel(axis, Tap(tap)) for axis, tap in pairs]
     for channel in channels:

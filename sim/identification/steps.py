@@ -61,7 +61,7 @@ def step_metrics(
     drive : the tap that commands the steps.
     least_step : of the command's peak-to-peak; smaller jumps are passed over.
     shortest_hold_s : steps next to a shorter hold are left out; choose a few times the time in
-        which the axis settles, else levels are those of a motion that still goes on.
+        which the axis settles, else levels are those of a motion that still continues.
 
     Raises
     ------

@@ -37,14 +37,14 @@ class TransferFunction:
             values = np.array(getattr(self, name), dtype=np.float64)
             if values.ndim != 1 or not len(values) or not np.isfinite(values).all():
                 raise SettingError(
-                    message("engine", "{name} {values}: needs finite coefficients in a row").fill(
+                    message("engine", "{name} {values}: must be a row of finite coefficients").fill(
                         name=name, values=str(values)
                     )
                 )
             object.__setattr__(self, name, read_only(values))
         if self.denominator[0] != 1.0:
             raise SettingError(
-                message("engine", "denominator: begins with {denominator}; it must be 1").fill(
+                message("engine", "denominator: must begin with 1, not {denominator}").fill(
                     denominator=self.denominator[0]
                 )
             )

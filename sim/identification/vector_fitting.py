@@ -131,7 +131,7 @@ def vector_fit(spectra: Spectra, pairs: int, slowest: float, *, most: int) -> Co
 
 
 def fewer(spectra: Spectra, poles: ComplexArray, slowest: float, *, most: int) -> ComplexArray:
-    """Drop the poles (pairs,) that tell least until ``most`` are left, and relocate these.
+    """Drop the least important poles (pairs,) until ``most`` are left, and relocate these.
 
     ``slowest`` is as for :func:`relocated`.
     """

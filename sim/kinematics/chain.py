@@ -145,14 +145,14 @@ class Chain:
         )
         said = message(
             "engine",
-            "axis {axis}: position {value} is outside {low} to {high}, where it may go; choose a "
+            "axis {axis}: position {value} is outside its bounds, {low} to {high}; choose a "
             "tip position or a tilt inside the workspace",
         )
         if worst[:-1]:
             said = message(
                 "engine",
-                "axis {axis}: position {value} at row {row} is outside {low} to {high}, where it "
-                "may go; choose a tip position or a tilt inside the workspace",
+                "axis {axis}: position {value} at row {row} is outside its bounds, {low} to "
+                "{high}; choose a tip position or a tilt inside the workspace",
             )
         row = ", ".join(str(int(i)) for i in worst[:-1])
         return said.fill(axis=AxisName(name), value=value, row=row, low=first, high=last)
@@ -164,8 +164,8 @@ def _check_roles(robot: Robot) -> None:
         raise ChainError(
             message(
                 "engine",
-                "robot {name}: axis {missing} missing; the hybrid chain needs axes "
-                "named {joints}, and this robot has {axes}",
+                "robot {name} has no axis {missing}; the hybrid chain needs axes named "
+                "{joints}, and this robot has {axes}",
             ).fill(
                 name=repr(robot.name),
                 missing=", ".join(missing),

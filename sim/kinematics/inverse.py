@@ -17,7 +17,7 @@ _ROUNDING = 8.0 * float(np.finfo(np.float64).eps)
 class Split(StrEnum):
     """Which stage brings the tip to its target.
 
-    ``MICRO_ONLY``: the tables; the nano joints stay, or take the tilt that is asked for.
+    ``MICRO_ONLY``: the tables; the nano joints stay, or take the tilt that is requested.
     ``NANO_FIRST``: the nano stage as far as its joints go (tilt costs orientation), tables the
     rest. ``HYBRID``: as nano first while the nano stage reaches; a nano joint whose part does not
     fit goes to the middle of its range instead, so that fine motion has room both ways again.
@@ -102,7 +102,7 @@ def _paired(target: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArr
 def _nano_bounds(
     chain: Chain, target: FloatArray, tilt: FloatArray | None
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the bounds (..., 3) of thx, thy, zn; a tilt that is asked for bounds itself."""
+    """Return the bounds (..., 3) of thx, thy, zn; a tilt that is requested bounds itself."""
     lower = np.array(np.broadcast_to(chain.lower[NANO], target.shape))
     upper = np.array(np.broadcast_to(chain.upper[NANO], target.shape))
     if tilt is not None:

@@ -77,7 +77,7 @@ class KeepOutZone:
         except ChainError as error:
             if bounded:
                 raise ChainError(
-                    message("engine", "{error}; its [keep_out] can bound no tip").fill(
+                    message("engine", "{error}; [keep_out] needs a tip to limit").fill(
                         error=str(error)
                     )
                 ) from error
@@ -122,8 +122,8 @@ class KeepOutZone:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: a floor at {floor} mm: must be between {low} and {high}, where "
-                    "the tip can be; teach it where the tip touches",
+                    "tip: floor {floor} mm: must be between {low} and {high}, within the "
+                    "reach of the tip; teach it where the tip touches",
                 ).fill(floor=rounded(1e3 * floor, 6), low=exact(low, "m"), high=exact(high, "m"))
             )
         return replace(self, floor=float(floor))
@@ -147,7 +147,7 @@ class KeepOutZone:
         )
 
     def check_sweep(self, low: FloatArray, high: FloatArray) -> Box:
-        """Return :meth:`swept`; refuse what might leave the bounds on the way.
+        """Return :meth:`swept`; refuse if the path may leave the bounds.
 
         Raises
         ------
@@ -164,7 +164,7 @@ class KeepOutZone:
         return box
 
     def beyond(self, present: Box) -> Self:
-        """Return bounds that what is there already does not break."""
+        """Return bounds widened to the present positions."""
         low, high = float(present.low[2]), float(present.high[2])
         return replace(
             self,
@@ -193,7 +193,7 @@ class KeepOutZone:
         self._check_speed(tip[:, 2], time_s)
 
     def outside(self, tips: FloatArray) -> BoolArray:
-        """Tell which of tips (n, 3), m, are out of the bounds."""
+        """Return which of the tips (n, 3), m, are outside the bounds."""
         return (
             (tips[:, 2] < self.low - _SLACK)
             | (tips[:, 2] > self.high + _SLACK)
@@ -227,9 +227,8 @@ class KeepOutZone:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: goes down at {speed} at {time} s, {height} high: within "
-                    "{near} of its floor {floor} at most {most}; make the "
-                    "approach slower",
+                    "tip: descends at {speed} at {time} s, {height} high; within {near} of "
+                    "its floor {floor} the limit is {most}: make the approach slower",
                 ).fill(
                     speed=exact(float(down[row]), "m/s"),
                     time=rounded(time_s[row + 1] - time_s[0], 6),
@@ -245,7 +244,7 @@ class KeepOutZone:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: {lowest} high {where}: its floor is {floor}; move elsewhere "
+                    "tip: {lowest} high {where}, but its floor is {floor}; move elsewhere "
                     "first, or teach the floor",
                 ).fill(lowest=exact(lowest, "m"), where=where, floor=exact(self.floor, "m"))
             )
@@ -253,7 +252,7 @@ class KeepOutZone:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: {lowest} high {where}: its floor is {low}, where the objective "
+                    "tip: {lowest} high {where}, but its floor is {low}, where the objective "
                     "is; stay above it",
                 ).fill(lowest=exact(lowest, "m"), where=where, low=exact(self.low, "m"))
             )
@@ -261,14 +260,14 @@ class KeepOutZone:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: {highest} high {where}: the objective is at {high}; stay below it",
+                    "tip: {highest} high {where}, but the objective is at {high}; stay below it",
                 ).fill(highest=exact(highest, "m"), where=where, high=exact(self.high, "m"))
             )
         if away > self.radius + _SLACK:
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "tip: {away} from the middle {where}: at most {radius}; move one "
-                    "axis after the other, or less far",
+                    "tip: {away} from the middle {where}, but at most {radius} is permitted; "
+                    "move one axis after the other, or less far",
                 ).fill(away=exact(away, "m"), where=where, radius=exact(self.radius, "m"))
             )

@@ -115,7 +115,7 @@ UNTOUCHED = CellState()
 
 
 def met(cell: Cell, state: CellState, tip_m: FloatArray) -> CellState:
-    """Return what becomes of a cell when the tip has come straight to ``tip_m`` (3,)."""
+    """Return the cell after the tip has come straight to ``tip_m`` (3,)."""
     tip = _vector(tip_m)
     if not cell.level(tip_m) < 1.0:
         crossed = _pierced_on_the_way(cell, state, tip_m)

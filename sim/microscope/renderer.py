@@ -1,4 +1,4 @@
-"""A scene made into pictures: what stays is prepared once, and only what moves is drawn anew."""
+"""A scene made into pictures: what stays is prepared once, and only what moves is drawn again."""
 
 from dataclasses import replace
 
@@ -98,7 +98,7 @@ class Renderer:
         )
 
     def _draw_still(self, state: CellState, focus_m: float) -> None:
-        """Draw the cell anew if it, or the focal plane, has changed."""
+        """Draw the cell again if it, or the focal plane, has changed."""
         cell = self.scene.cell
         seen = CellState(state.tip_m if state.entry_m else None, state.entry_m, state.hole_m)
         if cell is None or self._known == (seen, focus_m):

@@ -15,7 +15,7 @@ _APPROACH_RAD = pi / 6  # where a robot file says nothing
 
 @dataclass(frozen=True, slots=True)
 class Pin:
-    """The pin or pipette: a tapering tube whose tip is the point that the kinematics tell.
+    """The pin or pipette: a tapering tube that ends at the tip of the kinematics.
 
     Attributes
     ----------

@@ -14,7 +14,7 @@ _ON_AXIS_SHARE = 1e-10
 
 
 class Verdict(StrEnum):
-    """What becomes of a disturbance: it dies away, stays, or grows."""
+    """The fate of a disturbance: it decays, stays, or grows."""
 
     STABLE = "stable"
     MARGINAL = "marginal"

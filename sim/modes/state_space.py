@@ -137,7 +137,7 @@ def perturbed_state_space(
         raise StateSpaceError(
             message(
                 "engine",
-                "accelerations under a perturbation by its rate have no finite response; ask for "
+                "accelerations under a perturbation by its rate have no finite response; use "
                 "velocities",
             )
         )

@@ -65,7 +65,7 @@ class Assembly:
 
     @property
     def electronics(self) -> BoolArray:
-        """Whether an effect stands between each input and what its amplifier puts out, (axes,)."""
+        """Whether an effect lies between each input and its amplifier's output, (axes,)."""
         changed = {
             one.asked.axis
             for one in self.effects

@@ -1,4 +1,4 @@
-"""A run that goes on with other effects than it began with."""
+"""A run that continues with other effects than it began with."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ _Key = tuple[str, str, str, str | None, int]
 
 
 def taken_over(plant: Plant, before: Plant, state: PlantState) -> PlantState:
-    """Return where ``before`` stands at ``state`` as a state of ``plant``, with the same axes.
+    """Return ``state`` of ``before`` as a state of ``plant``, with the same axes.
 
     Axes go on from their positions and speeds. An effect that was there keeps its memory, or the
     motion of its linear states, also when its parameters change; a new one begins as after a rise

@@ -120,7 +120,7 @@ def _settle(plant: Plant, lead: Run, run: Run) -> PlantState:
     raise PlantError(
         message(
             "engine",
-            "the model does not come to a steady state within {most_periods} periods; use '# "
+            "the model does not reach a steady state within {most_periods} periods; use '# "
             "history: unknown'",
         ).fill(most_periods=_MOST_PERIODS)
     )
@@ -157,8 +157,8 @@ def _solve(plant: Plant, lead: Run, run: Run) -> PlantState:
             raise PlantError(
                 message(
                     "engine",
-                    "axis {axes}: it has no steady state, nothing holds it; use '# history: "
-                    "unknown'",
+                    "axis {axes} has no steady state because nothing holds it; use '# "
+                    "history: unknown'",
                 ).fill(axes=group.axes[0])
             )
         solved[own] += np.linalg.solve(lasting, (end - start)[own])

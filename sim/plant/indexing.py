@@ -18,7 +18,7 @@ def _item(typing_context: Any, array: Any, index: Any) -> Any:
     """Read the flat, contiguous ``array`` at ``index``, which must lie in it."""
     if array.layout != "C" or array.ndim != 1:
         raise TypingError(
-            message("engine", "{array}: it is no flat, contiguous array").fill(array=array)
+            message("engine", "{array} is not a flat, contiguous array").fill(array=array)
         )
     signature = array.dtype(array, types.intp)
 

@@ -323,7 +323,7 @@ def _amplified(
     machine: Machine, memory: FloatArray, taken: Taken, shown: FloatArray, applied: IntArray,
     t: float, k: int,
 ) -> None:  # fmt: skip
-    """Fill in, where it is asked for, what the amplifiers put out at this instant.
+    """Fill in, where it is requested, what the amplifiers put out at this instant.
 
     Of an axis under a controller it is what the controller writes down, before it comes late.
     """
@@ -476,7 +476,7 @@ def run(
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
 def _rests(fresh: FloatArray, x: FloatArray, most: FloatArray, part: int) -> bool:
-    """Tell whether a step changes nothing; ``most``, the largest values in a hold, is kept."""
+    """Return whether a step changes nothing; ``most``, the largest values in a hold, is kept."""
     rests = True
     for n in range(x.shape[0]):
         most[n] = max(most[n] if part > 0 else 0.0, abs(fresh[n]), abs(x[n]))

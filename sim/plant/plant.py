@@ -297,8 +297,8 @@ class Plant:
             raise PlantError(
                 message(
                     "engine",
-                    "perturbation: none is given, and Q of the row before still acts; give one for "
-                    "every piece of a run, with zeros where nothing shakes",
+                    "perturbation: none is given, but Q of the previous row still acts; pass "
+                    "one for every piece of a run, with zeros where nothing shakes",
                 )
             )
         if perturbation is not None:
@@ -427,8 +427,8 @@ class Plant:
         raise PlantError(
             message(
                 "engine",
-                "axis {axis}: the response grows beyond what a number can hold at t = {time_s} s; "
-                "check the commands,{named} and the controller's gains",
+                "axis {axis}: the response grows without bound at t = {time_s} s; check the "
+                "commands,{named} and the controller's gains",
             ).fill(axis=axis, time_s=rounded(stack.time_s[stack.first + row], 6), named=named)
         )
 

@@ -76,7 +76,7 @@ def check_axes(robot: Robot, record: Record) -> None:
         if axis not in robot.axes:
             known = ", ".join(robot.axes)
             raise PlantError(
-                message("engine", "axis {axis} of the record: robot {name} has {known}").fill(
+                message("engine", "axis {axis} of the record: robot {name} has only {known}").fill(
                     axis=repr(axis), name=repr(robot.name), known=known
                 )
             )

@@ -61,8 +61,8 @@ def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
         raise PlantError(
             message(
                 "engine",
-                "the samples after t = {time_s} s are {apart_s} s apart, rounding there is {tick} "
-                "s; count time from the start of the record",
+                "the samples after t = {time_s} s are {apart_s} s apart, but the rounding "
+                "there is {tick} s; count time from the start of the record",
             ).fill(
                 time_s=repr(time_s[row]),
                 apart_s=rounded(time_s[row + 1] - time_s[row], 3),

@@ -34,7 +34,7 @@ def is_led(facts: Facts) -> bool:
 
 
 def lead_of(axes: Sequence[str], effects: Sequence[Attached]) -> Lead:
-    """Return the way to rest of a machine with such effects.
+    """Return the path to rest of a machine with such effects.
 
     The way up is ``(1 + t/τ) exp(−t/τ)`` with the time constant τ of the slowest vibration, so
     the axis never runs ahead of its input: ``M |ẍ| < D |ẋ|``. It slides until it stands, and dry

@@ -1,4 +1,4 @@
-"""Where a run stands, and what it has passed so far."""
+"""The state of a run, with the samples whose inputs still act or will act."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -34,7 +34,7 @@ class Motion(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlantState:
-    """Where a run stands, with the samples whose inputs still act or have yet to act.
+    """The state of a run, with the samples whose inputs still act or will act.
 
     ``time_s`` (h,), and ``inputs`` (as asked for), ``position``, ``velocity``, ``reading``
     (h, axes) of the last h samples; the very last is the present. ``elapsed_s`` is the time since

@@ -33,7 +33,7 @@ class Entry:
 
     @property
     def difference(self) -> float:
-        """The change as a share of what it was; infinite for one that was not there."""
+        """The relative change; infinite for a new entry."""
         if self.before == self.after:
             return 0.0
         return self.after / self.before - 1.0 if self.before else float("inf")
@@ -111,7 +111,7 @@ def applied(robot: Robot, solutions: UnitSolutions) -> tuple[Robot, tuple[Entry,
     problem = find_problem(made)
     if problem is not None:
         raise PlateError(
-            message("engine", "the plate makes no possible robot: {problem}").fill(
+            message("engine", "the plate gives an impossible robot: {problem}").fill(
                 problem=str(problem)
             )
         )

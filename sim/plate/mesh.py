@@ -254,9 +254,9 @@ def _require_quality(points: FloatArray, triangles: np.ndarray) -> None:
         raise PlateError(
             message(
                 "engine",
-                "no mesh can be made: the element at x {x} mm, y {y} mm has quality {quality} (at "
-                "least {worst_quality}); edges of cut-outs are too close to one another or nearly "
-                "in line there; put them in line, or further apart",
+                "no mesh can be made: the element at x {x} mm, y {y} mm has quality "
+                "{quality} (at least {worst_quality}); edges of cut-outs are too close "
+                "together or nearly in line there; align them, or move them apart",
             ).fill(
                 x=rounded(x, 3),
                 y=rounded(y, 3),

@@ -43,7 +43,7 @@ def pin_length(robot: Robot) -> float:
             message(
                 "engine",
                 "robot {name}: plate.pin.length = {length} m: must be {low} to {high} m, "
-                "{shortest} to {longest} times its diameter; as a beam it is computed",
+                "{shortest} to {longest} times its diameter, because it is computed as a beam",
             ).fill(
                 name=robot.name,
                 length=length,

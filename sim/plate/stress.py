@@ -106,7 +106,7 @@ def motion_ranges(robot: Robot) -> FloatArray:
         raise PlateError(
             message(
                 "engine",
-                "robot {name}: it has no axis {missing}; the plate carries {axes}: name a robot "
+                "robot {name} has no axis {missing}; the plate carries {axes}: name a robot "
                 "that has them",
             ).fill(name=robot.name, missing=", ".join(missing), axes=", ".join(AXES))
         )

@@ -36,7 +36,7 @@ class Column:
 
     @property
     def heading(self) -> str:
-        """What a header row says of it: ``x.cmd [mm]``."""
+        """The heading of the column: ``x.cmd [mm]``."""
         return f"{self} [{self.unit}]"
 
 
@@ -59,7 +59,7 @@ class Layout:
 
     @property
     def per_si(self) -> tuple[float, ...]:
-        """By what each column is divided to become SI."""
+        """The divisor of each column to SI."""
         return tuple(per_si(column.unit) for column in self.columns)
 
     @property
@@ -80,7 +80,7 @@ def split_fields(line: str, separator: str) -> list[str]:
 
 
 def looks_like_header(line: str) -> bool:
-    """Tell a header from a row of numbers, by its first field."""
+    """Return whether a line is a header rather than numbers, by its first field."""
     first = re.split(r"[\s;,]", line.strip(BLANKS), maxsplit=1)[0]
     return '"' in first or (first[:1].isalpha() and _NOT_FINITE.fullmatch(first) is None)
 
@@ -98,7 +98,7 @@ def row_separator(line: str, count: int) -> str | None:
 
 
 def splits_into_numbers(line: str, separator: str, count: int) -> bool:
-    """Tell whether a separator makes ``count`` numbers of a row, with either decimal sign."""
+    """Return whether a separator makes ``count`` numbers of a row, with either decimal sign."""
     fields = split_fields(line, separator)
     if separator != ",":
         fields = [field.replace(",", ".", 1) for field in fields]
@@ -144,7 +144,7 @@ def _parse_column(heading: str, where: str, *, first: bool) -> Column:
         raise RecordError(
             message(
                 "engine",
-                "{where}: heading {heading} is no 'axis.channel [unit]'; write such as {example}",
+                "{where}: heading {heading} is not 'axis.channel [unit]'; write it like {example}",
             ).fill(where=where, heading=repr(heading[:40]), example=EXAMPLE)
         )
     name, unit_text = match[1].strip(BLANKS), match[2].strip(BLANKS)
@@ -217,7 +217,7 @@ def _check_unique(columns: Sequence[Column], where: str) -> None:
             )
     if len(columns) < 2:
         raise RecordError(
-            message("engine", "{where}: no column beside time; write such as {example}").fill(
+            message("engine", "{where}: no column beside time; add one, such as {example}").fill(
                 where=where, example=EXAMPLE
             )
         )

@@ -128,9 +128,9 @@ def _collect(name: str, block: Block, comments: Comments, most_bytes: int) -> in
         collected += len(match[0]) + 1
         if collected > most_bytes:
             raise RecordError(
-                message(
-                    "engine", "{name}:{line}: too many bytes of comments in all; shorten them"
-                ).fill(name=name, line=line)
+                message("engine", "{name}:{line}: too many bytes of comments; shorten them").fill(
+                    name=name, line=line
+                )
             )
         comments.add(decode_line(match[0], name, line), f"{name}:{line}")
     return collected
@@ -177,8 +177,8 @@ def _layout_of_header(
         raise RecordError(
             message(
                 "engine",
-                "{where}:{index}: the header names {found} where you named {asked}; name the same "
-                "or leave it to the header",
+                "{where}:{index}: the header names {found} where you named {asked}; use the "
+                "same name, or omit it",
             ).fill(where=where, index=index + 1, found=found, asked=asked)
         )
     return Layout(header_separator(text), columns)

@@ -223,7 +223,7 @@ def _what_is_wrong(field: str) -> str:
             value=_shown(field)
         )
     return message(
-        "engine", "value {value} is no plain decimal number; write such as -12.5 or 3e-6"
+        "engine", "value {value} is not a plain decimal number; write it like -12.5 or 3e-6"
     ).fill(value=_shown(field))
 
 

@@ -64,7 +64,7 @@ def write_pieces(
     Raises
     ------
     RecordError
-        As of :func:`write_record`; if there is no piece, or one does not go on where the one
+        As of :func:`write_record`; if there is no piece, or one does not continue where the one
         before ended.
     """
     coming = iter(pieces)
@@ -94,8 +94,8 @@ def _check_goes_on(first: Record, piece: Record, last_s: float) -> None:
         raise RecordError(
             message(
                 "engine",
-                "record: the piece from t = {time_s} s does not come after the one before, which "
-                "ends at t = {last_s} s",
+                "record: the piece from t = {time_s} s does not follow the previous one, "
+                "which ends at t = {last_s} s",
             ).fill(time_s=rounded(piece.time_s[0], 9), last_s=rounded(last_s, 9))
         )
 

@@ -25,7 +25,7 @@ REACH_SLACK = 0.05
 
 
 class Problem(NamedTuple):
-    """What is wrong with one key of a robot file."""
+    """A problem with one key of a robot file."""
 
     key: str
     value: object

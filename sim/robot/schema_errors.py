@@ -56,7 +56,7 @@ def describe(error: ValidationError) -> Message:
 
 
 def first_of(error: ValidationError, told: Callable[[ErrorDetails], Message]) -> Message:
-    """Return what is told of the first problem, with the number of further ones."""
+    """Return the text of the first problem, with the number of further ones."""
     details = error.errors(include_url=False)
     # An unknown key is the likeliest cause of a missing one: say it first.
     details.sort(key=lambda detail: detail["type"] != "unexpected_keyword_argument")

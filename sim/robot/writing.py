@@ -111,7 +111,7 @@ def robot_text(robot: Robot) -> str:
 
 
 def write_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool = False) -> None:
-    """Write a robot file, whole or not at all.
+    """Write a robot file, completely or not at all.
 
     Raises
     ------
@@ -124,7 +124,7 @@ def write_robot(robot: Robot, path: str | PathLike[str], *, overwrite: bool = Fa
     text = robot_text(robot)
     if not overwrite and Path(name).exists():
         raise FileWriteError(
-            message("engine", "{name}: it exists already; name another file").fill(name=name)
+            message("engine", "{name} already exists; name another file").fill(name=name)
         )
     with replaced(name) as file:
         file.write(text.encode("utf-8"))

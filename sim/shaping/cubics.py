@@ -47,8 +47,9 @@ def as_cubics(shape: Shape, most_pieces: int, most_error: float) -> CubicFit:
         raise ShapingError(
             message(
                 "engine",
-                "profile: {most_pieces} cubics leave an error of {error}, {most_error} at most (SI "
-                "units); choose a smoother one, or input shaping of a lower order",
+                "profile: {most_pieces} cubics leave an error of {error}, more than "
+                "{most_error} (SI units); choose a smoother profile, or input shaping of a "
+                "lower order",
             ).fill(
                 most_pieces=most_pieces, error=rounded(error, 3), most_error=rounded(most_error, 3)
             )

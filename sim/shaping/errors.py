@@ -1,4 +1,4 @@
-"""What is wrong with a profile that somebody asked for."""
+"""What is wrong with a profile that someone asked for."""
 
 from rotemina.sim.errors import InputError
 

@@ -44,8 +44,8 @@ def led(shape: Shape, lead: Lead) -> Shape:
         raise ShapingError(
             message(
                 "engine",
-                "feed-forward: the acceleration of the profile jumps by {jump} (SI units), of "
-                "{greatest} at most; use an S-curve or minimum jerk, or input shaping",
+                "feed-forward: the acceleration of the profile jumps by {jump} (SI units), "
+                "with a maximum of {greatest}; use an S-curve or minimum jerk, or input shaping",
             ).fill(jump=rounded(jump, 3), greatest=rounded(greatest, 3))
         )
     polynomial = shape.polynomial

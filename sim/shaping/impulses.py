@@ -86,9 +86,9 @@ def zero_vibration(frequency_hz: float, damping_ratio: float, order: int = 1) ->
         )
     if not 1 <= order <= MOST_ORDER:
         raise ShapingError(
-            message("engine", "input shaping of order {order}: 1 (ZV) to {most_order}").fill(
-                order=order, most_order=MOST_ORDER
-            )
+            message(
+                "engine", "input shaping of order {order}: must be 1 (ZV) to {most_order}"
+            ).fill(order=order, most_order=MOST_ORDER)
         )
     root = sqrt(1.0 - damping_ratio**2)
     decay = exp(-pi * damping_ratio / root)

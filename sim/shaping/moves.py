@@ -29,7 +29,7 @@ class MotionLimits:
         for name in ("speed", "acceleration", "jerk"):
             if not getattr(self, name) > 0.0:
                 raise ShapingError(
-                    message("engine", "{name} limit of a move: {value}: more than 0").fill(
+                    message("engine", "{name} limit of a move: {value}: must be more than 0").fill(
                         name=name, value=getattr(self, name)
                     )
                 )
@@ -55,7 +55,8 @@ def s_curve_in(
         raise ShapingError(
             message(
                 "engine",
-                "S-curve: ramp {ramp}, rounding {rounding}: more than 0, at most 0.5 and 1",
+                "S-curve: ramp {ramp}, rounding {rounding}: must be more than 0, and at most "
+                "0.5 and 1",
             ).fill(ramp=ramp, rounding=rounding)
         )
     rounding_s = 0.5 * rounding * ramp * duration_s
@@ -119,8 +120,8 @@ def _check_table(times: FloatArray, values: FloatArray) -> None:
         raise ShapingError(
             message(
                 "engine",
-                "profile table: {size} times and {values_size} positions: as many of each, 2 to "
-                "{most_rows}",
+                "profile table: {size} times and {values_size} positions: must be equally "
+                "many, 2 to {most_rows}",
             ).fill(size=times.size, values_size=values.size, most_rows=MOST_ROWS)
         )
     if times[0] != 0.0 or values[0] != 0.0:
@@ -169,7 +170,7 @@ def _seven_pieces(distance: float, rounding_s: float, steady_s: float, cruise_s:
 def _check_distance(distance: float) -> None:
     if not isfinite(distance) or distance == 0.0:
         raise ShapingError(
-            message("engine", "profile: a way of {distance}: must be finite, and not zero").fill(
+            message("engine", "profile: distance {distance}: must be finite and not zero").fill(
                 distance=distance
             )
         )
@@ -178,7 +179,7 @@ def _check_distance(distance: float) -> None:
 def _check_duration(duration_s: float) -> None:
     if not isfinite(duration_s) or duration_s <= 0.0:
         raise ShapingError(
-            message(
-                "engine", "profile: a duration of {duration_s} s: must be finite and positive"
-            ).fill(duration_s=duration_s)
+            message("engine", "profile: duration {duration_s} s: must be finite and positive").fill(
+                duration_s=duration_s
+            )
         )

@@ -61,7 +61,7 @@ def simulate(
 
 
 def needs_whole(robot: Robot, effects: Sequence[AxisEffect] | None, commands: Record) -> bool:
-    """Tell whether a simulation must have all commands at once, of which some are ``commands``.
+    """Return whether a simulation must have all commands at once, of which some are ``commands``.
 
     A periodic record must, because its start is the steady state of a whole period, and a machine
     some of whose clocks lead, because their readings are of what comes later.

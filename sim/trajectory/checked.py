@@ -9,7 +9,7 @@ from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.limits import controller_of
-from rotemina.sim.trajectory.violations import TrajectoryError, check_trajectory, commands_of
+from rotemina.sim.trajectory.validation import TrajectoryError, check_trajectory, commands_of
 
 _SAME_PERIOD = 1e-6  # relative
 
@@ -62,7 +62,7 @@ def check(robot: Robot, trajectory: Record, setpoint_period_s: float) -> Checked
     Raises
     ------
     TrajectoryError, OutOfLimitsError
-        As :func:`rotemina.sim.trajectory.violations.check_trajectory`.
+        As :func:`rotemina.sim.trajectory.validation.check_trajectory`.
     """
     check_trajectory(robot, trajectory, setpoint_period_s=setpoint_period_s)
     return CheckedTrajectory.sealed(robot, trajectory, setpoint_period_s)

@@ -20,7 +20,7 @@ from rotemina.sim.trajectory.limits import (
     voltage_bounds,
 )
 from rotemina.sim.trajectory.prediction import TrackingError, predict
-from rotemina.sim.trajectory.violations import Violation, find_violations
+from rotemina.sim.trajectory.validation import Violation, find_violations
 
 
 class Bounds(NamedTuple):
@@ -34,7 +34,7 @@ class Bounds(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class AxisFigures:
-    """What a trajectory asks of one axis, in ``unit`` (m or rad), per s and per s².
+    """The demands of a trajectory on one axis, in ``unit`` (m or rad), per s and per s².
 
     ``peak_speed`` is that of the jumps from row to row as a device makes them,
     ``peak_acceleration`` is taken over the window in which rounding weighs little, so both are

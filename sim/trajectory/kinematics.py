@@ -46,7 +46,7 @@ class _Path(NamedTuple):
 
 
 def held_rows(time_s: FloatArray, period_s: float) -> BoolArray:
-    """Return for each of the (n - 1,) intervals whether a device stands in it, then jumps."""
+    """Return for each of the (n - 1,) intervals whether a device rests in it, then jumps."""
     return np.asarray(np.diff(time_s) > period_s * (1.0 + ON_TIME))
 
 

@@ -1,7 +1,7 @@
 """The limits of a machine's axes: one rule for the targets of all motion.
 
 Every path that moves an axis (jog, click, playback, script) asks here, or for a whole trajectory
-:mod:`rotemina.sim.trajectory.violations`. An axis without a declared bound is not checked against
+:mod:`rotemina.sim.trajectory.validation`. An axis without a declared bound is not checked against
 it.
 """
 
@@ -34,7 +34,7 @@ def controller_of(axis: Axis) -> CascadeController | None:
 
 
 def is_finite(value: object) -> bool:
-    """Whether something that a program hands over is a number, and a finite one."""
+    """Whether a value is a finite number."""
     return isinstance(value, Real) and isfinite(value)
 
 
@@ -51,8 +51,8 @@ def check_speeds(targets: Mapping[str, float], speeds: Mapping[str, float]) -> N
             raise OutOfLimitsError(
                 message(
                     "engine",
-                    "axis {axis}: a speed of {speed}: must be a finite number above 0, "
-                    "of an axis with a target",
+                    "axis {axis}: speed {speed}: must be a finite number above 0, of an axis "
+                    "with a target",
                 ).fill(axis=AxisName(axis), speed=repr(speed))
             )
 

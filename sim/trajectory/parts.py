@@ -5,7 +5,7 @@ import numpy as np
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.trajectory.violations import TrajectoryError
+from rotemina.sim.trajectory.validation import TrajectoryError
 
 MOST_TIMES, MOST_ROWS = 1000, 5_000_000
 _CLOSED = 1e-9  # of an axis' stroke: ends that differ by less are the same
@@ -66,8 +66,8 @@ def part(trajectory: Record, *, begin_s: float = 0.0, times: int = 1) -> Record:
                 raise TrajectoryError(
                     message(
                         "engine",
-                        "trajectory: axis {axis} ends {apart} from where it begins: it cannot be "
-                        "repeated; lead it back in its file",
+                        "trajectory: axis {axis} ends {apart} from where it begins, so it "
+                        "cannot be repeated; return to the start in its file",
                     ).fill(axis=axis, apart=exact(apart, trajectory.units[axis]))
                 )
     passed = np.repeat(np.arange(times), [len(time_s) - first, *[len(time_s) - 1] * (times - 1)])

@@ -168,7 +168,7 @@ class TuningProblem:
                 message(
                     "engine",
                     "axis {axis}: a loop at {rate_hz} Hz is too slow for a resonance at "
-                    "{frequency_hz} Hz; take a rate above {least_hz} Hz",
+                    "{frequency_hz} Hz; use a rate above {least_hz} Hz",
                 ).fill(
                     axis=self.axis,
                     rate_hz=self.rate_hz,

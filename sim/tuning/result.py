@@ -36,7 +36,7 @@ class Provenance:
     inverse : str
         Of the feed-forward; empty without.
     generations, done, population, seed : int
-        How many were asked for, and done.
+        How many were requested, and done.
     against : Against
     peak_sensitivity, overshoot, spread : float
         Constraints, and by how much gain and resonance were off.
@@ -123,8 +123,9 @@ def tuning_of(
         raise TuningError(
             message(
                 "engine",
-                "axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} and "
-                "overshoot ≤ {overshoot} %; search longer, take a faster loop, or allow more",
+                "axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} "
+                "and overshoot ≤ {overshoot} %; search longer, use a faster loop, or permit "
+                "more",
             ).fill(
                 axis=problem.axis,
                 done=last.done,
@@ -166,7 +167,7 @@ def document_of(tuning: Tuning) -> dict[str, Any]:
 
 
 def save_tuning(tuning: Tuning, path: str | PathLike[str]) -> None:
-    """Write a tuning as TOML, whole or not at all.
+    """Write a tuning as TOML, completely or not at all.
 
     Raises
     ------

@@ -52,7 +52,7 @@ class SearchSettings:
 
 @dataclass(frozen=True, slots=True)
 class Generation:
-    """What is known after ``done`` of ``total`` generations.
+    """The state after ``done`` of ``total`` generations.
 
     ``front`` holds the best points that break no constraint, by rising tracking error; empty where
     there is none yet.
@@ -71,7 +71,7 @@ class Generation:
 def generations(
     problem: TuningProblem, settings: SearchSettings, evaluate_all: Mapper = map
 ) -> Iterator[Generation]:
-    """Search, and give what is known after each generation; who stops asking stops the search.
+    """Search, and yield the state after each generation; ending the iteration ends the search.
 
     ``evaluate_all`` is ``map``, or one that works on several cores: figures depend on gains alone,
     so the search is the same.
@@ -106,7 +106,7 @@ def generations(
 
 
 def objectives_of(figures: Figures, against: SecondObjective) -> tuple[float, float]:
-    """Return what is to be least."""
+    """Return the objectives to minimise."""
     second = figures.settling_s if against is SecondObjective.SETTLING else figures.effort
     return min(figures.tracking_rms, _NEVER), min(second, _NEVER)
 

@@ -59,14 +59,14 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
         raise VisionError(
             message(
                 "engine",
-                "focus: {count} looks, must be at least {least_looks} with finite sharpness; look "
-                "at more places",
+                "focus: {count} pictures, must be at least {least_looks} with finite "
+                "sharpness; use more positions",
             ).fill(count=len(z), least_looks=_LEAST_LOOKS)
         )
     span, low, rise = float(np.ptp(z)), float(s.min()), float(np.ptp(s))
     if span == 0.0 or rise == 0.0:
         raise VisionError(
-            message("engine", "focus: every look is as sharp as the others; bring detail into view")
+            message("engine", "focus: all pictures are equally sharp; bring detail into view")
         )
 
     def misfit(values: FloatArray) -> FloatArray:
@@ -84,16 +84,16 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
         raise VisionError(
             message(
                 "engine",
-                "focus: no peak of the sharpness stands out; bring detail into view, "
-                "give more light, or search a larger range",
+                "focus: the sharpness has no distinct peak; bring detail into view, increase "
+                "the light, or search a larger range",
             )
         )
     if width < _NARROWEST / (len(z) - 1):
         raise VisionError(
             message(
                 "engine",
-                "focus: the peak, {width} µm wide, is narrower than the looks are apart; it is "
-                "noise, or they must be closer",
+                "focus: the peak, {width} µm wide, is narrower than the spacing of the "
+                "pictures; it is noise, or the spacing must be smaller",
             ).fill(width=rounded(width * span * 1000000.0, 2))
         )
     found = float(z.mean() + place * span)
@@ -101,8 +101,8 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
         raise VisionError(
             message(
                 "engine",
-                "focus: it would be sharpest at {place} µm, outside the searched "
-                "{low} to {high} µm; search there",
+                "focus: the sharpest position would be {place} µm, outside the searched "
+                "range {low} to {high} µm; search there",
             ).fill(
                 place=fixed(found * 1e6, 1),
                 low=fixed(z.min() * 1e6, 1),
@@ -114,7 +114,7 @@ def fit_peak(places: FloatArray, values: FloatArray) -> FocusPeak:
 
 @dataclass(frozen=True, slots=True)
 class Autofocus:
-    """A search for the sharpest place; go to :attr:`target`, look, and tell it.
+    """A search for the sharpest position; move to :attr:`target`, measure, and report.
 
     Make one by :meth:`between`; each :meth:`with_sharpness` returns the search after one more look.
 
@@ -148,7 +148,7 @@ class Autofocus:
         if not (np.isfinite([low, high]).all() and low < high):
             raise VisionError(
                 message(
-                    "engine", "focus: from {low} m to {high} m is no range; give low below high"
+                    "engine", "focus: {low} m to {high} m is not a range; low must be below high"
                 ).fill(low=low, high=high)
             )
         return cls(tuple(np.linspace(low, high, _COARSE).tolist()))
@@ -174,7 +174,7 @@ class Autofocus:
             As :func:`fit_peak`.
         """
         if not self.planned:
-            raise VisionError(message("engine", "focus: the search is over; begin another"))
+            raise VisionError(message("engine", "focus: the search has ended; start a new one"))
         after = replace(
             self,
             planned=self.planned[1:],

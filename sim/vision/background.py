@@ -47,7 +47,7 @@ class Ground:
         return Ground(self.image + share * news, np.asarray(pictures, dtype=np.float32))
 
     def known(self, low: FloatArray, high: FloatArray) -> bool:
-        """Tell whether it is known from column and row ``low`` (2,) to ``high`` (2,)."""
+        """Return whether it is known from column and row ``low`` (2,) to ``high`` (2,)."""
         begin = np.maximum(np.floor(low), 0).astype(int)
         end = np.minimum(np.ceil(high), self.image.shape[::-1]).astype(int)
         part = self.pictures[begin[1] : end[1], begin[0] : end[0]]

@@ -32,7 +32,7 @@ _LEAST_PART = 0.3  # of the part that must be in the picture
 
 @dataclass(frozen=True, slots=True)
 class BodyPart:
-    """The part of the body that is looked at: larger where a cell gives way over more pixels.
+    """The part of the body that is examined: larger where a cell gives way over more pixels.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ def fit_body(
     Parameters
     ----------
     image : (rows, columns)
-        Numbers of any kind; only the part about the body is looked at.
+        Numbers of any kind; only the part about the body is examined.
     pipette : Pipette
     start : (2,)
         px.
@@ -152,7 +152,7 @@ class _Fitting:
         self.level, self.variance, self.weights = float(np.median(seen)), 0.0, self.counted
 
     def settle(self, pipette: Pipette, depth: float, contrast: float) -> bool:
-        """Iterate; return whether it has come to rest."""
+        """Iterate; return whether it has converged."""
         self.pipette, self.depth = pipette, depth
         moved = np.inf
         for turn in range(_TURNS):

@@ -53,7 +53,7 @@ class Demands:
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """A map told in words of optics; each uncertainty is a standard deviation.
+    """A map in terms of optics; each uncertainty is a standard deviation.
 
     Attributes
     ----------
@@ -255,7 +255,7 @@ def _check_moves(moves: FloatArray, shifts: FloatArray) -> None:
         )
     if not (np.isfinite(moves).all() and np.isfinite(shifts).all()):
         raise CalibrationError(
-            message("engine", "calibration: a move or shift is not a finite number; begin again")
+            message("engine", "calibration: a move or shift is not a finite number; start again")
         )
     spread = np.linalg.svd(moves - moves.mean(axis=0), compute_uv=False)
     if not spread[1] > _LEAST_SPREAD * spread[0]:
@@ -276,9 +276,9 @@ def _check_fit(fit: StageFit, demands: Demands) -> None:
         raise CalibrationError(
             message(
                 "engine",
-                "calibration: {bad} of {n} moves do not fit, must be at most {most} "
-                "%; something else moved, or the tracking slipped: look at the "
-                "picture and begin again",
+                "calibration: {bad} of {n} moves do not fit, must be at most {most} %; "
+                "something else moved, or the tracking slipped: check the picture, and start "
+                "again",
             ).fill(
                 bad=int(np.count_nonzero(~fit.kept)),
                 n=len(fit.kept),
@@ -290,9 +290,9 @@ def _check_fit(fit: StageFit, demands: Demands) -> None:
         raise CalibrationError(
             message(
                 "engine",
-                "calibration: residuals of {rms} px rms (greatest at move {worst}), "
-                "must be at most {most} px; backlash, drift or a loose tool: let the "
-                "stage settle, home it, and begin again",
+                "calibration: residuals of {rms} px rms (greatest at move {worst}), must be "
+                "at most {most} px; backlash, drift or a loose tool: let the stage settle, "
+                "home it, and start again",
             ).fill(
                 rms=fixed(fit.residual_rms, 2),
                 worst=worst + 1,
@@ -323,8 +323,8 @@ def _check_fit(fit: StageFit, demands: Demands) -> None:
         raise CalibrationError(
             message(
                 "engine",
-                "calibration: the pixel size is known within {known} %, must be "
-                "{asked} %; make larger moves, or more of them",
+                "calibration: the pixel size is uncertain by {known} %, must be at most "
+                "{asked} %; make larger or more moves",
             ).fill(known=fixed(100.0 * worst_scale, 2), asked=rounded(100.0 * demands.scale, 6))
         )
 

@@ -57,7 +57,7 @@ class CellOutline:
 
 @dataclass(frozen=True, slots=True)
 class MembraneAhead:
-    """The membrane on the way of a tip; each with its standard deviation.
+    """The membrane in a tip's path; each with its standard deviation.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ def find_cell(image: Image, near: FloatArray, radii: tuple[float, float]) -> Cel
     if not 2.0 < low < high:
         raise VisionError(
             message(
-                "engine", "cell: radii {low} to {high} px; must be more than 2 and growing"
+                "engine", "cell: radii {low} to {high} px; must be more than 2 and increasing"
             ).fill(low=low, high=high)
         )
     centre = np.asarray(near, dtype=float)
@@ -103,9 +103,9 @@ def find_cell(image: Image, near: FloatArray, radii: tuple[float, float]) -> Cel
             raise VisionError(
                 message(
                     "engine",
-                    "cell: the line about {column}, {row} px takes {darker} % of the "
-                    "light, must be at least {least} %; focus on the membrane, or point "
-                    "into the cell",
+                    "cell: the line around {column}, {row} px absorbs {darker} % of the "
+                    "light, must be at least {least} %; focus on the membrane, or point into "
+                    "the cell",
                 ).fill(
                     column=fixed(centre[0], 0),
                     row=fixed(centre[1], 0),
@@ -119,7 +119,7 @@ def find_cell(image: Image, near: FloatArray, radii: tuple[float, float]) -> Cel
         raise VisionError(
             message(
                 "engine",
-                "cell: its outline is {rms} px rms off an ellipse, must be at most "
+                "cell: the outline deviates from an ellipse by {rms} px rms, must be at most "
                 "{most} % of its radius; point into the middle of one cell",
             ).fill(rms=fixed(rms, 1), most=rounded(100.0 * _MOST_RMS, 6))
         )

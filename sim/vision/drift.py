@@ -73,9 +73,9 @@ def background_drift(reference: Image, image: Image) -> Drift:
         raise RegistrationError(
             message(
                 "engine",
-                "drift: {most} of {count} parts of the picture agree on a shift, "
-                "must be at least {least} and half of the {seen} that show enough; "
-                "bring a background with detail into view and focus",
+                "drift: {most} of {count} parts of the picture agree on a shift, must be at "
+                "least {least} and half of the {seen} with enough detail; bring a background "
+                "with detail into view and focus",
             ).fill(most=most, count=count, least=_LEAST_AGREEING, seen=len(seen))
         )
     agreed = seen[close[int(np.argmax(close.sum(axis=0)))]]

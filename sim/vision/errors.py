@@ -4,11 +4,11 @@ from rotemina.sim.errors import InputError
 
 
 class VisionError(InputError):
-    """An image, or a set of them, that does not show what is asked for."""
+    """An image, or a set of them, that does not show what is requested."""
 
 
 class RegistrationError(VisionError):
-    """Two images whose shift cannot be told."""
+    """Two images whose shift cannot be determined."""
 
 
 class CalibrationError(VisionError):

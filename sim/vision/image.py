@@ -46,8 +46,8 @@ def grey(image: NDArray[Any]) -> Image:
         raise VisionError(
             message(
                 "engine",
-                "image: every pixel is {low}; the camera is dark, saturated or covered: look at "
-                "lamp, shutter and exposure",
+                "image: every pixel is {low}; the camera is dark, saturated or covered: "
+                "check lamp, shutter and exposure",
             ).fill(low=low)
         )
     return plane

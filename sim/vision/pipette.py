@@ -120,8 +120,8 @@ class Pipette:
             raise VisionError(
                 message(
                     "engine",
-                    "pipette: it stands at {angle}° to the focal plane, must be at most "
-                    "{most}°; seen from its end it has no shape to be found by: tilt the view",
+                    "pipette: its angle to the focal plane is {angle}°, must be at most "
+                    "{most}°; seen from its end it has no recognisable shape: tilt the view",
                 ).fill(
                     angle=fixed(np.degrees(approach), 0),
                     most=fixed(np.degrees(_STEEPEST), 0),

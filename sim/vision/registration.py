@@ -103,8 +103,8 @@ def register(reference: Image, image: Image) -> Registration:
             message(
                 "engine",
                 "registration: peak-to-sidelobe ratio {ratio}, must be at least "
-                "{least_peak_to_sidelobe}; the images show too little common detail, or detail "
-                "that repeats: focus, give more light, make the move smaller, or bring another "
+                "{least_peak_to_sidelobe}; the images share too little detail, or repeating "
+                "detail: focus, increase the light, make the move smaller, or bring another "
                 "object into view",
             ).fill(ratio=fixed(ratio, 1), least_peak_to_sidelobe=LEAST_PEAK_TO_SIDELOBE)
         )
@@ -152,8 +152,8 @@ def _refined(
         raise RegistrationError(
             message(
                 "engine",
-                "registration: the images cannot be laid over one another; they differ by more "
-                "than a shift (turned, other focus, or only a part of the scene moved)",
+                "registration: the images cannot be aligned; they differ by more than a "
+                "shift (rotation, another focus, or motion of only a part of the scene)",
             )
         )
     return Registration(found.corner - begin, found.covariance, ratio, rival, found.correlation)

@@ -44,7 +44,7 @@ def fit_depths(
     *,
     turning: bool = True,
 ) -> TipFit | None:
-    """Fit from several depths, m, and from the mirror image of the best; tell whether it differs.
+    """Fit from several depths, m, and from the mirror image of the best.
 
     This is what finds the sign of the depth; a tracker then keeps it.
     """
@@ -99,9 +99,8 @@ def find_tip(image: Image, pipette: Pipette, *, turning: bool = True) -> TipFit:
         raise VisionError(
             message(
                 "engine",
-                "tip: nothing looks like it (greatest likeness {likeness}); bring "
-                "the tip into view and near focus, or correct its direction in the "
-                "image",
+                "tip: nothing in the picture matches it (best match {likeness}); bring the "
+                "tip into view and near focus, or correct its direction in the image",
             ).fill(likeness=fixed(likeness, 2))
         )
     return best
@@ -135,15 +134,15 @@ def find_body(image: Image, pipette: Pipette) -> TipFit:
         raise VisionError(
             message(
                 "engine",
-                "tip: nothing in the picture looks like a pipette, in whatever "
-                "direction; bring the tip into view and near focus",
+                "tip: nothing in the picture looks like a pipette in any direction; bring "
+                "the tip into view and near focus",
             )
         ) from refusal
     return min(fits, key=lambda fit: fit.uncertainty_px)
 
 
 def plausible(fit: TipFit) -> bool:
-    """Tell whether a fit may be a tip at all."""
+    """Return whether a fit may be a tip at all."""
     return (
         -MOST_CONTRAST <= fit.contrast <= -LEAST_CONTRAST
         and fit.used >= LEAST_USED

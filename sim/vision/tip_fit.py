@@ -115,7 +115,7 @@ def fit_tip(
 ) -> TipFit | None:
     """Fit the tip within a px or two of ``start`` (2,), and near ``depth``, m; None if none fits.
 
-    Only the part of the image about the start is looked at, more of it the more it is blurred.
+    Only the part of the image about the start is examined, more of it the more it is blurred.
     With ``turning`` the direction is fitted too. In the first ``placed`` turns only the place is:
     a tip out of place looks like a blurred one. ``half`` is how far about the start it is looked
     at, px, where that shall not follow from the blur. ``contrast`` is what it had before, a
@@ -135,7 +135,7 @@ def fit_tip(
 
 
 def half_width(pipette: Pipette, depth: float) -> int:
-    """Return how far about a tip at a depth, m, it is looked at, px."""
+    """Return how far about a tip at a depth, m, it is examined, px."""
     wider = _BLURS * float(pipette.blur(depth) - pipette.sharpest)
     return min(round(LEAST_HALF_PX + wider), _MOST_HALF_PX)
 

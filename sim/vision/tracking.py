@@ -46,7 +46,7 @@ _JUMP = 5.0  # standard deviations beyond which it was moved by something else
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TipTrack:
-    """What is known of a tip after a frame.
+    """The tracking state of a tip after a frame.
 
     Attributes
     ----------
@@ -97,7 +97,7 @@ def begin_track(
 ) -> TipTrack:
     """Find the tip in a whole image; with ``dimple`` it is going to press on a membrane.
 
-    Without ``turning`` the pipette's direction is taken as it is, not found anew.
+    Without ``turning`` the pipette's direction is taken as it is, not found again.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def follow(
     ----------
     track : TipTrack
     image : (rows, columns)
-        Numbers of any kind; mostly a part of them is looked at.
+        Numbers of any kind; mostly a part of them is examined.
     background : (rows, columns), optional
         The same view without the tip.
     moved : (2,), optional
@@ -236,22 +236,22 @@ def _likely_place(track: TipTrack, image: Image, depths: tuple[float, ...]) -> F
 def _doubt(fit: TipFit | None, track: TipTrack) -> str:
     """Return what speaks against a fit; nothing if it is the tip."""
     if fit is None:
-        return message("engine", "nothing like it where it should be")
+        return message("engine", "nothing matches it at its expected place")
     if fit.used < LEAST_USED:
-        return message("engine", "only {part} % of its surroundings look as they should").fill(
+        return message("engine", "only {part} % of its surroundings match").fill(
             part=fixed(100.0 * fit.used, 0)
         )
     if fit.uncertainty_px > MOST_DOUBT_PX:
-        return message("engine", "its place is uncertain by {doubt} px").fill(
+        return message("engine", "its position is uncertain by {doubt} px").fill(
             doubt=fixed(fit.uncertainty_px, 1)
         )
     if not plausible(fit):
-        return message("engine", "what is there takes {part} % of the light").fill(
+        return message("engine", "the object there absorbs {part} % of the light").fill(
             part=fixed(-100.0 * fit.contrast, 0)
         )
     ratio = fit.contrast / track.contrast
     if not _LEAST_CONTRAST <= ratio <= _MOST_CONTRAST:
-        return message("engine", "its contrast is {part} % of what it was").fill(
+        return message("engine", "its contrast has changed to {part} %").fill(
             part=fixed(100.0 * ratio, 0)
         )
     return ""

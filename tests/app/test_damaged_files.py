@@ -18,8 +18,8 @@ from rotemina.app.cli.main import main
 from rotemina.app.microscope.calibration_file import file_of, load
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import PenetrationRun, RunLog, Verdict
-from rotemina.app.motion.recording.merging import recover
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import recover
 from rotemina.app.motion.recording.writer import RecordingWriter
 from rotemina.app.motion.saved_positions import FOLDER, SavedPositions
 from rotemina.app.motion.teleoperation.axis_calibration import CalibrationFolder

@@ -43,7 +43,7 @@ def test_assignments():
     [
         ("seed", "name=value"),
         ("=3", "name=value"),
-        ("colour=red", "no setting 'colour'; it knows sample_rate_hz"),
+        ("colour=red", "no setting 'colour'; available: sample_rate_hz"),
         ("seed=many", "not an integer"),
     ],
 )

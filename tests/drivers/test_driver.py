@@ -106,7 +106,7 @@ def test_time_that_runs_back_between_reads_is_no_answer(plain):
     plain.samples = samples([1.0, 2.0])
     plain.read()
     plain.samples = samples([2.0, 3.0])
-    with pytest.raises(ProtocolError, match="2 s back to 2 s"):
+    with pytest.raises(ProtocolError, match="back from 2 s to 2 s"):
         plain.read()
     plain.close()
     plain.open()

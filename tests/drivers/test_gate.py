@@ -41,7 +41,7 @@ def test_a_latch_lets_nothing_move_and_a_release_lets_only_what_comes_after_it(g
     with pytest.raises(OvertakenError, match="emergency stop is active; release it first"):
         passes(meanwhile)
     gate.release()
-    with pytest.raises(OvertakenError, match="ask again"):
+    with pytest.raises(OvertakenError, match="try again"):
         passes(meanwhile)
     assert passes(gate.permit())
 

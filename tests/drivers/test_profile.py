@@ -29,10 +29,18 @@ def test_a_thrust_and_its_return_are_allowed():
     [
         (Profile("zn", (thrust(50e-6),)), 30e-6, r"segment 1: .*zn"),
         (Profile("zn", (thrust(50e-6), thrust(20e-6))), 0.0, "segment 2: .*zn"),
-        (Profile("zn", (thrust(50e-6, 0.01),)), 5e-6, r"segment 1: 7\.5 mm/s: at most 5 mm/s"),
-        (Profile("x", (thrust(1e-4, 0.05),)), 0.02, r"segment 1: 240 mm/s²: at most 200 mm/s²"),
-        (Profile("zn", ()), 5e-6, "0 segments: 1 to 16"),
-        (Profile("zn", (thrust(1e-9),) * 17), 5e-6, "17 segments: 1 to 16"),
+        (
+            Profile("zn", (thrust(50e-6, 0.01),)),
+            5e-6,
+            r"segment 1: 7\.5 mm/s: must be at most 5 mm/s",
+        ),
+        (
+            Profile("x", (thrust(1e-4, 0.05),)),
+            0.02,
+            r"segment 1: 240 mm/s²: must be at most 200 mm/s²",
+        ),
+        (Profile("zn", ()), 5e-6, "0 segments: must be 1 to 16"),
+        (Profile("zn", (thrust(1e-9),) * 17), 5e-6, "17 segments: must be 1 to 16"),
         (Profile("zn", (thrust(float("nan")),)), 5e-6, "must be finite"),
         (Profile("zn", (thrust(1e-6, 0.0),)), 5e-6, "time positive"),
         (Profile("elbow", (thrust(1e-6),)), 0.0, "elbow"),

@@ -138,7 +138,7 @@ def test_a_far_way_is_asked_about_and_a_stop_withdraws_it(qtbot, bench, section)
     far = next(one for one in section._known if one.name == "far")
     section.choose(far, 0.0, 0.0)
     press(qtbot, section)
-    assert section.go.text() == "A far way: go?"
+    assert section.go.text() == "Far away: go there?"
     qtbot.mouseClick(section.go, Qt.MouseButton.LeftButton)  # a double click is no answer
     assert session.snapshot().command == before
     bench.stop()
@@ -146,7 +146,7 @@ def test_a_far_way_is_asked_about_and_a_stop_withdraws_it(qtbot, bench, section)
     assert section.go.text() == "Go there"
     qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)
     press(qtbot, section)
-    assert section.go.text() == "A far way: go?"
+    assert section.go.text() == "Far away: go there?"
     press(qtbot, section)
     qtbot.waitUntil(lambda: not session.at_rest, timeout=LONG_MS)
     look(section)

@@ -25,8 +25,8 @@ def test_what_is_no_file_is_not_waited_for(tmp_path):
         (tmp_path / "pipe", "a pipe or a device"),
         ("/dev/zero", "a pipe or a device"),
         (tmp_path, "a folder"),
-        (tmp_path / "none", "there is no such file"),
-        (tmp_path / "none" / "a", "there is no such file"),
+        (tmp_path / "none", "file not found"),
+        (tmp_path / "none" / "a", "file not found"),
         ("a" * 300, "File name too long"),
         ("a\0b", "null"),
     ):
@@ -59,8 +59,8 @@ def test_size_is_bounded_even_where_the_system_does_not_tell_it(tmp_path):
     ("text", "said"),
     [
         ("a = ", "not valid TOML"),
-        (".".join(["a"] * 50_000) + " = 1", "nested too deeply"),
-        ("a = " + "[" * 5000, "nested too deeply"),
+        (".".join(["a"] * 50_000) + " = 1", "nested more than"),
+        ("a = " + "[" * 5000, "nested more than"),
         ("a = " + "9" * 5000, "not valid TOML"),
         ("a = " + "9" * 400, "400 digits"),
     ],
@@ -75,8 +75,8 @@ def test_toml_that_is_none_is_refused(text, said):
     [
         ("{", "1: not valid JSON"),
         (b"\xff", "not valid JSON"),
-        ("[" * 60 + "]" * 60, "nested too deeply"),
-        ("[" * 100_000, "nested too deeply"),
+        ("[" * 60 + "]" * 60, "nested more than"),
+        ("[" * 100_000, "nested more than"),
         ("[NaN]", "NaN is no number"),
     ],
 )

@@ -61,5 +61,5 @@ def test_an_unknown_unit_is_refused_with_what_there_is(unit: str) -> None:
 def test_a_menu_begins_with_the_si_unit() -> None:
     assert units.units_of("m") == ("m", "mm", "um", "nm")
     assert units.units_of("rad")[0] == "rad"
-    with pytest.raises(UnitError, match="'mm' is no SI unit"):
+    with pytest.raises(UnitError, match="'mm' is not an SI unit"):
         units.units_of("mm")

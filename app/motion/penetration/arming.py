@@ -1,4 +1,4 @@
-"""What must be true before a penetration may begin."""
+"""Conditions for arming a penetration."""
 
 from typing import NamedTuple
 
@@ -36,7 +36,7 @@ class TravelMargin(NamedTuple):
 
     @property
     def needed(self) -> float:
-        """All of the way."""
+        """The total travel."""
         return self.approach + self.halt + self.thrust
 
 
@@ -129,8 +129,8 @@ def prepared(session: MotionSession, parameters: PenetrationParameters) -> dict[
         raise PenetrationError(
             message(
                 "engine",
-                "axis {axis}: {needed} are needed, its whole range is {range}; shorten "
-                "approach_distance or depth",
+                "axis {axis}: the run needs {needed}, but the whole range is {range}; "
+                "shorten approach_distance or depth",
             ).fill(axis=AxisName(name), needed=exact(needed, "m"), range=exact(high - low, "m"))
         )
     spare = 0.5 * (high - low - needed)
@@ -148,14 +148,14 @@ def _check_device(session: MotionSession, parameters: PenetrationParameters) -> 
     if not isinstance(driver, VelocityMover):
         raise RefusedError(
             message(
-                "engine", "driver {driver} cannot move at a speed; the approach needs that"
+                "engine", "driver {driver} cannot move at a set speed, which the approach needs"
             ).fill(driver=repr(driver.name))
         )
     if parameters.inject_s > 0.0 and session.tool.on is None:
         raise RefusedError(
-            message(
-                "engine", "driver {driver} has no tool that could inject; set inject_s to 0"
-            ).fill(driver=repr(driver.name))
+            message("engine", "driver {driver} has no tool for injection; set inject_s to 0").fill(
+                driver=repr(driver.name)
+            )
         )
 
 
@@ -178,7 +178,7 @@ def _check_axis(robot: Robot, parameters: PenetrationParameters) -> None:
         raise PenetrationError(
             message(
                 "engine",
-                "approach_speed = {approach_speed}: axis {name} goes at {max_speed} at most",
+                "approach_speed = {approach_speed}: axis {name} moves at {max_speed} at most",
             ).fill(
                 approach_speed=exact(parameters.approach_speed, "m/s"),
                 name=AxisName(name),
@@ -205,9 +205,9 @@ def _check_room(parameters: PenetrationParameters, taken: TravelMargin) -> None:
         raise PenetrationError(
             message(
                 "engine",
-                "axis {axis}: {left} of its range are left {direction}wards, "
-                "{needed} are needed ({approach} to approach, {halt} to halt, "
-                "{thrust} to thrust); move the axis back first, or shorten them",
+                "axis {axis} has {left} of travel left {direction}wards, but the run needs "
+                "{needed} ({approach} to approach, {halt} to halt, {thrust} to thrust); move "
+                "the axis back first, or shorten them",
             ).fill(
                 axis=AxisName(parameters.axis),
                 left=exact(taken.left, "m"),

@@ -1,4 +1,4 @@
-"""A running penetration: the findings so far, and the resulting entry of the log."""
+"""A running penetration: its findings so far, and the resulting log entry."""
 
 from dataclasses import dataclass, field
 
@@ -18,7 +18,7 @@ _SURE = 6.0  # standard deviations
 
 @dataclass(slots=True)
 class Attempt:
-    """What is known of a run under way; positions are commands, m."""
+    """Findings of a running penetration; positions are commands, m."""
 
     parameters: PenetrationParameters
     plan: ThrustPlan

@@ -1,4 +1,4 @@
-"""Cells to be penetrated one after the other, and what came of each."""
+"""A list of cells to penetrate in turn, with the outcome of each."""
 
 import csv
 import io
@@ -15,7 +15,7 @@ MOST_CELLS = 999
 
 
 class Outcome(StrEnum):
-    """What has become of a cell."""
+    """The outcome of a cell."""
 
     WAITING = "waiting"
     SKIPPED = "skipped"
@@ -59,7 +59,10 @@ class CellList:
         """
         if not place:
             raise PenetrationError(
-                message("engine", "cells: nobody knows where the axes are; home them, or reconnect")
+                message(
+                    "engine",
+                    "cells: the positions of the axes are unknown; home them, or reconnect",
+                )
             )
         if len(self.cells) >= MOST_CELLS:
             raise PenetrationError(
@@ -91,7 +94,7 @@ class CellList:
         self._become(Outcome.SKIPPED)
 
     def take(self, number: int, run: PenetrationRun) -> None:
-        """Note what came of a cell."""
+        """Note the outcome of a cell."""
         done = run.verdict is Verdict.DONE
         depth = run.thrust.depth if run.thrust is not None else None
         outcome = Outcome.DONE if done else Outcome.FAILED

@@ -98,8 +98,8 @@ def noise_at_rest(time_s: FloatArray, residual: FloatArray, floor: float = 0.0) 
         raise PenetrationError(
             message(
                 "engine",
-                "contact: {count} samples at rest, at least {least_samples} are needed to know the "
-                "noise; wait",
+                "contact: {count} samples at rest, but at least {least_samples} are needed "
+                "to measure the noise; wait",
             ).fill(count=len(residual), least_samples=_LEAST_SAMPLES)
         )
     steps = np.diff(residual)
@@ -182,7 +182,7 @@ class ContactDetector:
         return None
 
     def _leans(self, command: float) -> bool:
-        """Tell whether the level has risen as no drift makes it rise."""
+        """Return whether the level has risen as no drift makes it rise."""
         way = abs(command - self._begin)
         if way == 0.0:
             self._rested = self._level  # creep goes on while it still rests

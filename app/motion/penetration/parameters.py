@@ -1,4 +1,4 @@
-"""What a penetration is to be like: parameters with bounds, and their file."""
+"""Parameters of a penetration, with bounds, and their file."""
 
 from collections.abc import Mapping
 from contextlib import suppress
@@ -22,7 +22,7 @@ MOST_POINTS = 200
 
 
 class Direction(StrEnum):
-    """Which way the cell is, along the axis."""
+    """Direction of the cell along the axis."""
 
     DOWN = "down"
     UP = "up"
@@ -37,7 +37,7 @@ class ThrustShape(StrEnum):
 
 
 class Shaping(StrEnum):
-    """What is done against the axis' resonance."""
+    """Input shaping against the axis' resonance."""
 
     NONE = "none"
     ZV = "zv"
@@ -153,8 +153,8 @@ class PenetrationParameters:
             raise PenetrationError(
                 message(
                     "engine",
-                    "table: needed for a thrust of shape 'table', and for no other (shape is "
-                    "{shape}, the table has {count} points)",
+                    "table: permitted only for a thrust of shape 'table', which needs it "
+                    "(shape is {shape}, the table has {count} points)",
                 ).fill(shape=repr(str(self.shape)), count=len(self.table))
             )
 
@@ -215,7 +215,7 @@ class PenetrationParameters:
         return "\n".join(lines) + "\n"
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the file, whole or not at all; its folder is made.
+        """Write the file, completely or not at all; its folder is made.
 
         Raises
         ------

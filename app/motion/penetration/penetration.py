@@ -1,7 +1,7 @@
-"""Automatic cell penetration: armed, it approaches, feels the membrane, thrusts, and comes back.
+"""Automatic cell penetration: arm, approach, detect the membrane, thrust, and retract.
 
 A stop, a fault or a lost link *holds* the tip where it is: nothing here moves it again until
-somebody presses the button once more or takes the axes over.
+someone presses the button again or takes the axes over.
 """
 
 from collections.abc import Callable
@@ -23,7 +23,7 @@ from rotemina.sim.messages import marked, message
 
 
 class Penetration(PenetrationSequence):
-    """The state machine; it has no thread: somebody calls :meth:`step`, at about 200 Hz.
+    """The state machine; it has no thread: someone calls :meth:`step`, at about 200 Hz.
 
     Every method may be called from any thread.
 
@@ -59,7 +59,7 @@ class Penetration(PenetrationSequence):
         ------
         InputError
             If a run is under way or held, the device or robot cannot, the room left in the range
-            or the tip's bounds do not allow it, or somebody else drives an axis.
+            or the tip's bounds do not allow it, or someone else drives an axis.
         """
         with self._lock:
             if self._status.phase in UNDER_WAY | {Phase.HELD}:
@@ -121,13 +121,13 @@ class Penetration(PenetrationSequence):
         with self._lock:
             if self._status.phase in UNDER_WAY:
                 self._halt()
-                self._hold_here(marked("engine", "the program let go of it"), self._since_s)
+                self._hold_here(marked("engine", "the program released it"), self._since_s)
             self._release()
             self._end()
         self._write()
 
     def press(self, now_s: float) -> None:
-        """Take the one button: start when armed, go back while it runs, go back when held.
+        """Press the button: start when armed, retract during a run or a hold.
 
         Raises
         ------
@@ -173,7 +173,9 @@ class Penetration(PenetrationSequence):
             self._status = replace(self._status, armed_left_s=self._armed_until_s - now_s)
             return
         self._release()
-        self._enter(Phase.DISARMED, now_s, broken or message("engine", "nobody started it in time"))
+        self._enter(
+            Phase.DISARMED, now_s, broken or message("engine", "it was not started in time")
+        )
 
     def _start(self, attempt: Attempt, now_s: float) -> None:
         state = self._session.snapshot()
@@ -200,7 +202,7 @@ class Penetration(PenetrationSequence):
             )
         if not self._session.reservations.held_by(OWNER):
             raise RefusedError(
-                message("engine", "the axes are not the penetration's any more; move them by hand")
+                message("engine", "the penetration no longer owns the axes; move them manually")
             )
         self._permit = permit
         self._outcome = (

@@ -1,4 +1,4 @@
-"""What became of each penetration: a line of JSON a run, appended to a file."""
+"""The log of penetrations: one line of JSON per run, appended to a file."""
 
 import json
 import os
@@ -29,7 +29,7 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PenetrationRun:
-    """One run; SI units, positions as commanded, None for what did not come to pass.
+    """One run; SI units, positions as commanded, None for what did not happen.
 
     Attributes
     ----------
@@ -110,7 +110,7 @@ class PenetrationRun:
             return run
         except (ValueError, TypeError, KeyError) as error:
             raise PenetrationError(
-                message("engine", "no penetration's run: {error}").fill(error=str(error))
+                message("engine", "not the run of a penetration: {error}").fill(error=str(error))
             ) from error
 
 
@@ -149,9 +149,9 @@ class RunLog:
             ) from error
         if written != len(data):
             raise FileWriteError(
-                message("engine", "{path}: the run is not whole there; the disk may be full").fill(
-                    path=self.path
-                )
+                message(
+                    "engine", "{path}: the run was not written completely; the disk may be full"
+                ).fill(path=self.path)
             )
 
     def read(self) -> tuple[tuple[PenetrationRun, ...], tuple[str, ...]]:

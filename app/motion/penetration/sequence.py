@@ -1,4 +1,4 @@
-"""The sequence of a penetration: what each phase does, and how one leads to the next.
+"""The sequence of a penetration: the actions of each phase, and the transitions between them.
 
 A stop, a fault or a lost link *holds* the tip where it is: nothing here moves it again.
 """
@@ -195,7 +195,8 @@ class PenetrationSequence:
         if abs(attempt.thrust.depth - p.depth) > p.depth_tolerance * p.depth:
             self._fail(
                 message(
-                    "engine", "the thrust went {depth}: must be {asked} within {tolerance} %"
+                    "engine",
+                    "the thrust reached {depth} instead of {asked}, more than {tolerance} % off",
                 ).fill(
                     depth=exact(attempt.thrust.depth, "m"),
                     asked=exact(p.depth, "m"),
@@ -246,7 +247,7 @@ class PenetrationSequence:
             self._finish(now_s)
         else:
             most_s = (p.approach_distance + p.depth) / p.retract_speed + 2.0 * _PATIENCE_S
-            self._await(now_s, most_s, message("engine", "the axis did not come back"))
+            self._await(now_s, most_s, message("engine", "the axis did not return"))
 
     # --- what phases share ----------------------------------------------------------------------
 
@@ -298,7 +299,8 @@ class PenetrationSequence:
         if load > most:
             raise PenetrationError(
                 message(
-                    "engine", "overload: the axis is {load} from where it should be, {most} at most"
+                    "engine",
+                    "overload: the axis is {load} from its command; at most {most} is permitted",
                 ).fill(load=exact(load, "m"), most=exact(most, "m"))
             )
 
@@ -339,9 +341,9 @@ class PenetrationSequence:
         if state.locked is not None:
             return state.locked
         if not self._permit.valid:
-            return message("engine", "a stop was asked for")
+            return message("engine", "a stop was requested")
         if not self._session.reservations.held_by(OWNER):
-            return message("engine", "somebody took an axis over")
+            return message("engine", "another control took over an axis")
         return None
 
     def _await(self, now_s: float, most_s: float, what: str) -> None:

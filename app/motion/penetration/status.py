@@ -1,4 +1,4 @@
-"""What an operator must know of a penetration."""
+"""The status of a penetration for the operator."""
 
 from dataclasses import dataclass
 from enum import StrEnum

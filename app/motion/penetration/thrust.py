@@ -1,4 +1,4 @@
-"""The thrust: its profile as a board runs it, and how the axis followed it."""
+"""The thrust: its profile as executed by a board, and how the axis followed it."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -103,7 +103,7 @@ class ThrustMeasured:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ThrustTrace:
-    """What the axis' own sensor said of a thrust, for a picture of it.
+    """The axis' sensor readings of a thrust, for plotting.
 
     Attributes
     ----------
@@ -164,8 +164,8 @@ def plan_thrust(robot: Robot, parameters: PenetrationParameters, hold_s: float) 
             raise PenetrationError(
                 message(
                     "engine",
-                    "duration_s = {duration} s: input shaping {shaping} takes {taken} s "
-                    "of it; at least {least} s, or another shaping",
+                    "duration_s = {duration} s: input shaping {shaping} takes {taken} s of "
+                    "it; use at least {least} s, or another shaping",
                 ).fill(
                     duration=rounded(parameters.duration_s, 6),
                     shaping=repr(str(parameters.shaping)),
@@ -207,7 +207,7 @@ def thrust_response(
     after = way[time_s > begin_s + delay_s + wanted.duration_s]
     if not len(after):
         raise PenetrationError(
-            message("engine", "thrust: none of {count} samples is behind it").fill(
+            message("engine", "thrust: none of {count} samples lies after it").fill(
                 count=len(time_s)
             )
         )
@@ -238,7 +238,7 @@ def _way(time_s: FloatArray, measured: FloatArray, begin_s: float) -> FloatArray
     before = measured[time_s <= begin_s][-_BEFORE:]
     if not len(before):
         raise PenetrationError(
-            message("engine", "thrust: none of {count} samples is before it").fill(
+            message("engine", "thrust: none of {count} samples lies before it").fill(
                 count=len(time_s)
             )
         )

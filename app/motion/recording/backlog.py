@@ -1,4 +1,4 @@
-"""What waits to be written: handed over by any thread, taken by the one that writes."""
+"""The queue of entries to be written, filled by any thread and emptied by the writer."""
 
 import threading
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""How a device's time lies on the host's: estimated from when its samples came in."""
+"""Mapping of device time to host time, estimated from the arrival of samples."""
 
 from collections import deque
 from statistics import median

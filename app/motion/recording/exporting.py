@@ -1,4 +1,4 @@
-"""Export of recordings as records, and as trajectories that can be played."""
+"""Export of recordings as records or playable trajectories."""
 
 from collections.abc import Iterator
 from contextlib import suppress
@@ -37,7 +37,7 @@ def export(
     RecordError
         If the file cannot be written.
     RecordingError
-        If there are no samples, or the device was connected anew in between.
+        If there are no samples, or the device was connected again in between.
     """
     count = 0
 
@@ -115,7 +115,7 @@ def trajectory(
     moving = np.flatnonzero(np.ptp(samples.command, axis=0) > 0.0)
     if not len(moving):
         raise RecordingError(
-            message("engine", "{path}: no axis was sent anywhere from there to there").fill(
+            message("engine", "{path}: no axis was commanded to move in this section").fill(
                 path=recording.path
             )
         )
@@ -161,9 +161,9 @@ def _span(recording: Recording, begin_s: float, end_s: float) -> _Span:
     if first is None:
         whole_s = recording.ended_s - recording.began_s
         raise RecordingError(
-            message("engine", "{path}: no samples from there to there; it lasts {whole_s} s").fill(
-                path=recording.path, whole_s=fixed(whole_s, 3)
-            )
+            message(
+                "engine", "{path}: no samples in this section; the recording lasts {whole_s} s"
+            ).fill(path=recording.path, whole_s=fixed(whole_s, 3))
         )
     return _Span(float(first.device_time_s[0]), told, _metadata(recording, first))
 
@@ -211,7 +211,7 @@ def _check_rest(recording: Recording, samples: RecordedSamples) -> None:
             raise RecordingError(
                 message(
                     "engine",
-                    "{path}: axis {axes} moves at the {end}; every axis must stand there for "
+                    "{path}: axis {axes} moves at the {end}; every axis must rest there for "
                     "{rest_s} s: choose {advice}",
                 ).fill(
                     path=recording.path,

@@ -1,4 +1,4 @@
-"""Locks on files, which the system takes back when a process ends."""
+"""File locks that the system releases when a process ends."""
 
 import os
 from typing import BinaryIO
@@ -9,7 +9,7 @@ if os.name == "nt":  # pragma: no cover - the other system's half
     _BEHIND = 1 << 62  # a byte that nobody writes: Windows keeps others from locked ones
 
     def locked(file: BinaryIO) -> bool:
-        """Lock a file until it is closed; return False if somebody else has."""
+        """Lock a file until it is closed; return False if someone else has."""
         at = file.tell()
         file.seek(_BEHIND)
         try:
@@ -24,7 +24,7 @@ else:
     import fcntl
 
     def locked(file: BinaryIO) -> bool:
-        """Lock a file until it is closed; return False if somebody else has."""
+        """Lock a file until it is closed; return False if someone else has."""
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:

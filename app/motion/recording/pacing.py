@@ -1,4 +1,4 @@
-"""A replay paced by a clock, slower or faster, with pauses and jumps."""
+"""The pace of a replay by a clock: speed, pauses and jumps."""
 
 import time
 
@@ -50,7 +50,7 @@ class PacedReplay:
         self._speed = speed
 
     def play(self) -> None:
-        """Go on; from the begin, where the end is reached."""
+        """Advance; from the begin, where the end is reached."""
         if self.at_s >= self.duration_s:
             self.seek(0.0)
         self.playing = True
@@ -64,7 +64,7 @@ class PacedReplay:
         self._wanted_s = min(max(at_s, 0.0), self.duration_s)
 
     def step(self) -> None:
-        """Go on by the time since the step before; pause where the end is reached."""
+        """Advance by the time since the step before; pause where the end is reached."""
         before_s, self._before_s = self._before_s, self._clock()
         if self._wanted_s is not None:
             self.replay.seek(self.replay.recording.began_s + self._wanted_s)

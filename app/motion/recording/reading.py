@@ -14,7 +14,7 @@ import pyarrow as pa  # type: ignore[import-untyped,unused-ignore] # it comes wi
 
 from rotemina.app.motion.recording.backlog import RecordedEvent
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import UNFINISHED
+from rotemina.app.motion.recording.recovery import UNFINISHED
 from rotemina.app.motion.recording.tables import (
     CHANNEL,
     EVENTS,
@@ -104,7 +104,9 @@ class Recording:
         """
         if path.suffix == UNFINISHED:
             raise RecordingError(
-                message("engine", "{path}: it was not ended; recover it first").fill(path=path)
+                message("engine", "{path}: the recording is unfinished; recover it first").fill(
+                    path=path
+                )
             )
         try:
             with open_file(
@@ -119,7 +121,7 @@ class Recording:
         except (pa.ArrowException, OSError, ValueError, KeyError, TypeError) as error:
             raise RecordingError(
                 message(
-                    "engine", "{path}: no recording of this program, or a damaged one ({error})"
+                    "engine", "{path}: not a recording of this program, or damaged ({error})"
                 ).fill(path=path, error=str(error))
             ) from error
 
@@ -269,18 +271,19 @@ def _check(path: Path, tables: Mapping[str, pa.Table]) -> None:
     version = about.get(FORMAT.encode())
     if version is None:
         raise RecordingError(
-            message("engine", "{path}: no recording of this program").fill(path=path)
+            message("engine", "{path}: not a recording of this program").fill(path=path)
         )
     if version != VERSION.encode():
         raise RecordingError(
             message(
-                "engine", "{path}: a recording of version {decode}; this program reads {version}"
+                "engine",
+                "{path}: recording of version {decode}, but this program reads version {version}",
             ).fill(path=path, decode=version.decode("ascii", "replace"), version=VERSION)
         )
     lost = [key for key in _WRITTEN if key.encode() not in about]
     if lost:
         raise RecordingError(
-            message("engine", "{path}: damaged, it no longer says its {names}").fill(
+            message("engine", "{path}: damaged, {names} missing").fill(
                 path=path, names=", ".join(lost)
             )
         )
@@ -295,7 +298,7 @@ def _check(path: Path, tables: Mapping[str, pa.Table]) -> None:
         wanted = known.get(name) or channel_schema(name, table.column_names)
         if not table.schema.equals(wanted) or any(column.null_count for column in table.columns):
             raise RecordingError(
-                message("engine", "{path}: damaged, table {name} is none of a recording").fill(
+                message("engine", "{path}: damaged, {name} is not a table of a recording").fill(
                     path=path, name=repr(name[:40])
                 )
             )

@@ -1,4 +1,4 @@
-"""A recording shown again: history and states as the session had them, at any pace."""
+"""Replay of a recording: the session's history and states, at any pace."""
 
 import json
 from bisect import bisect_right
@@ -77,7 +77,7 @@ class Replay:
         )
 
     def subscribe(self, callback: Callback) -> Callable[[], None]:
-        """Have events told to ``callback`` as they come up; return how to end that."""
+        """Call ``callback`` for each event as it comes up; return how to end that."""
         self._callbacks.append(callback)
 
         def unsubscribe() -> None:
@@ -87,7 +87,7 @@ class Replay:
         return unsubscribe
 
     def advance(self, seconds: float) -> None:
-        """Go on by some time of the recording, at least 0."""
+        """Advance by some time of the recording, at least 0."""
         if not seconds >= 0.0:
             raise ValueError(f"a replay goes on, not by {seconds} s; seek instead")
         begin_s = self.host_time_s

@@ -1,4 +1,4 @@
-"""The append-only file that a recording is while it runs: segments, each found whole or not at all.
+"""The append-only file of a running recording: segments, each either complete or ignored.
 
 A segment is a header (magic, number, length, CRC-32 of number, length and content) and its
 content. A file that was cut off anywhere, or whose last writing failed, ends with its last whole
@@ -69,20 +69,20 @@ class SegmentFile:
             raise RecordingError(
                 message(
                     "engine",
-                    "{path}: it is there already, being recorded or left by a crash; record to "
+                    "{path} already exists, being recorded or left by a crash; record to "
                     "another name, or recover it",
                 ).fill(path=path)
             ) from error
         except OSError as error:
             raise RecordingError(
-                message("engine", "{path}: cannot be made ({reason}); choose another folder").fill(
-                    path=path, reason=str(error.strerror or error)
-                )
+                message(
+                    "engine", "{path}: cannot be created ({reason}); choose another folder"
+                ).fill(path=path, reason=str(error.strerror or error))
             ) from error
         if not locked(self._file):
             self._file.close()
             raise RecordingError(
-                message("engine", "{path}: another program has it; record to another name").fill(
+                message("engine", "{path}: in use by another program; record to another name").fill(
                     path=path
                 )
             )
@@ -146,7 +146,7 @@ class SegmentFile:
             del self._unconfirmed[:count]
 
     def close(self) -> None:
-        """Let go of the file; safe to call twice."""
+        """Release the file; safe to call twice."""
         self._file.close()
 
     def _write(self, data: bytes) -> None:
@@ -185,7 +185,7 @@ class WholeSegments:
         try:
             if not locked(self._file):
                 raise RecordingError(
-                    message("engine", "{path}: it is still being recorded; end that first").fill(
+                    message("engine", "{path}: still being recorded; end the recording first").fill(
                         path=path
                     )
                 )
@@ -232,18 +232,18 @@ def _check_kind(path: Path, head: bytes) -> None:
         return
     if MAGIC.startswith(head):
         raise RecordingError(
-            message(
-                "engine", "{path}: it was cut off before anything was recorded; delete it"
-            ).fill(path=path)
+            message("engine", "{path}: interrupted before anything was recorded; delete it").fill(
+                path=path
+            )
         )
     if head.startswith(_PROGRAM):
         raise RecordingError(
             message(
                 "engine",
-                "{path}: of version {version}; this program reads {known}: recover it with the "
-                "program that recorded it",
+                "{path}: version {version}, but this program reads version {known}; recover "
+                "it with the program that recorded it",
             ).fill(path=path, version=head[6:].decode("ascii", "replace"), known=MAGIC[6:].decode())
         )
     raise RecordingError(
-        message("engine", "{path}: no recording of this program that was cut off").fill(path=path)
+        message("engine", "{path}: not an interrupted recording of this program").fill(path=path)
     )

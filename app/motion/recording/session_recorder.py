@@ -1,4 +1,4 @@
-"""A recorder of a motion session: its actions, inputs and messages, on the host's clock."""
+"""Records a motion session: its actions, inputs and messages, on the host's clock."""
 
 import hashlib
 import json
@@ -140,7 +140,7 @@ class SessionRecorder:
             self.writer.event("action", change, host_time_s=intent.host_time_s)
 
     def note(self, text: str) -> None:
-        """Record what somebody remarks."""
+        """Record what someone remarks."""
         self.writer.event("note", text)
 
     def _on_samples(self, samples: Samples, answers: ModelOutputs) -> None:

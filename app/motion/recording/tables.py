@@ -1,4 +1,4 @@
-"""The tables of a recording as Arrow holds them, and entries turned into their rows."""
+"""The Arrow tables of a recording, and the conversion of entries to rows."""
 
 import json
 from collections.abc import Iterable, Mapping, Sequence

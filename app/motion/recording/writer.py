@@ -1,4 +1,4 @@
-"""The writer of a recording, on a thread of its own."""
+"""The writer thread of a recording."""
 
 import json
 import threading
@@ -13,7 +13,7 @@ import numpy as np
 from rotemina.app.motion.recording.backlog import Backlog, Block, Lost, RecordedEvent, Row
 from rotemina.app.motion.recording.device_clock import DeviceClock
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import UNFINISHED, merged
+from rotemina.app.motion.recording.recovery import UNFINISHED, merged
 from rotemina.app.motion.recording.segments import Opener, SegmentFile, new_file
 from rotemina.app.motion.recording.tables import CLOCK, header, prepare, samples_schema, streams
 from rotemina.app.motion.ticker import Ticker
@@ -83,9 +83,7 @@ class RecordingWriter:
     ) -> None:
         if path.exists():
             raise RecordingError(
-                message("engine", "{path}: it is there already; record to another name").fill(
-                    path=path
-                )
+                message("engine", "{path} already exists; record to another name").fill(path=path)
             )
         self.path = path
         self._schema = samples_schema(units)
@@ -215,9 +213,10 @@ class RecordingWriter:
         if self._failure is not None:
             self._tell(
                 RecorderNotice(
-                    message("engine", "{name}: its end could not be written ({failure})").fill(
-                        name=self.path.name, failure=self._failure
-                    ),
+                    message(
+                        "engine",
+                        "{name}: the end of the recording could not be written ({failure})",
+                    ).fill(name=self.path.name, failure=self._failure),
                     problem=True,
                 )
             )

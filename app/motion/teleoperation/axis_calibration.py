@@ -1,4 +1,4 @@
-"""Calibration of an input device: from what its axes say to deflections of −1 to 1.
+"""Calibration of an input device: raw axis values to deflections of −1 to 1, with a dead zone.
 
 Kept in one file per device identity. A stick is described in the raw numbers of its device, so a
 calibration stays true for whatever the stick is mapped to.
@@ -91,7 +91,7 @@ class AxisCalibration:
         return shaped if (offset > 0) is not self.inverted else -shaped
 
     def at_end(self, raw: float) -> bool:
-        """Whether it stands at an end that is not its rest."""
+        """Whether it is at an end that is not its rest."""
         return abs(self.deflection(raw)) == 1.0
 
 
@@ -116,7 +116,7 @@ class Calibration:
         return self.axes.get(name, UNCALIBRATED)
 
     def with_axes(self, axes: Mapping[str, AxisCalibration]) -> "Calibration":
-        """Return it with some axes calibrated anew."""
+        """Return it with some axes calibrated again."""
         return Calibration(device=self.device, axes=MappingProxyType({**self.axes, **axes}))
 
 
@@ -172,7 +172,7 @@ class CalibrationFolder:
         return found
 
     def save(self, identity: InputIdentity, calibration: Calibration) -> Path:
-        """Write the file of a device, whole or not at all, and return where it is.
+        """Write the file of a device, completely or not at all, and return where it is.
 
         Raises
         ------
@@ -183,7 +183,7 @@ class CalibrationFolder:
         """
         if calibration.device != identity.key:
             raise CalibrationError(
-                message("engine", "a calibration of {device} cannot be kept for {key}").fill(
+                message("engine", "the calibration of {device} cannot be stored for {key}").fill(
                     device=repr(calibration.device), key=repr(identity.key)
                 )
             )

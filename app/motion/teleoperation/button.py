@@ -1,4 +1,4 @@
-"""A button whose contacts bounce, or an axis that is used as one."""
+"""Debouncing of a button, or of an axis used as one."""
 
 BOUNCE_S = 0.02  # after a change no other one is believed for so long
 
@@ -7,7 +7,7 @@ class Button:
     """Debounced: the first change counts at once, its bounces do not.
 
     A button that is down when it is first seen (stuck, taped, held while plugging in) does nothing
-    until it was let go of.
+    until it was release.
 
     Parameters
     ----------
@@ -27,12 +27,12 @@ class Button:
         return self._down and self._usable
 
     def feed(self, time_s: float, down: bool) -> bool:
-        """Take in a reading; return whether it went down by it."""
+        """Process a reading; return whether it went down by it."""
         self._said = down
         return self.step(time_s)
 
     def step(self, now_s: float) -> bool:
-        """Let time pass; return whether it turned out to be down."""
+        """Advance time; return whether it turned out to be down."""
         if self._said is None:
             return False
         if self._said == self._down:
@@ -46,7 +46,7 @@ class Button:
 
 
 class Threshold:
-    """Tells of an axis whether it is beyond a threshold; it comes back a little further in.
+    """A threshold with hysteresis that makes an axis a button.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A calibration run: the stick is let go of, then moved to all its ends.
+"""A calibration run: the stick is released, then moved to all its ends.
 
 Nothing is sent meanwhile (the arbiter has its mapping open); readings are all it needs.
 """
@@ -76,7 +76,7 @@ class CalibrationRun:
             if axis not in self._axes:
                 raise CalibrationError(
                     message(
-                        "engine", "axis {axis}: the device has none of that name; it has {value}"
+                        "engine", "axis {axis}: the device has no axis of that name; it has {value}"
                     ).fill(axis=repr(axis), value=", ".join(self._axes) or "none")
                 )
         self.phase = Phase.REST
@@ -84,7 +84,7 @@ class CalibrationRun:
             self.feed(last)
 
     def feed(self, reading: InputReading) -> None:
-        """Take in a reading; numbers that are none are passed over."""
+        """Process a reading; numbers that are none are passed over."""
         for axis, raw in zip(self._axes, reading.axes, strict=False):
             if axis in self._seen and isfinite(raw):
                 self._seen[axis].add(raw, self.phase)
@@ -169,9 +169,9 @@ class CalibrationRun:
         if dead_zone > widest:
             return message(
                 "engine",
-                "axis {axis} jitters at rest, or was moved: {low} to {high} asks for "
-                "a dead zone of {zone}, at most {most} is good; leave it alone, and "
-                "if it stays so have it repaired",
+                "axis {axis} jitters at rest, or was moved: {low} to {high} needs a dead "
+                "zone of {zone}, but at most {most} is permitted; release it and measure "
+                "again, or have it repaired",
             ).fill(
                 axis=AxisName(axis),
                 low=fixed(seen.rest[0], 2),

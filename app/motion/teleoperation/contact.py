@@ -1,4 +1,4 @@
-"""What a stick feels of a contact: a force on the virtual mass, bounded so that it stays passive.
+"""The contact force at the stick: a force on the virtual mass, bounded to stay passive.
 
 A contact is told by the deviation of the real position from the model's (m or rad), or by the force
 on the tip (N), either below 0 where it pushes back against positive motion. A gain g makes a force
@@ -99,9 +99,10 @@ class Contact:
             raise ScalingError(
                 message(
                     "engine",
-                    "contact: gain {gain} might let the stick's mechanism give more energy than it "
-                    "was given: at most {most} with a damping of {damping} N s/m and readings "
-                    "{delay_s} ms old; lower the gain or raise the damping",
+                    "contact: with gain {gain} the stick's mechanism might release more "
+                    "energy than it received: at most {most} is permitted with a damping of "
+                    "{damping} N s/m and readings {delay_s} ms old; lower the gain or raise "
+                    "the damping",
                 ).fill(
                     gain=rounded(self.gain, 6),
                     most=rounded(most, 6),

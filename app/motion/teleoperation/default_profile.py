@@ -1,4 +1,4 @@
-"""A profile for a device that nobody made one for, from what its controls are called."""
+"""The automatic profile of a device without one, from the names of its controls."""
 
 from collections.abc import Sequence
 
@@ -60,7 +60,7 @@ def default_profile(device: PluggedDevice) -> Profile:
     """
     if not device.axes and not device.buttons:
         raise ProfileError(
-            message("engine", "{device} has neither axes nor buttons that could be mapped").fill(
+            message("engine", "{device} has neither axes nor buttons to map").fill(
                 device=str(device)
             )
         )

@@ -1,4 +1,4 @@
-"""*Move it now*: tells which control the operator moved."""
+"""*Move it now*: detects which control the operator moved."""
 
 from collections import deque
 from collections.abc import Iterator, Sequence
@@ -79,7 +79,7 @@ class Detection:
         self._pressed: dict[tuple[str, str], float] = {}
 
     def feed(self, key: str, reading: InputReading) -> None:
-        """Take in a reading of a device."""
+        """Process a reading of a device."""
         device = self._devices[key]
         for name, raw in zip(device.axes, reading.axes, strict=False):
             if isfinite(raw):
@@ -100,7 +100,7 @@ class Detection:
         if len(found) > 1:
             names = " and ".join(f"{one.control} ({self._name(one.device)})" for one in found)
             return Findings(
-                None, message("engine", "{names} moved together; move one only").fill(names=names)
+                None, message("engine", "{names} moved together; move only one").fill(names=names)
             )
         if not found:
             what = self._wanted.value if self._wanted is not None else "control"

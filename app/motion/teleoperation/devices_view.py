@@ -1,4 +1,4 @@
-"""What screens show of the input devices."""
+"""The state of the input devices, for displays."""
 
 from dataclasses import dataclass
 from math import inf

@@ -1,4 +1,4 @@
-"""How the machine is kept on a reference by speeds: what was wanted, and what is sent for it."""
+"""Following of a reference by speeds."""
 
 from bisect import bisect_right
 from collections import deque
@@ -23,12 +23,12 @@ _LOST_S = 0.3  # of an axis' greatest speed: what is farther from its reference 
 
 @dataclass(slots=True)
 class Lag:
-    """How long axes are behind what is wanted of them, s: as learned so far."""
+    """The learned lag of axes behind their references, s."""
 
     seconds: float = _LAG_S
 
     def learn(self, error: float, speed: float) -> None:
-        """Take note of an error, m or rad, at a speed of the reference, per s."""
+        """Note an error, m or rad, at a speed of the reference, per s."""
         off_s = min(max(error / speed, -_LONGEST_LAG_S), _LONGEST_LAG_S)
         self.seconds = min(max(self.seconds + _LEARNING * off_s, 0.0), _LONGEST_LAG_S)
 
@@ -55,7 +55,7 @@ class Following:
         self._past.clear()
 
     def wanted(self, now_s: float, joints: Mapping[str, float]) -> None:
-        """Take note where the axes are to be now, m or rad."""
+        """Note where the axes are to be now, m or rad."""
         if not self._past or now_s > self._past[-1][0]:
             self._past.append((now_s, joints))
         while now_s - self._past[0][0] > _KEPT_S:
@@ -64,9 +64,9 @@ class Following:
     def speeds(
         self, speeds: Mapping[str, float], state: SessionState, driving: bool
     ) -> dict[str, float]:
-        """Return what to send, per s: 0 where an axis is where it is to be.
+        """Return the speeds to send, per s; 0 where an axis has arrived.
 
-        While nothing is ``driving`` an axis that is elsewhere was moved by somebody else, and is
+        While nothing is ``driving`` an axis that is elsewhere was moved by someone else, and is
         not moved back.
         """
         sent = {}

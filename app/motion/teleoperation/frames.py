@@ -1,4 +1,4 @@
-"""Frames: what the coordinates of an operator mean for the joints, in one mode.
+"""Frames: the mapping of an operator's coordinates to joints, in one mode.
 
 A frame is anchored at the joints where its mode begins: its coordinates there are its ``start``,
 and :meth:`Frame.joints` of them are the very joints. So to switch modes moves nothing: begin the

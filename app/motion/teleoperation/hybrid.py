@@ -1,4 +1,4 @@
-"""Table and piezo as one axis: the nano stage takes what fits, the micro stage takes the rest.
+"""Table and piezo as one axis: the piezo moves within its range, the table does the rest.
 
 With u the place that zn would have if its range had no ends, counted from its middle::
 

@@ -55,9 +55,10 @@ class Impedance(ScalingLaw):
             raise ScalingError(
                 message(
                     "engine",
-                    "impedance: forces of up to {force} could accelerate the mass of {mass} by "
-                    "{reached} per s², the axis allows {max_acceleration}; lower the force, or use "
-                    "a mass of about {wanted} with the same damping ratio or time constant",
+                    "impedance: forces of up to {force} could accelerate the mass of {mass} "
+                    "by {reached} per s², but the axis permits {max_acceleration}; lower the "
+                    "force, or use a mass of about {wanted} with the same damping ratio or "
+                    "time constant",
                 ).fill(
                     force=rounded(impedance.force + reserved, 6),
                     mass=rounded(impedance.mass, 6),

@@ -1,4 +1,4 @@
-"""The input arbiter: from the readings of all input devices to one intent.
+"""The input arbiter: merges the readings of all input devices into one intent.
 
 It has neither threads nor a clock: whoever reads the devices tells it what came in and the time.
 """
@@ -105,7 +105,7 @@ class InputArbiter:
         self._arrange({key})
 
     def unplug(self, key: str, why: str = "unplugged") -> None:
-        """Let go of a device; if it was driving, that is over."""
+        """Release a device; if it was driving, that is over."""
         if key not in self._plugged:
             return
         self._lose(key, why)
@@ -113,13 +113,13 @@ class InputArbiter:
         self._arrange(())
 
     def inform(self, key: str, *, streams: bool) -> None:
-        """Take note whether a plugged device streams: that may turn out while it is open."""
+        """Note whether a plugged device streams: that may turn out while it is open."""
         device = self._plugged[key]
         if device.streams is not streams:
             self._plugged[key] = self._devices[key].device = replace(device, streams=streams)
 
     def use(self, profile: Profile) -> None:
-        """Take another profile; nothing moves before every stick was seen at rest.
+        """Use another profile; nothing moves before every stick was seen at rest.
 
         Raises
         ------
@@ -132,11 +132,11 @@ class InputArbiter:
             check_controls(mapping, self._plugged[key])
         self._profile = profile
         self._takeover = Takeover()
-        self._lost.append(marked("engine", "another profile is used"))
+        self._lost.append(marked("engine", "another profile is now in use"))
         self._arrange(set(self._plugged))
 
     def calibrate(self, key: str, calibration: Calibration) -> None:
-        """Use another calibration of a plugged device; it must be seen at rest anew.
+        """Use another calibration of a plugged device; it must be seen at rest again.
 
         Raises
         ------
@@ -146,32 +146,32 @@ class InputArbiter:
         if key not in self._plugged:
             raise CalibrationError(
                 message(
-                    "engine", "device {key} is not plugged in; its calibration has no use"
+                    "engine", "device {key} is not plugged in, so no calibration can be applied"
                 ).fill(key=repr(key))
             )
         if calibration.device != key:
             raise CalibrationError(
-                message("engine", "a calibration of {device} is not for {key}").fill(
+                message("engine", "this calibration is for {device}, not for {key}").fill(
                     device=repr(calibration.device), key=repr(key)
                 )
             )
         self._calibrations[key] = calibration
-        self._lose(key, message("engine", "calibrated anew"))
+        self._lose(key, message("engine", "recalibrated"))
         self._arrange({key})
 
     @property
     def mapping_open(self) -> bool:
-        """Whether mappings are made or sticks calibrated: nothing is sent, but for stops."""
+        """Whether devices are being set up: only stops are sent."""
         return self._mapping_open
 
     def open_mapping(self) -> None:
-        """Send nothing but stops from now on; what drove, drives no more."""
+        """Send only stops from now on; the device in control loses it."""
         if not self._mapping_open:
             self._mapping_open = True
             self._lost.append(marked("engine", "input devices are being set up"))
 
     def close_mapping(self) -> None:
-        """Send again, after every stick was seen at rest and every button let go of."""
+        """Send again, after every stick was seen at rest and every button release."""
         if self._mapping_open:
             self._mapping_open = False
             self._arrange(set(self._plugged))
@@ -179,7 +179,7 @@ class InputArbiter:
     # What the operator wants
 
     def step(self, readings: Mapping[str, Sequence[InputReading]], now_s: float) -> Intent:
-        """Return what is asked for now.
+        """Return the present intent.
 
         Parameters
         ----------
@@ -236,14 +236,14 @@ class InputArbiter:
         )
 
     def travel_m(self, drives: str) -> float | None:
-        """Return the way of the driving stick for a deflection of 1, m, where it is known."""
+        """Return the travel of the controlling stick for a deflection of 1, m, if known."""
         ways = (device.travel_m(drives) for device in self._of(self.driving))
         return next((way for way in ways if way is not None), None)
 
     # How
 
     def _arrange(self, anew: Collection[str]) -> None:
-        """Give each device its mapping; those that are new, or have another one, begin anew."""
+        """Give each device its mapping; those that are new, or have another one, begin again."""
         mappings = self._mappings()
         devices: dict[str, MappedDevice] = {}
         for key, device in self._plugged.items():
@@ -273,7 +273,7 @@ class InputArbiter:
             self._lost.append(f"{self._plugged[key].identity.name}: {why}")
             for device in self._of(self.driving):
                 device.distrust(
-                    message("engine", "another device is gone ({why}): let go of it").fill(why=why)
+                    message("engine", "another device was lost ({why}): release it").fill(why=why)
                 )
 
     def _drives(self, device: MappedDevice) -> bool:

@@ -1,4 +1,4 @@
-"""The operator's input devices: found, opened, read, and made into one intent."""
+"""The operator's input devices: discovery, opening, reading, and one resulting intent."""
 
 import logging
 import threading
@@ -38,7 +38,7 @@ _RANKS = {"board": 1, _PAD: 2}
 
 @dataclass(frozen=True, slots=True)
 class InputSnapshot:
-    """What came of one look at all devices.
+    """The readings of all devices at one instant, and the resulting intent.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class InputDevices:
 
     @property
     def profile(self) -> Profile | None:
-        """What the devices do now; None while there is none."""
+        """The profile in use, or None."""
         return self._used
 
     @property
@@ -94,7 +94,7 @@ class InputDevices:
 
     @property
     def profiles(self) -> tuple[ListedProfile, ...]:
-        """The profiles that the user has kept, the bad ones with what is wrong."""
+        """The user's saved profiles, invalid ones with their problem."""
         return listed_profiles(self._profiles)
 
     def use(self, profile: Profile | None) -> None:
@@ -148,14 +148,14 @@ class InputDevices:
 
     @property
     def view(self) -> DevicesView:
-        """What to show of it: of a step at most ``VIEW_S`` before the latest. It waits for nobody.
+        """The state for display, at most ``VIEW_S`` old; never waits.
 
         Sources and devices that cannot be used are in :attr:`InputHub.problems`.
         """
         return self._view
 
     def listen(self, tell: Callable[[InputSnapshot], None]) -> Callable[[], None]:
-        """Have every step told, on its thread, until what is returned is called.
+        """Call ``listener`` with every step, on its thread; return how to end that.
 
         ``tell`` must neither wait nor raise; that of a queue is good.
         """
@@ -170,12 +170,12 @@ class InputDevices:
 
     @property
     def problems(self) -> tuple[str, ...]:
-        """What is wrong with sources, devices and the profile, in words."""
+        """Problems of sources, devices and the profile, as text."""
         with self._lock:
             return (*self.hub.problems.values(), *self.arbiter.problems)
 
     def look(self) -> None:
-        """Look what has been plugged in or unplugged; the next step deals with it."""
+        """Detect connected and removed devices; the next step handles them."""
         changes = self.hub.poll()
         if changes.arrived or changes.left:
             self._changes.append(changes)
@@ -231,10 +231,10 @@ class InputDevices:
             return self._open.get(key)
 
     def close(self) -> None:
-        """Let go of every device."""
+        """Release every device."""
         with self._lock:
             for key in tuple(self._open):
-                self._drop(key, marked("engine", "the program lets go of it"))
+                self._drop(key, marked("engine", "the program releases it"))
                 self.hub.released(key)
 
     # --- inside -----------------------------------------------------------------------------------
@@ -285,7 +285,7 @@ class InputDevices:
     def _use_automatic(self, anew: bool = False) -> None:
         """Use what the user has kept for these devices, or else what their controls suggest.
 
-        What is used now stays if it fits, unless one is to be found ``anew``.
+        What is used now stays if it fits, unless one is to be found ``again``.
         """
         plugged = tuple(_plugged(device) for device in self._open.values())
         if not anew and self._used is not None and _fits(self._used, plugged):
@@ -307,7 +307,7 @@ class InputDevices:
 
 
 def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:
-    """Return a profile of what is plugged in: the first device drives, the pad may take over.
+    """Return a profile of the connected devices; the first drives, the pad may take over.
 
     None where no device has anything that could be mapped.
     """

@@ -1,4 +1,4 @@
-"""What an operator wants at a moment, by stick, key or pad: deflections and actions."""
+"""An operator's intent at one instant, by stick, key or pad: deflections and actions."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -26,7 +26,7 @@ class Action(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Intent:
-    """What the operator's devices ask for now.
+    """The present request of the operator's devices.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""One plugged input device: readings become deflections and actions, as far as they are trusted."""
+"""One connected input device: converts trusted readings to deflections and actions."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -82,7 +82,7 @@ class MappedDevice:
         self._actors = [] if mapping is None else [_Actor(each) for each in mapping.actions]
 
     def step(self, readings: Sequence[InputReading], now_s: float) -> None:
-        """Take in the readings since the last step, oldest first, and let time pass."""
+        """Process the readings since the last step, oldest first, and let time pass."""
         if self._heard_s is None:
             self._heard_s = now_s  # it has as long from now on as after a reading
         self.lost = None
@@ -111,7 +111,7 @@ class MappedDevice:
 
     @property
     def deflections(self) -> Mapping[str, float]:
-        """What its trusted axes ask for, by what they drive."""
+        """Deflections of the trusted axes, by driven coordinate."""
         found: dict[str, float] = {}
         for mapping in self.mapping.axes if self.mapping is not None else ():
             if self._trust[mapping.control].reason is None and mapping.control in self._raw:
@@ -120,7 +120,7 @@ class MappedDevice:
         return found
 
     def travel_m(self, drives: str) -> float | None:
-        """Return the way of the grip that is a deflection of 1, m; None if nobody measured it."""
+        """Return the grip travel for a deflection of 1, m; None if not measured."""
         for mapping in self.mapping.axes if self.mapping is not None else ():
             if mapping.drives == drives:
                 return self._calibrations[mapping.control].travel_m
@@ -152,8 +152,8 @@ class MappedDevice:
             self._lose(
                 message(
                     "engine",
-                    "a reading of {axes} axes and {buttons} buttons came from a device "
-                    "with {known} and {others}: replug it",
+                    "a reading has {axes} axes and {buttons} buttons, but the device has "
+                    "{known} and {others}: replug it",
                 ).fill(
                     axes=len(reading.axes),
                     buttons=len(reading.buttons),
@@ -188,8 +188,7 @@ class MappedDevice:
             self._lose(
                 message(
                     "engine",
-                    "silent, though it streams: nothing has come from it; replug it, or "
-                    "look at its cable",
+                    "silent: a streaming device has sent nothing; replug it, or check its cable",
                 )
             )
 

@@ -1,4 +1,4 @@
-"""The modes that a robot can be steered in, in the order in which a button goes through them."""
+"""The steering modes of a robot, in the order in which a button cycles through them."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""Profiles: which control of which input device does what. One TOML file each, strict."""
+"""Profiles: the function of each control of each input device, one strict TOML file each."""
 
 import re
 from collections.abc import Iterator
@@ -60,7 +60,7 @@ class ActionMapping:
     at : float or None
         For an axis: the deflection, −1 to 1 without about 0, from which it counts as pressed.
     hysteresis : float
-        How far nearer to the rest the axis must come back to be let go of.
+        How far nearer to the rest the axis must come back to be release.
     """
 
     control: Text
@@ -109,7 +109,7 @@ class Profile:
 
 @plain_dataclass(frozen=True, slots=True)
 class ListedProfile:
-    """A file of a folder of profiles: its profile, or what is wrong with it."""
+    """A file in the folder of profiles: its profile, or its problem."""
 
     path: Path
     profile: Profile | None

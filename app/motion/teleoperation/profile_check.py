@@ -1,4 +1,4 @@
-"""Whether a profile fits: the robot's axes, the devices that are plugged in, their controls."""
+"""Whether a profile fits the robot's axes, the connected devices and their controls."""
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ class PluggedDevice:
     axes, buttons : tuple of str
         What they are called, in the order of the readings.
     streams : bool
-        Whether it goes on talking while nothing changes, so that silence means a fault.
+        Whether it continues talking while nothing changes, so that silence means a fault.
     """
 
     identity: InputIdentity
@@ -181,8 +181,8 @@ def _check_single_use(profile: Profile, device: DeviceMapping) -> None:
             raise ProfileError(
                 message(
                     "engine",
-                    "profile {name}: control {control} of {key} would do two things, {found} and "
-                    "{use}; leave one out",
+                    "profile {name}: control {control} of {key} would have two functions, "
+                    "{found} and {use}; remove one",
                 ).fill(
                     name=repr(profile.name),
                     control=repr(control[0]),

@@ -1,4 +1,4 @@
-"""Moving the nano stage, back to the middle of its range for example, while the tip stays.
+"""Moving the nano stage, such as to mid-range, while the tip stays in place.
 
 Two even ramps do not hold the tip: a table steps by whole microsteps, rings, and lags behind. Here
 the tables step at an even pace and the nano stage follows not what they are told but where the
@@ -42,7 +42,7 @@ class RecentringError(InputError):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recentring:
-    """A way of the joints on which the tip stays.
+    """A path of the joints that keeps the tip in place.
 
     ``trajectory`` is what to play, from the present commands on; ``strayed_m`` (3,) is how far the
     tip leaves its place meanwhile, by the model.
@@ -184,7 +184,8 @@ def _nano(joints: tuple[str, ...]) -> tuple[str, ...]:
         raise RecentringError(
             message(
                 "engine",
-                "re-centring: {value} is none of thx, thy, zn, which have a middle to come back to",
+                "re-centring: {value}: must be one of thx, thy, zn; only these have a middle "
+                "to return to",
             ).fill(value=", ".join(wrong) or marked("engine", "no joint"))
         )
     return joints

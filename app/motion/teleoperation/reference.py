@@ -1,4 +1,4 @@
-"""A reference that a machine can follow: in its range, no faster and no more abrupt than it may.
+"""A reference within range, speed and acceleration that the machine can follow.
 
 Between two steps the reference is some motion whose acceleration stays within its bound ``a``. That
 is so where the change of speed Δv over a step dt, and the way, satisfy::
@@ -81,7 +81,7 @@ class Bounds:
         return Motion(position, min(max(velocity, -fastest, -down), fastest, up))
 
     def stopping_place(self, motion: Motion) -> float:
-        """Return where a motion comes to rest if it brakes as hard as it may."""
+        """Return where a motion comes to rest under full braking."""
         position, velocity = motion
         return position + velocity * abs(velocity) / (2.0 * self.max_acceleration)
 

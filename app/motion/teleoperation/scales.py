@@ -1,4 +1,4 @@
-"""How far, how fast and how heavily a stick moves the coordinates of each mode: presets and file.
+"""Scales of each mode (distance, speed, force at full deflection): presets and file.
 
 A full deflection means a way (linear position), a speed (linear rate), or a force on a virtual mass
 (impedance); of each coordinate its own. The presets follow from a coordinate's range.
@@ -187,7 +187,7 @@ class Scales:
         return _FORMAT.load(path) if path.exists() else cls()
 
     def save(self, path: Path) -> None:
-        """Write the file, whole or not at all.
+        """Write the file, completely or not at all.
 
         Raises
         ------

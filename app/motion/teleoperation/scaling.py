@@ -1,4 +1,4 @@
-"""From the deflection of a stick to the motion of one coordinate: what all scaling laws share.
+"""Scaling of a stick's deflection to the motion of a coordinate: the base of all scaling laws.
 
 The laws: :mod:`~rotemina.app.motion.teleoperation.linear_position`, ``linear_rate`` and
 ``impedance``, one instance for each degree of freedom. A law is switched by starting the new one
@@ -52,7 +52,7 @@ class ScalingLaw(ABC):
 
     @final
     def start(self, position: float, velocity: float, deflection: float) -> Motion:
-        """Go on from a motion, with the stick where it is; also re-indexes after a clutch.
+        """Continue from a motion, with the stick where it is; also re-indexes after a clutch.
 
         A position outside the range counts as its end, a speed that could not be braked in the
         range is reduced.
@@ -64,7 +64,7 @@ class ScalingLaw(ABC):
 
     @final
     def step(self, deflection: float, dt: float, reaction: float = 0.0) -> Motion:
-        """Go on for ``dt`` s with a deflection of −1 to 1; a dt of 0 leaves all as it is.
+        """Advance by ``dt`` s with a deflection of −1 to 1; a dt of 0 leaves all as it is.
 
         ``reaction`` is what a contact is felt by; only the impedance law heeds it.
 
@@ -77,8 +77,8 @@ class ScalingLaw(ABC):
             raise ScalingError(
                 message(
                     "engine",
-                    "scaling: step of {dt} s with a reaction of {reaction}: both must be finite, "
-                    "the step not below 0",
+                    "scaling: step of {dt} s with a reaction of {reaction}: both must be "
+                    "finite, the step 0 or more",
                 ).fill(dt=dt, reaction=reaction)
             )
         self._deflection = _deflection(deflection)
@@ -88,7 +88,7 @@ class ScalingLaw(ABC):
 
     @final
     def hold(self, position: float, velocity: float = 0.0) -> Motion:
-        """Take note that the machine is only there: the reference does not run ahead of it."""
+        """Note that the machine is only there: the reference does not run ahead of it."""
         self._motion = self.bounds.begin(position, velocity)
         return self._motion
 
@@ -103,7 +103,7 @@ class ScalingLaw(ABC):
         """
         if not isfinite(factor) or factor <= 0.0:
             raise ScalingError(
-                message("engine", "scaling: factor {factor}: it must be finite and above 0").fill(
+                message("engine", "scaling: factor {factor} must be finite and above 0").fill(
                     factor=factor
                 )
             )
@@ -112,7 +112,7 @@ class ScalingLaw(ABC):
 
     @abstractmethod
     def _anchor(self) -> None:
-        """Index anew, for the present motion and deflection."""
+        """Index again, for the present motion and deflection."""
 
     @abstractmethod
     def _step(self, dt: float, reaction: float) -> Motion:
@@ -133,7 +133,7 @@ def checked_scale(scale: float, what: str) -> float:
     """
     if not isfinite(scale) or scale == 0.0:
         raise ScalingError(
-            message("engine", "{what}: scale {scale}: it must be finite and not 0").fill(
+            message("engine", "{what}: scale {scale} must be finite and not 0").fill(
                 what=what, scale=scale
             )
         )

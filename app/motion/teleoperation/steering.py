@@ -1,4 +1,4 @@
-"""Steering in one mode: laws on the coordinates of a frame, and what the axes are to do."""
+"""Steering in one mode: laws on the coordinates of a frame, and the resulting axis motion."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ class _SteeredCoordinate:
         return deflections.get(name if own else self.source)
 
     def step(self, told: float | None, dt: float, reaction: float, *, indexed: bool) -> None:
-        """Go on for ``dt`` s; without a deflection, halt. ``indexed``: of a law with an index."""
+        """Advance by ``dt`` s; without a deflection, halt. ``indexed``: of a law with an index."""
         law = self.law
         if told is None:
             halted = law.bounds.at_speed(law.motion, 0.0, dt)
@@ -68,7 +68,7 @@ class Steering:
     make : callable
         Makes the law of a coordinate.
     engaged : bool
-        Whether sticks count at once: the laws are exchanged in a mode that goes on.
+        Whether sticks count at once: the laws are exchanged in a mode that continues.
     """
 
     def __init__(
@@ -133,7 +133,7 @@ class Steering:
         velocities: Mapping[str, float],
         deflections: Mapping[str, float],
     ) -> None:
-        """Go on from a motion of the coordinates, with the sticks where they are."""
+        """Continue from a motion of the coordinates, with the sticks where they are."""
         for name, one in self._steered.items():
             told = self.deflection_of(name, deflections)
             seen = 0.0 if told is None else told
@@ -157,7 +157,7 @@ class Steering:
         free: bool = True,
         reactions: Mapping[str, float],
     ) -> Step:
-        """Go on for ``dt`` s; without ``free`` the sticks move and the machine does not."""
+        """Advance by ``dt`` s; without ``free`` the sticks move and the machine does not."""
         for name, one in self._steered.items():
             told = self.deflection_of(name, deflections) if free else None
             one.step(told, dt, reactions.get(name, 0.0), indexed=self._indexed)
@@ -171,7 +171,7 @@ class Steering:
         return Step(self.frame.joints(coordinates), speeds)
 
     def hold_back(self, before: Mapping[str, float], share: float) -> None:
-        """Take note that the machine went only this share of the way from ``before``, 0 to 1."""
+        """Note that the machine went only this share of the way from ``before``, 0 to 1."""
         for name, one in self._steered.items():
             position, velocity = one.law.motion
             begin = before[name]

@@ -1,4 +1,4 @@
-"""Which of two seats drives: the trainer takes over at once, the trainee only when asked to."""
+"""Which of two seats is in control: the trainer takes over at once, the trainee only on request."""
 
 from dataclasses import dataclass
 
@@ -40,12 +40,13 @@ class Takeover:
         self.driving = OperatorRole.TRAINER
 
     def decide(self, trainer: RoleState, trainee: RoleState) -> str | None:
-        """Let the seats have their say; return why the one that drove does so no more, or None."""
+        """Decide which seat is in control; return why the previous one lost control, or None."""
         reason = None
         if self.driving is OperatorRole.TRAINEE:
             if not trainer.present:
                 reason = message(
-                    "engine", "the trainer's device is not there: the trainee does not drive alone"
+                    "engine",
+                    "the trainer's device is not connected: the trainee cannot drive alone",
                 )
             elif trainer.asks or trainer.most >= MOVED:
                 reason = message("engine", "the trainer has taken over")

@@ -1,4 +1,4 @@
-"""The loop of teleoperation: an operator's intents in, speeds of axes with a lease out."""
+"""The teleoperation loop: converts an operator's intents to leased axis speeds."""
 
 import threading
 from collections.abc import Callable, Iterable, Mapping
@@ -131,7 +131,7 @@ class Teleoperator:
 
         def change() -> None:
             self._scales = scales
-            self._let_go(
+            self._release_axes(
                 marked("engine", "the scales were changed") if self.state.driving else None
             )
 
@@ -140,7 +140,7 @@ class Teleoperator:
     # --- the loop ---------------------------------------------------------------------------------
 
     def step(self, intent: Intent, now_s: float) -> None:
-        """Do what an intent asks for; never waits."""
+        """Execute an intent; never waits."""
         dt = min(max(now_s - (self._before_s or now_s), 0.0), _LONGEST_STEP_S)
         self._before_s, self._intent = now_s, intent
         stopped = self._stop_if_asked(intent)
@@ -152,7 +152,7 @@ class Teleoperator:
         if before.epoch != self._permit.epoch:
             self._reason = self._reason or _STOPPED
         if self._reason is not None:
-            self._let_go(None)
+            self._release_axes(None)
         else:
             self._steer(intent, state, now_s, dt)
         channel = self._channels.get(self._mode)
@@ -172,7 +172,7 @@ class Teleoperator:
         )
 
     def _stop_if_asked(self, intent: Intent) -> str | None:
-        """Stop where that is asked for, or what drove is gone; return why nothing is to move."""
+        """Stop where that is requested, or what drove is gone; return why nothing is to move."""
         if Action.EMERGENCY_STOP in intent.pressed:
             self._session.emergency_stop(
                 message("engine", "the joystick's stop and lock"), by=OPERATOR
@@ -209,13 +209,13 @@ class Teleoperator:
         if state.activity in (DeviceState.PLAYING, DeviceState.HOMING):
             return message("engine", "the machine is {activity}").fill(activity=state.activity)
         if not isinstance(self._session.driver, VelocityMover):
-            return message("engine", "driver {driver} cannot move at a speed").fill(
+            return message("engine", "driver {driver} cannot move at a set speed").fill(
                 driver=repr(self._session.driver.name)
             )
         if not intent.deflections and not self.state.driving:
             return message(
                 "engine",
-                "no stick is active: let go of it, and hold its dead-man switch if it has one",
+                "no stick is active: release it, and hold its dead-man button if it has one",
             )
         others = {owner for owner in state.owners.values() if owner != JOYSTICK}
         if state.activity is DeviceState.MOVING and others and not self.state.driving:
@@ -231,7 +231,7 @@ class Teleoperator:
             for channel in channels:
                 channel.steering.rescale(factor)
         except InputError as error:
-            self._let_go(str(error))
+            self._release_axes(str(error))
             return
         for channel in channels:
             steering, driving = channel.steering, any(channel.sent.values())
@@ -262,7 +262,7 @@ class Teleoperator:
             return
         lost = channel.following.lost(speeds, state)
         if lost is not None:
-            self._let_go(
+            self._release_axes(
                 message("engine", "axis {axis} does not follow the stick").fill(axis=AxisName(lost))
             )
             return
@@ -270,7 +270,7 @@ class Teleoperator:
             used = self._session.move_velocity(speeds, LEASE_S, JOYSTICK, permit=self._permit)
         except InputError as error:
             if not self._permit.valid:  # the next step says that a stop has come
-                self._let_go(None)
+                self._release_axes(None)
                 return
             self._refused = str(error)
             channel.steering.hold_back(before, 0.0)
@@ -387,8 +387,8 @@ class Teleoperator:
             channels[name] = replace(channel, following=old.following, sent=old.sent)
         self._law, self._channels = kind, channels
 
-    def _let_go(self, reason: str | None) -> None:
-        """Halt what it moves, and begin anew where the machine then stands."""
+    def _release_axes(self, reason: str | None) -> None:
+        """Halt the moving axes; steering restarts from where the machine is then."""
         if reason is not None:
             self._refused = reason
         self._drop_all()

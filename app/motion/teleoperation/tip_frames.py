@@ -1,4 +1,4 @@
-"""Modes about the tip: fine x, y by tilt, and turning about a tip that stays. They exclude another.
+"""Modes around the tip: fine x, y by tilt, and rotation about a fixed tip; mutually exclusive.
 
 Both are exact: the kinematics of :mod:`rotemina.sim.kinematics` are solved at every step, and
 speeds are by the exact Jacobian J of ``p = [x, y, z] + L a(thx, thy)``.

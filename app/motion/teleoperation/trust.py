@@ -1,4 +1,4 @@
-"""Whether what an axis of an input device says may move anything: seen at rest, and plausible.
+"""Whether an input axis may move anything: seen at rest, and plausible.
 
 An axis begins untrusted and is trusted when it has been in its dead zone for a moment. It loses
 that trust when its numbers cannot come from a hand.
@@ -39,11 +39,11 @@ class AxisTrust:
         self._at_end_only = True
 
     def reset(self, why: str) -> None:
-        """Trust it no more until it is at rest; ``why`` is told to the operator."""
+        """Distrust the axis until it is at rest; ``why`` is shown to the operator."""
         self._why = why
 
     def forget(self, why: str) -> None:
-        """Trust it no more until it has said anew that it is at rest."""
+        """Distrust the axis until it has reported being at rest again."""
         self._why = why
         self._said = None
         self._centred_since_s = None
@@ -61,7 +61,9 @@ class AxisTrust:
                 "engine", "reports {raw}, outside −1 to 1: disconnect and check it"
             ).fill(raw=rounded(self._said, 6))
         if self._jitter.found:
-            return message("engine", "jitters from end to end: its potentiometer or cable is bad")
+            return message(
+                "engine", "jitters from end to end: its potentiometer or cable is faulty"
+            )
         if self._why is not None and self._said is not None and self._at_end_only:
             return message(
                 "engine",
@@ -71,7 +73,7 @@ class AxisTrust:
         return NOTHING_SAID if self._said is None and self._why == NOT_CENTRED else self._why
 
     def feed(self, time_s: float, raw: float) -> None:
-        """Take in a reading and the time when it came in; NaN says nothing."""
+        """Process a reading and the time when it came in; NaN says nothing."""
         if isnan(raw):
             self.forget(NOT_CENTRED)
             return
@@ -91,7 +93,7 @@ class AxisTrust:
         self._settle(time_s)
 
     def step(self, now_s: float) -> None:
-        """Let time pass: a device that says nothing may still be at rest."""
+        """Advance time: a device that says nothing may still be at rest."""
         self._jitter.step(now_s)
         self._settle(now_s)
 
@@ -116,7 +118,7 @@ class _Jitter:
         self._reversals_s: deque[float] = deque(maxlen=REVERSALS)
 
     def feed(self, time_s: float, raw: float) -> bool:
-        """Take in a reading; return whether it is one leap to and fro too many."""
+        """Process a reading; return whether it is one leap to and fro too many."""
         before, self._raw = self._raw, raw
         if before is None or abs(raw - before) < self._leap:
             return False

@@ -1,4 +1,4 @@
-"""What screens show of teleoperation."""
+"""The state of teleoperation, for displays."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -88,7 +88,7 @@ class Shown(NamedTuple):
 def shown(
     steering: Steering, deflections: Mapping[str, float], reactions: Mapping[str, float]
 ) -> Shown:
-    """Return what a steering shows; ``reactions`` is what a contact was told by, a coordinate."""
+    """Return the view of a steering; ``reactions`` are contact readings by coordinate."""
     views = tuple(
         _viewed(steering, name, deflections, reactions.get(name, 0.0)) for name in steering.laws
     )

@@ -1,4 +1,4 @@
-"""A virtual mass, damper and spring: parameters, what is felt of them, and their exact response.
+"""A virtual mass, damper and spring: parameters, perceived dynamics, and exact response.
 
     M ẍ + D ẋ + K (x − x0) = F
 
@@ -71,15 +71,15 @@ class VirtualImpedance:
         for one in fields(self):
             value = getattr(self, one.name)
             least = (
-                marked("engine", "not below 0")
+                marked("engine", "0 or more")
                 if one.name == "stiffness"
                 else marked("engine", "above 0")
             )
             if not isfinite(value) or value < 0.0 or (value == 0.0 and one.name != "stiffness"):
                 raise ScalingError(
-                    message(
-                        "engine", "impedance: {name} {value}: it must be finite and {least}"
-                    ).fill(name=one.name, value=rounded(value, 6), least=least)
+                    message("engine", "impedance: {name} {value} must be finite and {least}").fill(
+                        name=one.name, value=rounded(value, 6), least=least
+                    )
                 )
         if not self.stiffness:
             return
@@ -87,8 +87,8 @@ class VirtualImpedance:
             raise ScalingError(
                 message(
                     "engine",
-                    "impedance: stiffness {stiffness} lets the force {force} reach {travel} m (or "
-                    "rad), at most {most_travel}; use 0 for none",
+                    "impedance: with stiffness {stiffness} the force {force} reaches "
+                    "{travel} m (or rad), more than {most_travel}; use 0 for no spring",
                 ).fill(
                     stiffness=rounded(self.stiffness, 6),
                     force=rounded(self.force, 6),
@@ -101,8 +101,9 @@ class VirtualImpedance:
             raise ScalingError(
                 message(
                     "engine",
-                    "impedance: damping ratio {damping_ratio} is below {least_damping_ratio}, it "
-                    "would ring; use a damping of {least_damping} or more",
+                    "impedance: damping ratio {damping_ratio} is below "
+                    "{least_damping_ratio}, so the axis would ring; use a damping of "
+                    "{least_damping} or more",
                 ).fill(
                     damping_ratio=rounded(self._damping_ratio, 3),
                     least_damping_ratio=_LEAST_DAMPING_RATIO,

@@ -1,1 +1,1 @@
-"""USB and Bluetooth joysticks and gamepads: any that describes itself by a HID descriptor."""
+"""USB and Bluetooth joysticks and gamepads with a HID descriptor."""

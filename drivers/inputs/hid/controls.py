@@ -1,4 +1,4 @@
-"""What the bits of a report are for the operator: deflections, hats, and buttons held."""
+"""Meaning of a report's bits for the operator: deflections, hats, and held buttons."""
 
 from dataclasses import dataclass
 from math import cos, pi, sin
@@ -10,7 +10,7 @@ _MOST_DIRECTIONS = 360  # some hats count degrees; one that counts more is damag
 
 @dataclass(frozen=True, slots=True)
 class Bits:
-    """Where a number stands in a report, seen as one long number itself."""
+    """The bit position of a number in a report."""
 
     shift: int
     mask: int
@@ -18,7 +18,7 @@ class Bits:
 
     @classmethod
     def of(cls, field: Field, place: int = 0) -> "Bits":
-        """Return where the value of a field, or of one place of a list, stands."""
+        """Return the bits of a field, or of one item of a list."""
         sign = 1 << field.size - 1 if field.low < 0 else 0
         return cls(field.offset + place * field.size, (1 << field.size) - 1, sign)
 
@@ -44,7 +44,7 @@ class Deflection:
     has_null: bool
 
     def take(self, report: int, axes: list[float], buttons: list[bool]) -> None:
-        """Note where the axis stands."""
+        """Note the value of the axis."""
         value = self.bits.read(report)
         if self.low <= value <= self.high:
             axes[self.axis] = 2.0 * (value - self.low) / (self.high - self.low) - 1.0
@@ -88,7 +88,7 @@ class Button:
 
     @classmethod
     def of(cls, field: Field, button: int) -> "Button":
-        """Return the button of a field; one that tells a pressure is held from the middle on."""
+        """Return the button of a field; one with pressure counts as held from mid-range on."""
         # Many a descriptor forgets to say again that a bit is at most 1.
         high = min(field.high, (1 << field.size) - 1)
         least = (field.low + high) // 2 + 1 if high > field.low else 1

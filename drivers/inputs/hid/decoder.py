@@ -1,4 +1,4 @@
-"""From the bytes of a report to axes and buttons, by what the report descriptor says."""
+"""Decoding of report bytes to axes and buttons by the report descriptor."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from rotemina.sim.messages import message
 
 @dataclass(frozen=True, slots=True)
 class Ignored:
-    """How much of what came in was not as the descriptor says.
+    """Counts of data that contradict the descriptor.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Decoder:
         return Ignored(**self._ignored)
 
     def decode(self, report: bytes) -> tuple[tuple[float, ...], tuple[bool, ...]] | None:
-        """Return all axes and buttons after a report; None if it tells nothing of them.
+        """Return all axes and buttons after a report; None if it contains none of them.
 
         Never raises, whatever the bytes are. An axis that no report has told yet is NaN.
         """

@@ -1,4 +1,4 @@
-"""A HID report descriptor: which bits of which report are what.
+"""A HID report descriptor: the meaning of each bit of each report.
 
 Item tags are those of hid-parser. Its own walk through the items is not used: as of 0.1.0 it
 counts an array as one element and a repeated usage not at all, so that all fields behind them sit
@@ -67,18 +67,18 @@ class Field:
 
     @property
     def is_relative(self) -> bool:
-        """Whether it tells a change since the report before."""
+        """Whether it reports a change since the previous report."""
         return bool(self.flags & _RELATIVE)
 
     @property
     def has_null(self) -> bool:
-        """Whether a value outside of its range means: nothing to tell."""
+        """Whether a value outside its range means "no value"."""
         return bool(self.flags & _NULL_STATE)
 
 
 @dataclass(frozen=True, slots=True)
 class ReportDescriptor:
-    """What a device says of the reports that it sends.
+    """A device's description of its reports.
 
     Attributes
     ----------
@@ -163,7 +163,7 @@ class _Walk:
         self._collections: list[int] = []  # the application that each open one belongs to
 
     def take(self, item: Item) -> None:
-        """Go on by an item; of a kind that is of no use here it changes nothing."""
+        """Advance by an item; of a kind that is of no use here it changes nothing."""
         if item.type == Type.MAIN:
             self._main(item)
             self._locals = _Locals()
@@ -268,7 +268,7 @@ class _Walk:
 
 def _nonsense(item: Item, what: str) -> DescriptorError:
     return DescriptorError(
-        message("engine", "its report descriptor makes no sense at byte {at}: {what}").fill(
+        message("engine", "its report descriptor is invalid at byte {at}: {what}").fill(
             at=item.at, what=what
         )
     )

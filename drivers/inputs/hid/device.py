@@ -48,16 +48,14 @@ class HidDevice(InputDevice):
 
     @property
     def ignored(self) -> Ignored:
-        """How much of what came in was not as its descriptor says."""
+        """Counts of data that contradict the descriptor."""
         return self._decoder.ignored
 
     def read(self) -> tuple[InputReading, ...]:
         """Return a reading for each report that has come in; see :class:`InputDevice`."""
         if self._handle is None:
             raise StateError(
-                message("engine", "{name}: it was closed; open it again").fill(
-                    name=self.identity.name
-                )
+                message("engine", "{name} was closed; open it again").fill(name=self.identity.name)
             )
         readings = []
         for _ in range(_MOST_WAITING):
@@ -67,13 +65,13 @@ class HidDevice(InputDevice):
             state = self._decoder.decode(report)
             if state is not None:
                 reading = InputReading(self._clock(), *state)
-                self._streaming.hear(reading)
+                self._streaming.receive(reading)
                 readings.append(reading)
         self.streams = self._streaming.found
         return tuple(readings)
 
     def close(self) -> None:
-        """Let go of it; see :class:`InputDevice`."""
+        """Release it; see :class:`InputDevice`."""
         handle, self._handle = self._handle, None
         if handle is not None:
             try:
@@ -91,6 +89,6 @@ class HidDevice(InputDevice):
             raise InputLostError(
                 message(
                     "engine",
-                    "{name}: it was unplugged, or has lost its power or radio link ({error})",
+                    "{name} was unplugged, or lost its power or radio link ({error})",
                 ).fill(name=self.identity.name, error=str(error))
             ) from error

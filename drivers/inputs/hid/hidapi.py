@@ -1,4 +1,4 @@
-"""The border to the library hidapi: found late, and its errors told in plain words."""
+"""The interface to the library hidapi: loaded late, with its errors in plain words."""
 
 import importlib
 import sys
@@ -144,7 +144,6 @@ def _why_closed(who: str, path: bytes, said: str) -> DriverError:
     return DriverError(
         message(
             "engine",
-            "{where}: it cannot be opened ({said}); unplug it and plug it in again; see "
-            "docs/inputs.md",
+            "{where} cannot be opened ({said}); unplug it and plug it in again; see docs/inputs.md",
         ).fill(where=where, said=said)
     )

@@ -1,4 +1,4 @@
-"""The items that a HID report descriptor is a string of (HID 1.11, section 6.2.2)."""
+"""The items of a HID report descriptor (HID 1.11, section 6.2.2)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ class DescriptorError(DriverError):
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """One item: where it stands, its type and tag, and 0 to 4 bytes of data."""
+    """One item: its position, type and tag, and 0 to 4 bytes of data."""
 
     at: int
     type: int
@@ -35,7 +35,7 @@ class Item:
 
 
 def items(descriptor: bytes) -> Iterator[Item]:
-    """Yield the short items of a descriptor; long ones are skipped, as nobody has defined any.
+    """Yield the short items of a descriptor; long ones are skipped, because none is defined.
 
     Raises
     ------
@@ -54,8 +54,8 @@ def items(descriptor: bytes) -> Iterator[Item]:
             raise DescriptorError(
                 message(
                     "engine",
-                    "its report descriptor is cut off: byte {at} of {count} begins an item with "
-                    "{size} bytes of data",
+                    "its report descriptor is truncated: byte {at} of {count} begins an item "
+                    "with {size} bytes of data",
                 ).fill(at=at, count=len(descriptor), size=size)
             )
         yield Item(at, prefix >> 2 & 0b11, prefix >> 4, data)

@@ -1,4 +1,4 @@
-"""Finding joysticks and gamepads among the HID devices, and what they are known by."""
+"""Discovery of joysticks and gamepads among the HID devices, and their identities."""
 
 import logging
 import time
@@ -53,7 +53,7 @@ class _Plugged:
 
     @classmethod
     def of(cls, entry: Mapping[str, Any], port: Callable[[bytes], str]) -> "_Plugged":
-        """Take what is needed out of what hidapi tells."""
+        """Return the needed entries of hidapi's description."""
         path = bytes(entry["path"])
         model = f"{int(entry['vendor_id']):04x}:{int(entry['product_id']):04x}"
         maker = str(entry.get("manufacturer_string") or "").strip()
@@ -141,7 +141,7 @@ class HidSource(InputSource):
         plugged = self._plugged.get(identity.key)
         if plugged is None:
             raise InputLostError(
-                message("engine", "{name} ({key}): it is not plugged in").fill(
+                message("engine", "{name} ({key}) is not plugged in").fill(
                     name=identity.name, key=identity.key
                 )
             )

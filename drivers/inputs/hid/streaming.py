@@ -1,4 +1,4 @@
-"""Finding out whether a device goes on reporting while nothing changes: no descriptor tells it."""
+"""Detection of devices that report although nothing changes; no descriptor tells."""
 
 from rotemina.drivers.inputs.device import InputReading
 
@@ -12,7 +12,7 @@ class Streaming:
 
     Some report only changes; some go on for as long as they are deflected. So the same reading has
     to come again and again, for longer than a hand keeps still. One that is silent after that and
-    then goes on by itself has to be found out anew.
+    then continues by itself has to be found out again.
     """
 
     def __init__(self) -> None:
@@ -20,7 +20,7 @@ class Streaming:
         self._newest: InputReading | None = None
         self._since_s = 0.0
 
-    def hear(self, reading: InputReading) -> None:
+    def receive(self, reading: InputReading) -> None:
         """Take in what it said."""
         before, self._newest = self._newest, reading
         time_s = reading.host_time_s

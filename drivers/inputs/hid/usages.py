@@ -1,4 +1,4 @@
-"""The HID usages that are axes, hats and buttons, and what they are called."""
+"""The HID usages of axes, hats and buttons, and their names."""
 
 from hid_parser.data import (  # type: ignore[import-untyped]  # it has no types
     GenericDesktopControls,
@@ -64,7 +64,7 @@ _TURNED = frozenset(
 
 
 def axis_name(usage: int, relative: bool) -> str | None:
-    """Return what an axis is called; None for what is none.
+    """Return the name of an axis, or None for another usage.
 
     A stick that calls itself relative, as 6-axis controllers do, tells its deflection all the same.
     """
@@ -72,7 +72,7 @@ def axis_name(usage: int, relative: bool) -> str | None:
 
 
 def button_name(usage: int) -> str | None:
-    """Return what a button is called; None for what is none, as number 0 of the button page."""
+    """Return the name of a button, or None, as for number 0 of the button page."""
     if usage & ~0xFFFF == _BUTTON and usage != _BUTTON:
         return f"Button {usage & 0xFFFF}"
     return _PAD_BUTTONS.get(usage)

@@ -12,15 +12,15 @@
         <translation>--mishaps {mishaps}: muss zwischen 0 und 1000 je Sekunde liegen</translation>
     </message>
     <message>
-        <source>{asked} ports: two boards have {most_ports} at most</source>
+        <source>{asked} ports: two boards have at most {most_ports}</source>
         <translation>{asked} Anschlüsse: zwei Karten haben höchstens {most_ports}</translation>
     </message>
     <message>
-        <source>--bus: it is one line; name one port only</source>
-        <translation>--bus: das ist eine einzige Leitung; nur einen Anschluss nennen</translation>
+        <source>--bus is one line; name only one port</source>
+        <translation>--bus ist eine einzige Leitung; nur einen Anschluss nennen</translation>
     </message>
     <message>
-        <source>--bus: the robot&apos;s axes take one board, which shares no line</source>
+        <source>--bus: the robot&apos;s axes need only one board, which shares no line</source>
         <translation>--bus: die Achsen des Roboters brauchen nur eine Karte, die keine Leitung teilt</translation>
     </message>
     <message>
@@ -32,35 +32,35 @@
         <translation>--tcp {address}: dort lässt sich nicht lauschen: {error}</translation>
     </message>
     <message>
-        <source>--tcp {address}: {value} is not this machine&apos;s own loop; anybody who reaches a board can move it: use 127.0.0.1:PORT</source>
-        <translation>--tcp {address}: {value} ist nicht die lokale Schleife dieses Rechners; wer eine Karte erreicht, kann sie bewegen: 127.0.0.1:PORT verwenden</translation>
+        <source>--tcp {address}: {value} is not a loopback address; anyone who reaches a board can move it: use 127.0.0.1:PORT</source>
+        <translation>--tcp {address}: {value} ist keine Loopback-Adresse; wer eine Karte erreicht, kann sie bewegen: 127.0.0.1:PORT verwenden</translation>
     </message>
     <message>
         <source>--tcp {address}: the port must be a number from 0 (any) to 65535</source>
         <translation>--tcp {address}: der Port muss eine Zahl von 0 (beliebig) bis 65535 sein</translation>
     </message>
     <message>
-        <source>--port {link}: there is something of this name already; remove it, or take another</source>
-        <translation>--port {link}: etwas mit diesem Namen gibt es schon; entfernen oder einen anderen Namen wählen</translation>
+        <source>--port {link} already exists; remove it, or choose another name</source>
+        <translation>--port {link} gibt es schon; entfernen oder einen anderen Namen wählen</translation>
     </message>
     <message>
-        <source>--port {link}: cannot make a link there: {error}</source>
+        <source>--port {link}: cannot create a link there: {error}</source>
         <translation>--port {link}: dort lässt sich keine Verknüpfung anlegen: {error}</translation>
     </message>
     <message>
-        <source>--laser: {count} files for {records} records; give one each</source>
+        <source>--laser: {count} files for {records} records; give one for each</source>
         <translation>--laser: {count} Dateien für {records} Aufzeichnungen; für jede eine nennen</translation>
     </message>
     <message>
-        <source>--fit: it re-fits the model, which --with leaves out; use one of them</source>
-        <translation>--fit: es passt das Modell neu an, das bei --with fehlt; nur eines von beiden verwenden</translation>
+        <source>--fit re-fits the model, which --with does not use; use only one of them</source>
+        <translation>--fit passt das Modell neu an, das --with nicht verwendet; nur eines von beiden angeben</translation>
     </message>
     <message>
-        <source>{path}: it is named twice; give the output a name of its own</source>
+        <source>{path} is named twice; give the output another name</source>
         <translation>{path}: der Name kommt zweimal vor; der Ausgabe einen eigenen geben</translation>
     </message>
     <message>
-        <source>{inverse}: it was trained for robot {robot}, not for {name}; name that one by --robot</source>
+        <source>{inverse} was trained for robot {robot}, not for {name}; name that robot by --robot</source>
         <translation>{inverse}: sie wurde für Roboter {robot} gelernt, nicht für {name}; jenen mit --robot nennen</translation>
     </message>
     <message>
@@ -68,8 +68,8 @@
         <translation>--simulate nimmt keine Aufzeichnungen; eines von beiden weglassen</translation>
     </message>
     <message>
-        <source>no record is named; name one, or let the simulator move: --simulate</source>
-        <translation>keine Aufzeichnung genannt; eine nennen oder den Simulator fahren lassen: --simulate</translation>
+        <source>no record is named; name one, or use --simulate</source>
+        <translation>keine Aufzeichnung genannt; eine nennen oder --simulate verwenden</translation>
     </message>
     <message>
         <source>--effects and --seed belong to --simulate; leave them out, or add it</source>
@@ -80,11 +80,11 @@
         <translation>--simulate braucht --axis NAME</translation>
     </message>
     <message>
-        <source>{output}: there is no folder {parent}; make it</source>
+        <source>{output}: there is no folder {parent}; create it</source>
         <translation>{output}: den Ordner {parent} gibt es nicht; erst anlegen</translation>
     </message>
     <message>
-        <source>{path}: it is named twice; give each file a name of its own</source>
+        <source>{path} is named twice; give each file its own name</source>
         <translation>{path}: der Name kommt zweimal vor; jeder Datei einen eigenen geben</translation>
     </message>
     <message>
@@ -92,8 +92,8 @@
         <translation>{path}: die Piezoachsen darin sind {found}; eine mit --axis nennen</translation>
     </message>
     <message>
-        <source>{output}: it is the file that is read; name another by -o</source>
-        <translation>{output}: das ist die Datei, die gelesen wird; mit -o eine andere nennen</translation>
+        <source>{output} is the input file; name another by -o</source>
+        <translation>{output} ist die Eingabedatei; mit -o eine andere nennen</translation>
     </message>
     <message>
         <source>--units {chosen}: a position&apos;s unit is a length or an angle</source>
@@ -104,7 +104,7 @@
         <translation>--set {text}: muss KEY=VALUE sein</translation>
     </message>
     <message>
-        <source>{name}: unknown setting {setting}; it knows {known}</source>
+        <source>{name}: unknown setting {setting}; available: {known}</source>
         <translation>{name}: unbekannte Einstellung {setting}; bekannt: {known}</translation>
     </message>
     <message>
@@ -112,11 +112,11 @@
         <translation>--set {name}={value}: muss {kind} sein</translation>
     </message>
     <message>
-        <source>there is no effect {effect_id}; there are {names}</source>
+        <source>there is no effect {effect_id}; available: {names}</source>
         <translation>den Effekt {effect_id} gibt es nicht; vorhanden: {names}</translation>
     </message>
     <message>
-        <source>{text} is none of {names}</source>
+        <source>{text} is not one of {names}</source>
         <translation>{text} ist keines von {names}</translation>
     </message>
     <message>
@@ -144,7 +144,7 @@
         <translation>{kind} kennt kein --{refused}; möglich: {names}</translation>
     </message>
     <message>
-        <source>--{option}: axis {key} is none of those that move</source>
+        <source>--{option}: axis {key} is not one of those that move</source>
         <translation>--{option}: Achse {key} gehört nicht zu den bewegten</translation>
     </message>
     <message>
@@ -152,35 +152,35 @@
         <translation>--{option}: {text} enthält zwei Werte für eine Achse</translation>
     </message>
     <message>
-        <source>gap: name what to do: diagnose, predict, twin, blind or bench (--help tells more)</source>
-        <translation>gap: nennen, was zu tun ist: diagnose, predict, twin, blind oder bench (mehr mit --help)</translation>
+        <source>gap: name a subcommand: diagnose, predict, twin, blind or bench (see --help)</source>
+        <translation>gap: einen Unterbefehl nennen: diagnose, predict, twin, blind oder bench (siehe --help)</translation>
     </message>
     <message>
-        <source>{output}: it is named twice; give each file a name of its own</source>
+        <source>{output} is named twice; give each file its own name</source>
         <translation>{output}: der Name kommt zweimal vor; jeder Datei einen eigenen geben</translation>
     </message>
     <message>
-        <source>--pause: name the motion that went before by --after</source>
+        <source>--pause: name the previous motion by --after</source>
         <translation>--pause: die vorausgegangene Bewegung mit --after nennen</translation>
     </message>
     <message>
-        <source>{output}: it exists already; name the record by -o</source>
+        <source>{output} already exists; name the record by -o</source>
         <translation>{output}: die Datei gibt es schon; die Aufzeichnung mit -o benennen</translation>
     </message>
     <message>
-        <source>{output}: it cannot be written, there is no folder {parent}; make it, or choose another</source>
+        <source>{output} cannot be written: there is no folder {parent}; create it, or choose another</source>
         <translation>{output}: kann nicht geschrieben werden, den Ordner {parent} gibt es nicht; anlegen oder einen anderen wählen</translation>
     </message>
     <message>
-        <source>{other}: a suggested experiment of {document} would take its place; name another file by --json</source>
-        <translation>{other}: ein vorgeschlagenes Experiment von {document} käme an seine Stelle; mit --json eine andere Datei nennen</translation>
+        <source>{other} would be overwritten by a suggested experiment of {document}; name another file by --json</source>
+        <translation>{other} würde von einem vorgeschlagenen Experiment von {document} überschrieben; mit --json eine andere Datei nennen</translation>
     </message>
     <message>
         <source>--zn, --thx, --thy: must be finite numbers</source>
         <translation>--zn, --thx, --thy: müssen endliche Zahlen sein</translation>
     </message>
     <message>
-        <source>the pin&apos;s bottom cannot go that far: --zn, --thx, --thy must be within ± {farthest} µm or µrad</source>
+        <source>the pin&apos;s bottom cannot move that far: --zn, --thx, --thy must be within ± {farthest} µm or µrad</source>
         <translation>so weit kommt das untere Ende des Stifts nicht: --zn, --thx, --thy müssen innerhalb von ± {farthest} µm oder µrad liegen</translation>
     </message>
     <message>
@@ -188,7 +188,7 @@
         <translation>{trajectory}: {objections}{more}</translation>
     </message>
     <message>
-        <source>there is no {wanted} {name}; `rotemina plugin list` tells which there are</source>
+        <source>there is no {wanted} {name}; `rotemina plugin list` lists all</source>
         <translation>{wanted} {name} gibt es nicht; `rotemina plugin list` zeigt, was es gibt</translation>
     </message>
     <message>
@@ -212,15 +212,15 @@
         <translation>tune: die Achse mit --axis oder einen Punkt mit --choose nennen</translation>
     </message>
     <message>
-        <source>{output}: tuned for robot {robot}, and this is {name}; name the robot by --robot</source>
-        <translation>{output}: abgestimmt für Roboter {robot}, dies ist {name}; den Roboter mit --robot nennen</translation>
+        <source>{output} was tuned for robot {robot}, not for {name}; name the robot by --robot</source>
+        <translation>{output} ist für Roboter {robot} abgestimmt, nicht für {name}; den Roboter mit --robot nennen</translation>
     </message>
     <message>
-        <source>{output}: there is no folder {parent}; make it first</source>
+        <source>{output}: there is no folder {parent}; create it first</source>
         <translation>{output}: den Ordner {parent} gibt es nicht; erst anlegen</translation>
     </message>
     <message>
-        <source>{inverse}: an inverse of axis {axis}, and {options_axis} is to be tuned; name one that was trained on this axis</source>
+        <source>{inverse} is an inverse of axis {axis}, but {options_axis} is to be tuned; name one that was trained on this axis</source>
         <translation>{inverse}: eine Inverse von Achse {axis}, abgestimmt werden soll {options_axis}; eine nennen, die auf dieser Achse gelernt wurde</translation>
     </message>
     <message>
@@ -232,16 +232,16 @@
         <translation>--cluster {cluster}: Dask ist nicht installiert; hier und auf den Rechnern des Clusters mit pip install &apos;rotemina[dask]&apos; installieren</translation>
     </message>
     <message>
-        <source>--cluster {cluster}: it cannot be reached ({error}); name the address of a running Dask scheduler</source>
+        <source>--cluster {cluster} cannot be reached ({error}); name the address of a running Dask scheduler</source>
         <translation>--cluster {cluster}: nicht erreichbar ({error}); die Adresse eines laufenden Dask-Schedulers nennen</translation>
     </message>
     <message>
-        <source>--cluster {cluster}: it has no workers; start some by dask worker {cluster}</source>
+        <source>--cluster {cluster} has no workers; start some by dask worker {cluster}</source>
         <translation>--cluster {cluster}: er hat keine Worker; welche starten mit dask worker {cluster}</translation>
     </message>
     <message>
-        <source>--cluster: a worker of it died again and again at the same work ({error}); look at its memory and its log</source>
-        <translation>--cluster: ein Worker starb immer wieder an derselben Arbeit ({error}); seinen Speicher und sein Protokoll ansehen</translation>
+        <source>--cluster: a worker died repeatedly at the same task ({error}); check its memory and its log</source>
+        <translation>--cluster: ein Worker brach wiederholt bei derselben Aufgabe ab ({error}); seinen Speicher und sein Protokoll prüfen</translation>
     </message>
     <message>
         <source>--cluster: work could not be sent: {said}</source>
@@ -594,6 +594,10 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
     <message>
         <source>clock</source>
         <translation>Uhr</translation>
+    </message>
+    <message>
+        <source>simulated {seconds} s</source>
+        <translation>{seconds} s simuliert</translation>
     </message>
 </context>
 </TS>

@@ -9,7 +9,7 @@
         <translation>die Maschine bewegt sich noch; das Modell in Ruhe wechseln</translation>
     </message>
     <message>
-        <source>the model is not of this machine: {why}; diagnose this one</source>
+        <source>the model belongs to another machine: {why}; diagnose this one</source>
         <translation>das Modell gehört nicht zu dieser Maschine: {why}; diese hier diagnostizieren</translation>
     </message>
     <message>
@@ -33,15 +33,15 @@
         <translation>Achse {axis} misst {much} außerhalb ihres Bereichs</translation>
     </message>
     <message>
-        <source>axis {axis} reads {much} beyond its range, {most} at most</source>
-        <translation>Achse {axis} misst {much} außerhalb ihres Bereichs, höchstens {most}</translation>
+        <source>axis {axis} reads {much} beyond its range; at most {most} is permitted</source>
+        <translation>Achse {axis} misst {much} außerhalb ihres Bereichs; zulässig sind höchstens {most}</translation>
     </message>
     <message>
-        <source>axis {axis} reads {much} from where it was sent, {most} at most</source>
-        <translation>Achse {axis} misst {much} Abstand zum Sollwert, höchstens {most}</translation>
+        <source>axis {axis} reads {much} away from its command; at most {most} is permitted</source>
+        <translation>Achse {axis} misst {much} Abstand zum Sollwert; zulässig sind höchstens {most}</translation>
     </message>
     <message>
-        <source>the session was started before; make another one</source>
+        <source>the session has already been started; create a new one</source>
         <extracomment>Of the thread that shows this to an operator; once it beats, nothing moves without it. Of the worker.</extracomment>
         <translation>die Sitzung wurde schon gestartet; eine neue anlegen</translation>
     </message>
@@ -50,8 +50,8 @@
         <translation>das Gerät ist verbunden</translation>
     </message>
     <message>
-        <source>the device is let go of</source>
-        <translation>das Gerät wird losgelassen</translation>
+        <source>the device is being released</source>
+        <translation>das Gerät wird getrennt</translation>
     </message>
     <message>
         <source>driver {name} is for a robot with axes {axes}; this one has {these}; start the program with that robot</source>
@@ -62,8 +62,8 @@
         <translation>ein anderes Gerät wird verbunden</translation>
     </message>
     <message>
-        <source>the window does not answer</source>
-        <translation>das Fenster antwortet nicht</translation>
+        <source>the window does not respond</source>
+        <translation>das Fenster reagiert nicht</translation>
     </message>
     <message>
         <source>another device is being connected; wait</source>
@@ -94,8 +94,8 @@
         <translation>eine Penetration ist in der Phase {phase}; erst anhalten</translation>
     </message>
     <message>
-        <source>the program let go of it</source>
-        <translation>das Programm hat sie losgelassen</translation>
+        <source>the program released it</source>
+        <translation>das Programm hat sie freigegeben</translation>
     </message>
     <message>
         <source>the penetration is not armed; arm it first</source>
@@ -110,7 +110,7 @@
         <translation>per Taste angehalten, Phase {phase}</translation>
     </message>
     <message>
-        <source>nobody started it in time</source>
+        <source>it was not started in time</source>
         <translation>nicht rechtzeitig gestartet</translation>
     </message>
     <message>
@@ -122,23 +122,23 @@
         <translation>die Achse hat sich seit dem Scharfstellen bewegt; erneut scharfstellen</translation>
     </message>
     <message>
-        <source>the axes are not the penetration&apos;s any more; move them by hand</source>
-        <translation>die Achsen gehören nicht mehr der Penetration; von Hand bewegen</translation>
+        <source>the penetration no longer owns the axes; move them manually</source>
+        <translation>die Achsen gehören nicht mehr zur Penetration; von Hand bewegen</translation>
     </message>
     <message>
         <source>retracted by the button; before: {reason}</source>
         <translation>per Taste zurückgezogen; zuvor: {reason}</translation>
     </message>
     <message>
-        <source>axis {axis}: {needed} are needed, its whole range is {range}; shorten approach_distance or depth</source>
-        <translation>Achse {axis}: {needed} werden gebraucht, ihr ganzer Bereich ist {range}; approach_distance oder depth verkürzen</translation>
+        <source>axis {axis}: the run needs {needed}, but the whole range is {range}; shorten approach_distance or depth</source>
+        <translation>Achse {axis}: der Lauf braucht {needed}, der ganze Bereich ist {range}; approach_distance oder depth verkürzen</translation>
     </message>
     <message>
-        <source>driver {driver} cannot move at a speed; the approach needs that</source>
-        <translation>Treiber {driver} kann nicht mit einer Geschwindigkeit fahren; die Anfahrt braucht das</translation>
+        <source>driver {driver} cannot move at a set speed, which the approach needs</source>
+        <translation>Treiber {driver} kann nicht mit vorgegebener Geschwindigkeit fahren, wie es die Anfahrt verlangt</translation>
     </message>
     <message>
-        <source>driver {driver} has no tool that could inject; set inject_s to 0</source>
+        <source>driver {driver} has no tool for injection; set inject_s to 0</source>
         <translation>Treiber {driver} hat kein Werkzeug zum Injizieren; Injektion auf 0 setzen</translation>
     </message>
     <message>
@@ -146,11 +146,11 @@
         <translation>Roboter {name} hat keine Achse {axis} für die Penetration; er hat {axes}</translation>
     </message>
     <message>
-        <source>approach_speed = {approach_speed}: axis {name} goes at {max_speed} at most</source>
+        <source>approach_speed = {approach_speed}: axis {name} moves at {max_speed} at most</source>
         <translation>approach_speed = {approach_speed}: Achse {name} fährt höchstens {max_speed}</translation>
     </message>
     <message>
-        <source>axis {axis}: {left} of its range are left {direction}wards, {needed} are needed ({approach} to approach, {halt} to halt, {thrust} to thrust); move the axis back first, or shorten them</source>
+        <source>axis {axis} has {left} of travel left {direction}wards, but the run needs {needed} ({approach} to approach, {halt} to halt, {thrust} to thrust); move the axis back first, or shorten them</source>
         <translation>Achse {axis}: {direction} sind {left} frei, {needed} nötig ({approach} Anfahrt, {halt} Anhalten, {thrust} Einstich); die Achse zurückfahren oder kürzen</translation>
     </message>
     <message>
@@ -174,53 +174,53 @@
         <translation>zu wenige Messwerte vom Einstich</translation>
     </message>
     <message>
-        <source>the thrust went {depth}: must be {asked} within {tolerance} %</source>
-        <translation>der Einstich ging {depth}: verlangt sind {asked} auf {tolerance} %</translation>
+        <source>the thrust reached {depth} instead of {asked}, more than {tolerance} % off</source>
+        <translation>der Einstich erreichte {depth} statt {asked}, mehr als {tolerance} % Abweichung</translation>
     </message>
     <message>
-        <source>the axis did not come back</source>
+        <source>the axis did not return</source>
         <translation>die Achse kam nicht zurück</translation>
     </message>
     <message>
-        <source>overload: the axis is {load} from where it should be, {most} at most</source>
-        <translation>Überlast: die Achse ist {load} von ihrem Sollort entfernt, höchstens {most}</translation>
+        <source>overload: the axis is {load} from its command; at most {most} is permitted</source>
+        <translation>Überlast: die Achse ist {load} von ihrem Sollwert entfernt; zulässig sind höchstens {most}</translation>
     </message>
     <message>
-        <source>a stop was asked for</source>
+        <source>a stop was requested</source>
         <translation>ein Halt wurde verlangt</translation>
     </message>
     <message>
-        <source>somebody took an axis over</source>
-        <translation>eine Achse wurde übernommen</translation>
+        <source>another control took over an axis</source>
+        <translation>eine andere Bedienung hat eine Achse übernommen</translation>
     </message>
     <message>
         <source>shaping = {shaping}: axis {axis} of {robot} has no resonance in its robot file; choose &apos;none&apos;</source>
         <translation>Formung {shaping}: Achse {axis} von {robot} hat keine Resonanz in der Roboterdatei; „keine“ wählen</translation>
     </message>
     <message>
-        <source>duration_s = {duration} s: input shaping {shaping} takes {taken} s of it; at least {least} s, or another shaping</source>
+        <source>duration_s = {duration} s: input shaping {shaping} takes {taken} s of it; use at least {least} s, or another shaping</source>
         <translation>Dauer {duration} s: die Impulsformung {shaping} braucht davon {taken} s; mindestens {least} s oder eine andere Formung</translation>
     </message>
     <message>
-        <source>thrust: none of {count} samples is behind it</source>
+        <source>thrust: none of {count} samples lies after it</source>
         <translation>Stoß: keiner von {count} Abtastwerten liegt dahinter</translation>
     </message>
     <message>
-        <source>thrust: none of {count} samples is before it</source>
+        <source>thrust: none of {count} samples lies before it</source>
         <translation>Stoß: keiner von {count} Abtastwerten liegt davor</translation>
     </message>
     <message>
-        <source>{capacity} commands are waiting already and the device does not keep up; wait, or stop</source>
+        <source>{capacity} commands are already waiting because the device does not keep up; wait, or stop</source>
         <translation>{capacity} Befehle warten schon, das Gerät kommt nicht nach; warten oder anhalten</translation>
     </message>
     <message>
-        <source>{path}: positions of robot {robot}, not of {name}; put the file away</source>
+        <source>{path}: the positions belong to robot {robot}, not to {name}; move the file away</source>
         <extracomment>Names of places that have buttons of their own.</extracomment>
-        <translation>{path}: Positionen des Roboters {robot}, nicht von {name}; die Datei anderswo ablegen</translation>
+        <translation>{path}: die Positionen gehören zu Roboter {robot}, nicht zu {name}; die Datei verschieben</translation>
     </message>
     <message>
-        <source>there are {most} positions, no more are kept; delete some</source>
-        <translation>es gibt {most} Positionen, mehr werden nicht aufbewahrt; einige löschen</translation>
+        <source>{most} positions, the maximum, are saved; delete some</source>
+        <translation>es sind schon {most} Positionen gespeichert, mehr sind nicht möglich; einige löschen</translation>
     </message>
     <message>
         <source>there is no position {name}</source>
@@ -243,7 +243,7 @@
         <translation>{where}Position {name}: {error}</translation>
     </message>
     <message>
-        <source>playback: a speed of {speed}: must be {slowest} to {fastest} times that of the trajectory</source>
+        <source>playback: the speed {speed} must be {slowest} to {fastest} times that of the trajectory</source>
         <translation>Wiedergabe: Tempo {speed}: muss das {slowest}- bis {fastest}-Fache der Trajektorie sein</translation>
     </message>
     <message>
@@ -251,7 +251,7 @@
         <translation>Wiedergabe: Zeile {row}: die Trajektorie hat die Zeilen 0 bis {rows}</translation>
     </message>
     <message>
-        <source>{names} moved together; move one only</source>
+        <source>{names} moved together; move only one</source>
         <translation>{names} zugleich bewegt; nur eines bewegen</translation>
     </message>
     <message>
@@ -263,19 +263,19 @@
         <translation>{kind} {control} von {device}</translation>
     </message>
     <message>
-        <source>another profile is used</source>
+        <source>another profile is now in use</source>
         <translation>ein anderes Profil ist in Gebrauch</translation>
     </message>
     <message>
-        <source>device {key} is not plugged in; its calibration has no use</source>
-        <translation>Gerät {key} ist nicht angesteckt; seine Kalibrierung nützt nichts</translation>
+        <source>device {key} is not plugged in, so no calibration can be applied</source>
+        <translation>Gerät {key} ist nicht angesteckt; eine Kalibrierung lässt sich nicht anwenden</translation>
     </message>
     <message>
-        <source>a calibration of {device} is not for {key}</source>
-        <translation>eine Kalibrierung von {device} ist nicht für {key}</translation>
+        <source>this calibration is for {device}, not for {key}</source>
+        <translation>diese Kalibrierung ist für {device}, nicht für {key}</translation>
     </message>
     <message>
-        <source>calibrated anew</source>
+        <source>recalibrated</source>
         <translation>neu kalibriert</translation>
     </message>
     <message>
@@ -287,8 +287,8 @@
         <translation>kein Profil gewählt: die Eingabegeräte tun nichts</translation>
     </message>
     <message>
-        <source>another device is gone ({why}): let go of it</source>
-        <translation>ein anderes Gerät ist weg ({why}): loslassen</translation>
+        <source>another device was lost ({why}): release it</source>
+        <translation>ein anderes Gerät ist ausgefallen ({why}): loslassen</translation>
     </message>
     <message>
         <source>the machine is being stopped</source>
@@ -315,11 +315,11 @@
         <translation>Maschine: {activity}</translation>
     </message>
     <message>
-        <source>driver {driver} cannot move at a speed</source>
-        <translation>Treiber {driver} kann nicht mit einer Geschwindigkeit fahren</translation>
+        <source>driver {driver} cannot move at a set speed</source>
+        <translation>Treiber {driver} kann nicht mit vorgegebener Geschwindigkeit fahren</translation>
     </message>
     <message>
-        <source>no stick is active: let go of it, and hold its dead-man switch if it has one</source>
+        <source>no stick is active: release it, and hold its dead-man button if it has one</source>
         <translation>kein verlässlicher Joystick: loslassen; Zustimmtaster halten, falls vorhanden</translation>
     </message>
     <message>
@@ -335,17 +335,17 @@
         <translation>verlangsamt: die Spitze ist nahe an ihren Grenzen</translation>
     </message>
     <message>
-        <source>a reading of {axes} axes and {buttons} buttons came from a device with {known} and {others}: replug it</source>
+        <source>a reading has {axes} axes and {buttons} buttons, but the device has {known} and {others}: replug it</source>
         <extracomment>Actions that work from every device, whoever drives, and while mappings are made. Actions that last as long as they are held, and are never *pressed*. What it said last; None as long as it has said nothing that still holds. Why nothing can be made of what it says; None: something can. Why it was lost in the last step; None: it was not. Actions pressed in the last step, and those held.</extracomment>
-        <translation>eine Meldung mit {axes} Achsen und {buttons} Tasten kam von einem Gerät mit {known} und {others}: neu anstecken</translation>
+        <translation>eine Meldung hat {axes} Achsen und {buttons} Tasten, das Gerät aber {known} und {others}: neu anstecken</translation>
     </message>
     <message>
-        <source>silent, though it streams: nothing has come from it; replug it, or look at its cable</source>
-        <translation>stumm, obwohl es laufend sendet: nichts kam an; neu anstecken oder Kabel prüfen</translation>
+        <source>silent: a streaming device has sent nothing; replug it, or check its cable</source>
+        <translation>stumm: ein laufend sendendes Gerät hat nichts gesendet; neu anstecken oder Kabel prüfen</translation>
     </message>
     <message>
-        <source>the trainer&apos;s device is not there: the trainee does not drive alone</source>
-        <translation>das Gerät des Trainers fehlt: der Trainee steuert nicht allein</translation>
+        <source>the trainer&apos;s device is not connected: the trainee cannot drive alone</source>
+        <translation>das Gerät des Trainers ist nicht angeschlossen: der Trainee kann nicht allein steuern</translation>
     </message>
     <message>
         <source>the trainer has taken over</source>
@@ -380,8 +380,8 @@
         <translation>bewegt {drives}</translation>
     </message>
     <message>
-        <source>profile {name}: control {control} of {key} would do two things, {found} and {use}; leave one out</source>
-        <translation>Profil {name}: Bedienelement {control} von {key} täte zweierlei, {found} und {use}; eines weglassen</translation>
+        <source>profile {name}: control {control} of {key} would have two functions, {found} and {use}; remove one</source>
+        <translation>Profil {name}: Bedienelement {control} von {key} hätte zwei Funktionen, {found} und {use}; eine entfernen</translation>
     </message>
     <message>
         <source>{device} has no {kind} {control}; it has {known}. Choose one of these, or a profile for this device</source>
@@ -392,11 +392,11 @@
         <translation>nichts</translation>
     </message>
     <message>
-        <source>jitters from end to end: its potentiometer or cable is bad</source>
-        <translation>springt von Ende zu Ende: Potentiometer oder Kabel schadhaft</translation>
+        <source>jitters from end to end: its potentiometer or cable is faulty</source>
+        <translation>springt von Ende zu Ende: Potentiometer oder Kabel ist defekt</translation>
     </message>
     <message>
-        <source>axis {axis}: the device has none of that name; it has {value}</source>
+        <source>axis {axis}: the device has no axis of that name; it has {value}</source>
         <translation>Achse {axis}: das Gerät hat keine dieses Namens; vorhanden: {value}</translation>
     </message>
     <message>
@@ -412,32 +412,32 @@
         <translation>Achse {axis} ruht am Ende: {where}; in beide Richtungen bewegen oder als einseitig angeben (Abzug)</translation>
     </message>
     <message>
-        <source>axis {axis} jitters at rest, or was moved: {low} to {high} asks for a dead zone of {zone}, at most {most} is good; leave it alone, and if it stays so have it repaired</source>
-        <translation>Achse {axis} zittert in Ruhe oder wurde bewegt: {low} bis {high} verlangt eine Totzone von {zone}, gut ist höchstens {most}; ruhen lassen, und wenn es so bleibt, reparieren lassen</translation>
+        <source>axis {axis} jitters at rest, or was moved: {low} to {high} needs a dead zone of {zone}, but at most {most} is permitted; release it and measure again, or have it repaired</source>
+        <translation>Achse {axis} zittert in Ruhe oder wurde bewegt: {low} bis {high} verlangt eine Totzone von {zone}, zulässig sind höchstens {most}; loslassen und neu messen, sonst reparieren lassen</translation>
     </message>
     <message>
-        <source>driver {name} closes no loop: its samples come too seldom and too late for one; use feed-forward, or the simulator</source>
-        <translation>Treiber {name} schließt keinen Regelkreis: seine Messwerte kommen dafür zu selten und zu spät; Vorsteuerung oder den Simulator verwenden</translation>
+        <source>driver {name} cannot close a loop: its samples are too rare and too late; use feed-forward, or the simulator</source>
+        <translation>Treiber {name} kann keinen Regelkreis schließen: seine Messwerte sind dafür zu selten und zu spät; Vorsteuerung oder den Simulator verwenden</translation>
     </message>
     <message>
         <source>{name}: tuned for robot {robot}, not for {this}; tune on this robot</source>
         <translation>{name}: für Roboter {robot} eingestellt, nicht für {this}; an diesem Roboter einstellen</translation>
     </message>
     <message>
-        <source>{name}: tuned for outputs that come {delay} intervals late, and a device&apos;s loop puts them out at once; tune with a delay of 0</source>
-        <translation>{name}: für Ausgaben eingestellt, die {delay} Takte verspätet kommen; der Regelkreis eines Geräts gibt sie sofort aus; mit Verzögerung 0 einstellen</translation>
+        <source>{name}: tuned for outputs that are {delay} intervals late, but a device&apos;s loop outputs them at once; tune with a delay of 0</source>
+        <translation>{name}: für Ausgaben mit {delay} Takten Verspätung abgestimmt; der Regelkreis eines Geräts gibt sie sofort aus; mit Verzögerung 0 abstimmen</translation>
     </message>
     <message>
         <source>{number}: {error}</source>
         <translation>{number}: {error}</translation>
     </message>
     <message>
-        <source>tip: a profile at {speed} within {height} of its floor: {most} at most; only an armed penetration may be faster there</source>
-        <translation>Spitze: ein Profil mit {speed} weniger als {height} über dem Boden: höchstens {most}; schneller darf dort nur eine scharfe Penetration sein</translation>
+        <source>tip: the profile moves at {speed} within {height} of the floor, where {most} is the limit; only an armed penetration may be faster</source>
+        <translation>Spitze: das Profil fährt mit {speed} weniger als {height} über dem Boden, wo {most} die Grenze ist; schneller darf dort nur eine scharfgeschaltete Penetration sein</translation>
     </message>
     <message>
-        <source>tip: a thrust of {way} within {height} of its floor: {most} at most</source>
-        <translation>Spitze: ein Stoß von {way} weniger als {height} über dem Boden: höchstens {most}</translation>
+        <source>tip: a thrust of {way} within {height} of the floor exceeds the limit of {most}</source>
+        <translation>Spitze: ein Stoß von {way} weniger als {height} über dem Boden überschreitet die Grenze von {most}</translation>
     </message>
     <message>
         <source>{much} below its floor</source>
@@ -452,8 +452,8 @@
         <translation>{much} außerhalb ihres Radius</translation>
     </message>
     <message>
-        <source>driver {name} is a real machine: its effects are its own; connect to the simulator</source>
-        <translation>Treiber {name} ist eine echte Maschine mit eigenen Effekten; mit dem Simulator verbinden</translation>
+        <source>driver {name} is a real machine, whose effects cannot be changed; connect to the simulator</source>
+        <translation>Treiber {name} ist eine echte Maschine, deren Effekte sich nicht ändern lassen; mit dem Simulator verbinden</translation>
     </message>
     <message>
         <source>the device reports a fault ({fault}); clear it first</source>
@@ -464,8 +464,8 @@
         <translation>das Gerät antwortet nicht; warten, bis es antwortet</translation>
     </message>
     <message>
-        <source>the device&apos;s parameters are not those of the robot file ({difference}); write or accept them first</source>
-        <translation>die Parameter des Geräts sind nicht die der Roboterdatei ({difference}); erst schreiben oder übernehmen</translation>
+        <source>the device&apos;s parameters differ from the robot file ({difference}); write or accept them first</source>
+        <translation>die Parameter des Geräts weichen von der Roboterdatei ab ({difference}); erst schreiben oder übernehmen</translation>
     </message>
     <message>
         <source>the position is not known yet</source>
@@ -484,8 +484,8 @@
         <translation>die Verbindung ging verloren</translation>
     </message>
     <message>
-        <source>axis {axis}: target {target} is beyond {low} to {high}, which its inverse was trained on; stay inside, or switch the compensation off</source>
-        <translation>Achse {axis}: Ziel {target} liegt außerhalb von {low} bis {high}, worauf ihr inverses Modell trainiert ist; innerhalb bleiben oder die Kompensation abschalten</translation>
+        <source>axis {axis}: target {target} is outside {low} to {high}, the training range of its inverse; stay inside, or remove the inverse</source>
+        <translation>Achse {axis}: Ziel {target} liegt außerhalb von {low} bis {high}, dem Trainingsbereich ihres inversen Modells; innerhalb bleiben oder das inverse Modell abschalten</translation>
     </message>
     <message>
         <source>{name}: it was trained for robot {robot}, not for {this}; train one on this robot</source>
@@ -517,7 +517,7 @@
         <translation>eine Aufnahme läuft; erst beenden</translation>
     </message>
     <message>
-        <source>{folder}: the folder cannot be made ({reason})</source>
+        <source>{folder}: the folder cannot be created ({reason})</source>
         <translation>{folder}: der Ordner lässt sich nicht anlegen ({reason})</translation>
     </message>
     <message>
@@ -537,8 +537,8 @@
         <translation>{error}; Vorgaben werden verwendet</translation>
     </message>
     <message>
-        <source>driver {name} cannot move at a speed; send targets</source>
-        <translation>Treiber {name} kann nicht mit einer Geschwindigkeit fahren; Ziele senden</translation>
+        <source>driver {name} cannot move at a set speed; send targets instead</source>
+        <translation>Treiber {name} kann nicht mit vorgegebener Geschwindigkeit fahren; stattdessen Ziele senden</translation>
     </message>
     <message>
         <source>the machine is still moving; stop it or wait before homing</source>
@@ -549,12 +549,12 @@
         <translation>Treiber {name} kann keine Trajektorien abspielen</translation>
     </message>
     <message>
-        <source>tip: a floor {clearance} m below the tip: must be a finite number, 0 or more</source>
+        <source>tip: clearance {clearance} m below the tip: must be a finite number, 0 or more</source>
         <translation>Spitze: ein Boden {clearance} m unter der Spitze: muss eine endliche Zahl sein, 0 oder mehr</translation>
     </message>
     <message>
-        <source>the machine looks for its switches; wait, or stop it first</source>
-        <translation>die Maschine sucht ihre Schalter; warten oder erst anhalten</translation>
+        <source>the machine is searching for its limit switches; wait, or stop it first</source>
+        <translation>die Maschine sucht ihre Endschalter; warten oder erst anhalten</translation>
     </message>
     <message>
         <source>a trajectory is playing and owns every axis; stop it first</source>
@@ -577,7 +577,7 @@
         <translation>Treiber {name} kann nicht schnell aufzeichnen</translation>
     </message>
     <message>
-        <source>driver {name} cannot put out a voltage</source>
+        <source>driver {name} cannot set a voltage</source>
         <translation>Treiber {name} kann keine Spannung ausgeben</translation>
     </message>
     <message>
@@ -585,7 +585,7 @@
         <translation>Achse {axis}: {voltage} V: muss {low} bis {high} V sein</translation>
     </message>
     <message>
-        <source>axis {axis}: a voltage acts at once, too fast so close above the tip&apos;s floor; move it instead</source>
+        <source>axis {axis}: a voltage acts at once, which is too fast this close to the floor of the tip; move the axis instead</source>
         <translation>Achse {axis}: eine Spannung wirkt sofort, so dicht über dem Boden der Spitze zu schnell; stattdessen verfahren</translation>
     </message>
     <message>
@@ -593,12 +593,12 @@
         <translation>Abweichung: es gibt keine Achse {axis}</translation>
     </message>
     <message>
-        <source>deviation: axis {axis}: a bound of {bound}: must be above 0</source>
+        <source>deviation: axis {axis}: the bound {bound} must be above 0</source>
         <translation>Abweichung: Achse {axis}: Grenze {bound}: muss über 0 liegen</translation>
     </message>
     <message>
-        <source>axis {axis} is {deviation} from where the model expects it, for more than {time} ms: at most {bound}</source>
-        <translation>Achse {axis} ist länger als {time} ms um {deviation} von dort entfernt, wo das Modell sie erwartet: höchstens {bound}</translation>
+        <source>axis {axis} deviates from the model by {deviation} for more than {time} ms; the bound is {bound}</source>
+        <translation>Achse {axis} weicht länger als {time} ms um {deviation} vom Modell ab; die Grenze ist {bound}</translation>
     </message>
     <message>
         <source>{name}: playback ended early: {reason}</source>
@@ -609,8 +609,8 @@
         <translation>Treiber {name} kann nicht kompensieren; den Simulator verwenden</translation>
     </message>
     <message>
-        <source>driver {name} closes no loop; use the simulator</source>
-        <translation>Treiber {name} schließt keinen Regelkreis; den Simulator verwenden</translation>
+        <source>driver {name} cannot close a loop; use the simulator</source>
+        <translation>Treiber {name} kann keinen Regelkreis schließen; den Simulator verwenden</translation>
     </message>
     <message>
         <source>driver {name} cannot play faster than real time; use the simulator</source>
@@ -645,19 +645,19 @@
         <translation>Das Mikroskop ist ausgefallen: {name}: {error}</translation>
     </message>
     <message>
-        <source>the tip is still {distance} px off after {n} corrections, must be at most {most} px; the stage resolves no finer, or drifts</source>
-        <translation>die Spitze liegt nach {n} Korrekturen noch {distance} px daneben, höchstens {most} px; der Tisch löst nicht feiner auf oder driftet</translation>
+        <source>the tip is still {distance} px off after {n} corrections; at most {most} px are permitted: the stage drifts, or its resolution is too coarse</source>
+        <translation>die Spitze liegt nach {n} Korrekturen noch {distance} px daneben; zulässig sind höchstens {most} px: der Tisch driftet, oder seine Auflösung ist zu grob</translation>
     </message>
     <message>
-        <source>the tip is not seen near {column}, {row} px, where it should be; nothing more is moved: look at the picture</source>
-        <translation>die Spitze ist nahe {column}, {row} px, wo sie sein sollte, nicht zu sehen; nichts wird mehr bewegt: Bild prüfen</translation>
+        <source>the tip is not visible near {column}, {row} px, where it should be; motion has ended: check the picture</source>
+        <translation>die Spitze ist bei {column}, {row} px, wo sie sein sollte, nicht zu sehen; die Bewegung ist beendet: Bild prüfen</translation>
     </message>
     <message>
         <source>there is no picture; open a camera and wait for the first one</source>
         <translation>kein Bild; eine Kamera öffnen und das erste abwarten</translation>
     </message>
     <message>
-        <source>there is no camera {key}; there is: {known}</source>
+        <source>there is no camera {key}; available: {known}</source>
         <extracomment>Whether somebody looks; until then nothing is looked for, and nothing opens by itself.</extracomment>
         <translation>die Kamera {key} gibt es nicht; vorhanden: {known}</translation>
     </message>
@@ -666,44 +666,44 @@
         <translation>keine Kamera ist geöffnet; erst eine wählen</translation>
     </message>
     <message>
-        <source>{camera} ({key}), the camera used last, is not there; plug it in, or choose another</source>
-        <translation>{camera} ({key}), die zuletzt benutzte Kamera, fehlt; anstecken oder eine andere wählen</translation>
+        <source>{camera} ({key}), the camera used last, is not connected; plug it in, or choose another</source>
+        <translation>{camera} ({key}), die zuletzt benutzte Kamera, ist nicht angeschlossen; anstecken oder eine andere wählen</translation>
     </message>
     <message>
         <source>the calibration was stopped</source>
         <translation>die Kalibrierung wurde angehalten</translation>
     </message>
     <message>
-        <source>{reason}; it could not go back: {error}</source>
+        <source>{reason}; the return failed: {error}</source>
         <translation>{reason}; Rückfahrt nicht möglich: {error}</translation>
     </message>
     <message>
-        <source>the picture drifted by {drift} px during the calibration, must be at most {most} px; let stage and camera settle, see to backlash, and begin again</source>
-        <translation>das Bild driftete während der Kalibrierung um {drift} px, höchstens {most} px; Tisch und Kamera ruhen lassen, Umkehrspiel prüfen, neu beginnen</translation>
+        <source>the picture drifted by {drift} px during the calibration; at most {most} px are permitted: let stage and camera settle, reduce backlash, and start again</source>
+        <translation>das Bild driftete während der Kalibrierung um {drift} px; zulässig sind höchstens {most} px: Tisch und Kamera ruhen lassen, Umkehrspiel verringern, neu beginnen</translation>
     </message>
     <message>
-        <source>the machine did not come to rest within {rest_patience_s} s; look what drives it, and begin again</source>
+        <source>the machine did not come to rest within {rest_patience_s} s; check what drives it, and start again</source>
         <extracomment>Return the newest picture, or None while there is none; never waits. Drawn when it began; every move of what looks goes with it, and a stop ends them all.</extracomment>
         <translation>die Maschine kam in {rest_patience_s} s nicht zur Ruhe; nachsehen, was sie bewegt, und neu beginnen</translation>
     </message>
     <message>
-        <source>frozen: it gives the same picture again</source>
+        <source>frozen: it repeats the same picture</source>
         <translation>eingefroren: sie liefert immer wieder dasselbe Bild</translation>
     </message>
     <message>
-        <source>the camera is {what}; {count} of {pictures} new pictures came within {waited_s} s. Nothing is moved: see to the camera and begin again</source>
-        <translation>die Kamera ist {what}; {count} von {pictures} neuen Bildern kamen in {waited_s} s. Nichts wird bewegt: nach der Kamera sehen und neu beginnen</translation>
+        <source>the camera is {what}; {count} of {pictures} new pictures arrived within {waited_s} s. Nothing moves: check the camera, and start again</source>
+        <translation>die Kamera ist {what}; {count} von {pictures} neuen Bildern kamen in {waited_s} s. Nichts bewegt sich: die Kamera prüfen und neu beginnen</translation>
     </message>
     <message>
-        <source>the camera shows {size} now, and {before} when this began; keep its settings and begin again</source>
-        <translation>die Kamera zeigt jetzt {size}, am Anfang waren es {before}; ihre Einstellungen lassen und neu beginnen</translation>
+        <source>the camera shows {size}, but showed {before} at the start; keep its settings, and start again</source>
+        <translation>die Kamera zeigt {size}, am Anfang waren es {before}; ihre Einstellungen nicht ändern und neu beginnen</translation>
     </message>
     <message>
-        <source>the picture is black; look at lamp, shutter and exposure. Nothing is moved</source>
-        <translation>das Bild ist schwarz; Lampe, Blende und Belichtung prüfen. Nichts wird bewegt</translation>
+        <source>the picture is black; check lamp, shutter and exposure. Nothing moves</source>
+        <translation>das Bild ist schwarz; Lampe, Blende und Belichtung prüfen. Nichts bewegt sich</translation>
     </message>
     <message>
-        <source>somebody stopped the machine; it stays where it is</source>
+        <source>the machine was stopped; it stays in place</source>
         <translation>die Maschine wurde angehalten; sie bleibt, wo sie ist</translation>
     </message>
     <message>
@@ -711,7 +711,7 @@
         <translation>sie ist nicht verbunden</translation>
     </message>
     <message>
-        <source>the machine does not move any more: {reason}</source>
+        <source>the machine no longer moves: {reason}</source>
         <translation>die Maschine bewegt sich nicht mehr: {reason}</translation>
     </message>
     <message>
@@ -731,19 +731,19 @@
         <translation>{name}: ihr Thread läuft noch; erst schließen</translation>
     </message>
     <message>
-        <source>every picture has been the same for more than {seconds} s; open it again, and do not trust what it shows</source>
-        <translation>seit über {seconds} s immer dasselbe Bild; neu öffnen und dem Gezeigten nicht trauen</translation>
+        <source>every picture has been the same for more than {seconds} s; do not trust it, and open the camera again</source>
+        <translation>seit über {seconds} s immer dasselbe Bild; es ist nicht verlässlich: die Kamera neu öffnen</translation>
     </message>
     <message>
         <source>the picture is black; check lamp, shutter, lens cap and exposure</source>
         <translation>das Bild ist schwarz; Lampe, Verschluss, Kappe und Belichtung prüfen</translation>
     </message>
     <message>
-        <source>the device tells no laser&apos;s readings; record the laser with its own program, play the motion from its file, and fit both records (rotemina calibrate fit --laser)</source>
+        <source>the device provides no laser readings; record the laser with its own program, play the motion from its file, and fit both records (rotemina calibrate fit --laser)</source>
         <translation>das Gerät liefert keine Laserwerte; den Laser mit seinem eigenen Programm aufzeichnen, die Bewegung aus ihrer Datei abspielen und beide Aufzeichnungen anpassen (rotemina calibrate fit --laser)</translation>
     </message>
     <message>
-        <source>this run was begun before; plan another one</source>
+        <source>this run was already started; plan a new one</source>
         <translation>dieser Lauf wurde schon begonnen; einen neuen planen</translation>
     </message>
     <message>
@@ -751,23 +751,23 @@
         <translation>die Bewegung wurde abgelehnt</translation>
     </message>
     <message>
-        <source>the calibration is given up</source>
-        <translation>die Kalibrierung wird aufgegeben</translation>
+        <source>the calibration was cancelled</source>
+        <translation>die Kalibrierung wurde abgebrochen</translation>
     </message>
     <message>
-        <source>stopped; nothing of it is kept</source>
-        <translation>angehalten; nichts davon bleibt</translation>
+        <source>stopped; the data are discarded</source>
+        <translation>angehalten; die Daten werden verworfen</translation>
     </message>
     <message>
-        <source>the connection was lost; nothing of it is kept</source>
-        <translation>die Verbindung ging verloren; nichts davon bleibt</translation>
+        <source>the connection was lost; the data are discarded</source>
+        <translation>die Verbindung ging verloren; die Daten werden verworfen</translation>
     </message>
     <message>
-        <source>the motion ended early; nothing of it is kept</source>
-        <translation>die Bewegung endete vorzeitig; nichts davon bleibt</translation>
+        <source>the motion ended early; the data are discarded</source>
+        <translation>die Bewegung endete vorzeitig; die Daten werden verworfen</translation>
     </message>
     <message>
-        <source>{name}: it is open already; close it first</source>
+        <source>{name} is already open; close it first</source>
         <extracomment>The version of this interface that the class was written for. How screens and records call the device. Whether the device lives on ``clock`` alone, and so can run faster than real time. How often the driver wants to be read, s; one that feeds a serial line has no other chance. By how much the time of a sample may be wrong where the device has no clock of its own, s. What every motion passes; a program that owns the driver puts its own gate here.</extracomment>
         <translation>{name}: schon geöffnet; erst schließen</translation>
     </message>
@@ -776,7 +776,7 @@
         <translation>{name}: Messwerte von {count} Achsen, erwartet {axes}</translation>
     </message>
     <message>
-        <source>{name}: device time went from {last_time_s} s back to {device_time_s} s; was the device reset?</source>
+        <source>{name}: the device time went back from {last_time_s} s to {device_time_s} s; check whether the device was reset</source>
         <translation>{name}: die Gerätezeit sprang von {last_time_s} s zurück auf {device_time_s} s; wurde das Gerät zurückgesetzt?</translation>
     </message>
     <message>
@@ -784,11 +784,11 @@
         <translation>{name}: geschlossen, kann nicht {action}; erst öffnen</translation>
     </message>
     <message>
-        <source>{name}: cannot {action}: the device has said nothing for {silent} s; wait until it answers</source>
+        <source>{name}: cannot {action}: the device has been silent for {silent} s; wait until it answers</source>
         <translation>{name}: kann nicht {action}: das Gerät schweigt seit {silent} s; warten, bis es antwortet</translation>
     </message>
     <message>
-        <source>{name}: cannot {action} in a fault ({fault}); clear it</source>
+        <source>{name}: cannot {action} during a fault ({fault}); clear it</source>
         <translation>{name}: kann im Fehlerzustand ({fault}) nicht {action}; quittieren</translation>
     </message>
     <message>
@@ -820,16 +820,16 @@
         <translation>pymmcore-plus ist nicht installiert: {install}</translation>
     </message>
     <message>
-        <source>{name}: {address}: type a {address_hint}</source>
-        <translation>{name}: {address}: einzugeben ist: {address_hint}</translation>
+        <source>{name}: {address}: enter a {address_hint}</source>
+        <translation>{name}: {address}: bitte eingeben: {address_hint}</translation>
     </message>
     <message>
-        <source>{path}: there is no such file; choose another configuration</source>
+        <source>{path}: file not found; choose another configuration</source>
         <translation>{path}: diese Datei gibt es nicht; eine andere Konfiguration wählen</translation>
     </message>
     <message>
-        <source>{path}: it names no camera; add one with Micro-Manager&apos;s wizard</source>
-        <translation>{path}: darin steht keine Kamera; mit dem Assistenten von Micro-Manager eine hinzufügen</translation>
+        <source>{path} names no camera; add one with Micro-Manager&apos;s wizard</source>
+        <translation>{path} nennt keine Kamera; mit dem Assistenten von Micro-Manager eine hinzufügen</translation>
     </message>
     <message>
         <source>{path}: Micro-Manager cannot open it: {error}</source>
@@ -840,19 +840,19 @@
         <translation>{name}: Bildpunkte von {getbytesperpixel} Byte: muss Grau mit 8 oder 16 Bit oder Farbe sein; den Pixeltyp der Kamera in ihrer Konfiguration setzen</translation>
     </message>
     <message>
-        <source>{name}: it does not take that: {error}</source>
-        <translation>{name}: das nimmt sie nicht an: {error}</translation>
+        <source>{name} rejected the settings: {error}</source>
+        <translation>{name} hat die Einstellungen abgelehnt: {error}</translation>
     </message>
     <message>
-        <source>{name}: it has stopped taking pictures; was it unplugged? Open it again</source>
-        <translation>{name}: sie nimmt keine Bilder mehr auf; wurde sie abgesteckt? Wieder öffnen</translation>
+        <source>{name} no longer takes pictures; check whether it is plugged in, and open it again</source>
+        <translation>{name} nimmt keine Bilder mehr auf; prüfen, ob sie angesteckt ist, und wieder öffnen</translation>
     </message>
     <message>
-        <source>{name}: Micro-Manager has lost it: {error}; open it again</source>
+        <source>{name}: Micro-Manager has lost the camera: {error}; open it again</source>
         <translation>{name}: Micro-Manager hat sie verloren: {error}; wieder öffnen</translation>
     </message>
     <message>
-        <source>profile of {axis}: {segments} segments: 1 to {most_segments}</source>
+        <source>profile of {axis}: {segments} segments: must be 1 to {most_segments}</source>
         <translation>Profil von {axis}: {segments} Abschnitte: 1 bis {most_segments}</translation>
     </message>
     <message>
@@ -864,15 +864,15 @@
         <translation>{where}: {error}</translation>
     </message>
     <message>
-        <source>{where}: {speed}: at most {most}</source>
+        <source>{where}: {speed}: must be at most {most}</source>
         <translation>{where}: {speed}: höchstens {most}</translation>
     </message>
     <message>
-        <source>{where}: {acceleration}: at most {most}</source>
+        <source>{where}: {acceleration}: must be at most {most}</source>
         <translation>{where}: {acceleration}: höchstens {most}</translation>
     </message>
     <message>
-        <source>{name}: a lease of {lease} s: must be more than 0 s, at most {longest} s</source>
+        <source>{name}: lease {lease} s: must be more than 0 s and at most {longest} s</source>
         <translation>{name}: Gültigkeit {lease} s: muss mehr als 0 s und höchstens {longest} s sein</translation>
     </message>
     <message>
@@ -884,11 +884,11 @@
         <translation>eine endliche Zahl</translation>
     </message>
     <message>
-        <source>{most} at most</source>
+        <source>at most {most}</source>
         <translation>höchstens {most}</translation>
     </message>
     <message>
-        <source>{name}: axis {axis}: a speed of {speed} {unit}/s: must be {bound}</source>
+        <source>{name}: axis {axis}: speed {speed} {unit}/s: must be {bound}</source>
         <translation>{name}: Achse {axis}: Geschwindigkeit {speed} {unit}/s: muss {bound} sein</translation>
     </message>
     <message>
@@ -908,7 +908,7 @@
         <translation>{name}: Achse {axis} hat keinen Endschalter; diese haben einen: {have}</translation>
     </message>
     <message>
-        <source>{name}: cannot put out a voltage while it is {state}; stop it or wait</source>
+        <source>{name}: cannot set a voltage while it is {state}; stop it or wait</source>
         <translation>{name}: kann im Zustand {state} keine Spannung ausgeben; anhalten oder warten</translation>
     </message>
     <message>
@@ -920,23 +920,23 @@
         <translation>{name}: Achse {axis}: {voltage} V: muss {low} bis {high} V sein</translation>
     </message>
     <message>
-        <source>{name}: a capture of {axes} axes: 1 to {most}</source>
+        <source>{name}: capture of {axes} axes: must be 1 to {most}</source>
         <translation>{name}: schnelle Aufzeichnung von {axes} Achsen: 1 bis {most}</translation>
     </message>
     <message>
-        <source>{name}: a capture of {axes} axes at {rate_hz} Hz: {most} Hz at most</source>
+        <source>{name}: capture of {axes} axes at {rate_hz} Hz: must be at most {most} Hz</source>
         <translation>{name}: schnelle Aufzeichnung von {axes} Achsen mit {rate_hz} Hz: höchstens {most} Hz</translation>
     </message>
     <message>
-        <source>{name}: a capture of {count} samples: 1 to {most}</source>
+        <source>{name}: capture of {count} samples: must be 1 to {most}</source>
         <translation>{name}: schnelle Aufzeichnung von {count} Messwerten: 1 bis {most}</translation>
     </message>
     <message>
-        <source>{name}: cannot take a profile while it is {state}</source>
+        <source>{name}: cannot accept a profile while it is {state}</source>
         <translation>{name}: nimmt im Zustand {state} kein Profil an</translation>
     </message>
     <message>
-        <source>{name}: row {row} of the display: 0 or {last}</source>
+        <source>{name}: row {row} of the display: must be 0 or {last}</source>
         <translation>{name}: Zeile {row} der Anzeige: 0 oder {last}</translation>
     </message>
     <message>
@@ -944,7 +944,7 @@
         <translation>{name}: kann seine Parameter im Zustand {state} nicht schreiben</translation>
     </message>
     <message>
-        <source>{name}: it is still {state}; stop it or wait before playing</source>
+        <source>{name} is still {state}; stop it or wait before playing</source>
         <translation>{name}: noch im Zustand {state}; vor der Wiedergabe anhalten oder warten</translation>
     </message>
     <message>
@@ -956,15 +956,15 @@
         <translation>Roboter {name}: Achse {axis} darf von {low} rad bis {high} rad kippen; die Kette gilt für Kippwinkel unter {most} rad</translation>
     </message>
     <message>
-        <source>axis {axis}: position {value} is outside {low} to {high}, where it may go; choose a tip position or a tilt inside the workspace</source>
-        <translation>Achse {axis}: Position {value} liegt außerhalb von {low} bis {high}, wo sie sein darf; eine Spitzenposition oder einen Kippwinkel im Arbeitsraum wählen</translation>
+        <source>axis {axis}: position {value} is outside its bounds, {low} to {high}; choose a tip position or a tilt inside the workspace</source>
+        <translation>Achse {axis}: Position {value} liegt außerhalb ihrer Grenzen {low} bis {high}; eine Spitzenposition oder einen Kippwinkel im Arbeitsraum wählen</translation>
     </message>
     <message>
-        <source>axis {axis}: position {value} at row {row} is outside {low} to {high}, where it may go; choose a tip position or a tilt inside the workspace</source>
-        <translation>Achse {axis}: Position {value} in Zeile {row} liegt außerhalb von {low} bis {high}, wo sie sein darf; eine Spitzenposition oder einen Kippwinkel im Arbeitsraum wählen</translation>
+        <source>axis {axis}: position {value} at row {row} is outside its bounds, {low} to {high}; choose a tip position or a tilt inside the workspace</source>
+        <translation>Achse {axis}: Position {value} in Zeile {row} liegt außerhalb ihrer Grenzen {low} bis {high}; eine Spitzenposition oder einen Kippwinkel im Arbeitsraum wählen</translation>
     </message>
     <message>
-        <source>robot {name}: axis {missing} missing; the hybrid chain needs axes named {joints}, and this robot has {axes}</source>
+        <source>robot {name} has no axis {missing}; the hybrid chain needs axes named {joints}, and this robot has {axes}</source>
         <translation>Roboter {name}: Achse {missing} fehlt; die hybride Kette braucht die Achsen {joints}, dieser Roboter hat {axes}</translation>
     </message>
     <message>
@@ -976,11 +976,11 @@
         <translation>Roboter {name}: pin_length fehlt; die hybride Kette braucht die Länge vom Drehpunkt zur Spitze, [robot] pin_length in m</translation>
     </message>
     <message>
-        <source>{error}; its [keep_out] can bound no tip</source>
-        <translation>{error}; sein [keep_out] kann keine Spitze begrenzen</translation>
+        <source>{error}; [keep_out] needs a tip to limit</source>
+        <translation>{error}; [keep_out] braucht eine Spitze</translation>
     </message>
     <message>
-        <source>tip: a floor at {floor} mm: must be between {low} and {high}, where the tip can be; teach it where the tip touches</source>
+        <source>tip: floor {floor} mm: must be between {low} and {high}, within the reach of the tip; teach it where the tip touches</source>
         <translation>Spitze: Boden bei {floor} mm: muss zwischen {low} und {high} liegen, wo die Spitze sein kann; dort einlernen, wo die Spitze berührt</translation>
     </message>
     <message>
@@ -992,23 +992,23 @@
         <translation>bei {time} s</translation>
     </message>
     <message>
-        <source>tip: goes down at {speed} at {time} s, {height} high: within {near} of its floor {floor} at most {most}; make the approach slower</source>
+        <source>tip: descends at {speed} at {time} s, {height} high; within {near} of its floor {floor} the limit is {most}: make the approach slower</source>
         <translation>Spitze: sinkt bei {time} s mit {speed} in der Höhe {height}: weniger als {near} über ihrem Boden {floor} höchstens {most}; langsamer annähern</translation>
     </message>
     <message>
-        <source>tip: {lowest} high {where}: its floor is {floor}; move elsewhere first, or teach the floor</source>
+        <source>tip: {lowest} high {where}, but its floor is {floor}; move elsewhere first, or teach the floor</source>
         <translation>Spitze: {where} in der Höhe {lowest}: ihr Boden liegt bei {floor}; erst anderswohin fahren oder den Boden einlernen</translation>
     </message>
     <message>
-        <source>tip: {lowest} high {where}: its floor is {low}, where the objective is; stay above it</source>
+        <source>tip: {lowest} high {where}, but its floor is {low}, where the objective is; stay above it</source>
         <translation>Spitze: {where} in der Höhe {lowest}: ihr Boden liegt bei {low}, wo das Objektiv ist; darüber bleiben</translation>
     </message>
     <message>
-        <source>tip: {highest} high {where}: the objective is at {high}; stay below it</source>
+        <source>tip: {highest} high {where}, but the objective is at {high}; stay below it</source>
         <translation>Spitze: {where} in der Höhe {highest}: das Objektiv ist bei {high}; darunter bleiben</translation>
     </message>
     <message>
-        <source>tip: {away} from the middle {where}: at most {radius}; move one axis after the other, or less far</source>
+        <source>tip: {away} from the middle {where}, but at most {radius} is permitted; move one axis after the other, or less far</source>
         <translation>Spitze: {where} {away} von der Mitte entfernt: höchstens {radius}; eine Achse nach der anderen bewegen oder weniger weit</translation>
     </message>
     <message>
@@ -1016,7 +1016,7 @@
         <translation>Registrierung: ein Bild von {columns} × {rows} px gegen eine Referenz von {other_columns} × {other_rows} px; für beide dieselbe Kameraeinstellung verwenden</translation>
     </message>
     <message>
-        <source>registration: peak-to-sidelobe ratio {ratio}, must be at least {least_peak_to_sidelobe}; the images show too little common detail, or detail that repeats: focus, give more light, make the move smaller, or bring another object into view</source>
+        <source>registration: peak-to-sidelobe ratio {ratio}, must be at least {least_peak_to_sidelobe}; the images share too little detail, or repeating detail: focus, increase the light, make the move smaller, or bring another object into view</source>
         <translation>Registrierung: Verhältnis von Hauptmaximum zu Nebenmaximum {ratio}, muss mindestens {least_peak_to_sidelobe} sein; die Bilder zeigen zu wenig gemeinsame Einzelheiten oder solche, die sich wiederholen: scharf stellen, mehr Licht geben, die Bewegung verkleinern oder ein anderes Objekt ins Bild bringen</translation>
     </message>
     <message>
@@ -1028,7 +1028,7 @@
         <translation>Registrierung: das Bild bewegte sich um {right}, {down} px und überlappt das vorige kaum; kleiner bewegen</translation>
     </message>
     <message>
-        <source>registration: the images cannot be laid over one another; they differ by more than a shift (turned, other focus, or only a part of the scene moved)</source>
+        <source>registration: the images cannot be aligned; they differ by more than a shift (rotation, another focus, or motion of only a part of the scene)</source>
         <translation>Registrierung: die Bilder lassen sich nicht übereinanderlegen; sie unterscheiden sich um mehr als eine Verschiebung (gedreht, anders scharf gestellt, oder nur ein Teil der Szene hat sich bewegt)</translation>
     </message>
     <message>
@@ -1040,7 +1040,7 @@
         <translation>Kalibrierung: {n} Bewegungen, mindestens {least}; mehr erlauben</translation>
     </message>
     <message>
-        <source>calibration: a move or shift is not a finite number; begin again</source>
+        <source>calibration: a move or shift is not a finite number; start again</source>
         <translation>Kalibrierung: eine Bewegung oder Verschiebung ist keine endliche Zahl; neu beginnen</translation>
     </message>
     <message>
@@ -1048,11 +1048,11 @@
         <translation>Kalibrierung: die Bewegungen spannen die Ebene nicht auf: quer reichen sie {part} % des Wegs, mindestens {least} %; beide Achsen bewegen</translation>
     </message>
     <message>
-        <source>calibration: {bad} of {n} moves do not fit, must be at most {most} %; something else moved, or the tracking slipped: look at the picture and begin again</source>
+        <source>calibration: {bad} of {n} moves do not fit, must be at most {most} %; something else moved, or the tracking slipped: check the picture, and start again</source>
         <translation>Kalibrierung: {bad} von {n} Bewegungen passen nicht, höchstens {most} %; anderes bewegte sich oder die Verfolgung verrutschte: Bild prüfen, neu beginnen</translation>
     </message>
     <message>
-        <source>calibration: residuals of {rms} px rms (greatest at move {worst}), must be at most {most} px; backlash, drift or a loose tool: let the stage settle, home it, and begin again</source>
+        <source>calibration: residuals of {rms} px rms (greatest at move {worst}), must be at most {most} px; backlash, drift or a loose tool: let the stage settle, home it, and start again</source>
         <translation>Kalibrierung: Restfehler {rms} px effektiv (größter bei Bewegung {worst}), höchstens {most} px; Umkehrspiel, Drift oder loses Werkzeug: Tisch ruhen lassen, Referenzfahrt, neu beginnen</translation>
     </message>
     <message>
@@ -1060,80 +1060,80 @@
         <translation>Kalibrierung: beide Achsen bewegen das Bild fast gleich gerichtet ({angle}° auseinander, mindestens {least}°); eine bewegt sich nicht oder entlang der Blickrichtung</translation>
     </message>
     <message>
-        <source>calibration: the pixel size is known within {known} %, must be {asked} %; make larger moves, or more of them</source>
+        <source>calibration: the pixel size is uncertain by {known} %, must be at most {asked} %; make larger or more moves</source>
         <translation>Kalibrierung: die Pixelgröße ist auf {known} % bekannt, verlangt {asked} %; größere oder mehr Bewegungen machen</translation>
     </message>
     <message>
-        <source>focus: {count} looks, must be at least {least_looks} with finite sharpness; look at more places</source>
-        <translation>Autofokus: {count} Blicke, nötig sind mindestens {least_looks} mit endlicher Schärfe; an mehr Stellen schauen</translation>
+        <source>focus: {count} pictures, must be at least {least_looks} with finite sharpness; use more positions</source>
+        <translation>Autofokus: {count} Bilder, nötig sind mindestens {least_looks} mit endlicher Schärfe; mehr Positionen verwenden</translation>
     </message>
     <message>
-        <source>focus: every look is as sharp as the others; bring detail into view</source>
-        <translation>Fokus: jeder Blick ist gleich scharf; Zeichnung in Sicht bringen</translation>
+        <source>focus: all pictures are equally sharp; bring detail into view</source>
+        <translation>Autofokus: alle Bilder sind gleich scharf; Details ins Bild bringen</translation>
     </message>
     <message>
-        <source>focus: no peak of the sharpness stands out; bring detail into view, give more light, or search a larger range</source>
-        <translation>Fokus: kein Maximum der Schärfe hebt sich ab; Zeichnung in Sicht bringen, mehr Licht geben oder weiter suchen</translation>
+        <source>focus: the sharpness has no distinct peak; bring detail into view, increase the light, or search a larger range</source>
+        <translation>Autofokus: die Schärfe hat kein deutliches Maximum; Details ins Bild bringen, mehr Licht geben oder in einem größeren Bereich suchen</translation>
     </message>
     <message>
-        <source>focus: the peak, {width} µm wide, is narrower than the looks are apart; it is noise, or they must be closer</source>
-        <translation>Autofokus: das Maximum, {width} µm breit, ist schmaler als der Abstand der Blicke; das ist Rauschen, oder sie müssen dichter liegen</translation>
+        <source>focus: the peak, {width} µm wide, is narrower than the spacing of the pictures; it is noise, or the spacing must be smaller</source>
+        <translation>Autofokus: das Maximum, {width} µm breit, ist schmaler als der Abstand der Bilder; es ist Rauschen, oder der Abstand muss kleiner sein</translation>
     </message>
     <message>
-        <source>focus: it would be sharpest at {place} µm, outside the searched {low} to {high} µm; search there</source>
-        <translation>Fokus: am schärfsten wäre es bei {place} µm, außerhalb der abgesuchten {low} bis {high} µm; dort suchen</translation>
+        <source>focus: the sharpest position would be {place} µm, outside the searched range {low} to {high} µm; search there</source>
+        <translation>Autofokus: am schärfsten wäre es bei {place} µm, außerhalb des abgesuchten Bereichs {low} bis {high} µm; dort suchen</translation>
     </message>
     <message>
-        <source>focus: from {low} m to {high} m is no range; give low below high</source>
-        <translation>Autofokus: von {low} m bis {high} m ist kein Bereich; das untere Ende unter dem oberen nennen</translation>
+        <source>focus: {low} m to {high} m is not a range; low must be below high</source>
+        <translation>Autofokus: {low} m bis {high} m ist kein Bereich; das untere Ende muss unter dem oberen liegen</translation>
     </message>
     <message>
-        <source>focus: the search is over; begin another</source>
+        <source>focus: the search has ended; start a new one</source>
         <translation>Autofokus: die Suche ist zu Ende; eine neue beginnen</translation>
     </message>
     <message>
-        <source>tip: nothing looks like it (greatest likeness {likeness}); bring the tip into view and near focus, or correct its direction in the image</source>
-        <translation>Spitze: nichts sieht ihr ähnlich (größte Ähnlichkeit {likeness}); in Sicht und nahe an den Fokus bringen oder ihre Richtung im Bild berichtigen</translation>
+        <source>tip: nothing in the picture matches it (best match {likeness}); bring the tip into view and near focus, or correct its direction in the image</source>
+        <translation>Spitze: nichts im Bild passt zu ihr (beste Übereinstimmung {likeness}); die Spitze ins Bild und nahe an den Fokus bringen oder ihre Richtung im Bild berichtigen</translation>
     </message>
     <message>
-        <source>tip: nothing in the picture looks like a pipette, in whatever direction; bring the tip into view and near focus</source>
-        <translation>Spitze: nichts im Bild gleicht einer Pipette, in keiner Richtung; die Spitze in Sicht und nahe an den Fokus bringen</translation>
+        <source>tip: nothing in the picture looks like a pipette in any direction; bring the tip into view and near focus</source>
+        <translation>Spitze: nichts im Bild sieht in irgendeiner Richtung wie eine Pipette aus; die Spitze ins Bild und nahe an den Fokus bringen</translation>
     </message>
     <message>
-        <source>drift: {most} of {count} parts of the picture agree on a shift, must be at least {least} and half of the {seen} that show enough; bring a background with detail into view and focus</source>
-        <translation>Drift: {most} von {count} Teilen des Bilds zeigen dieselbe Verschiebung, mindestens {least} und die Hälfte der {seen} mit genug Zeichnung; einen Hintergrund mit Zeichnung in Sicht und Fokus bringen</translation>
+        <source>drift: {most} of {count} parts of the picture agree on a shift, must be at least {least} and half of the {seen} with enough detail; bring a background with detail into view and focus</source>
+        <translation>Drift: {most} von {count} Teilen des Bilds zeigen dieselbe Verschiebung, mindestens {least} und die Hälfte der {seen} mit genug Details sind nötig; einen Hintergrund mit Details ins Bild und in den Fokus bringen</translation>
     </message>
     <message>
-        <source>cell: radii {low} to {high} px; must be more than 2 and growing</source>
+        <source>cell: radii {low} to {high} px; must be more than 2 and increasing</source>
         <translation>Zelle: Radien {low} bis {high} px; müssen größer als 2 und ansteigend sein</translation>
     </message>
     <message>
-        <source>cell: the line about {column}, {row} px takes {darker} % of the light, must be at least {least} %; focus on the membrane, or point into the cell</source>
-        <translation>Zelle: die Linie um {column}, {row} px nimmt {darker} % des Lichts, mindestens {least} %; auf die Membran fokussieren oder in die Zelle zeigen</translation>
+        <source>cell: the line around {column}, {row} px absorbs {darker} % of the light, must be at least {least} %; focus on the membrane, or point into the cell</source>
+        <translation>Zelle: die Linie um {column}, {row} px absorbiert {darker} % des Lichts, mindestens {least} % sind nötig; auf die Membran fokussieren oder in die Zelle zeigen</translation>
     </message>
     <message>
-        <source>cell: its outline is {rms} px rms off an ellipse, must be at most {most} % of its radius; point into the middle of one cell</source>
+        <source>cell: the outline deviates from an ellipse by {rms} px rms, must be at most {most} % of its radius; point into the middle of one cell</source>
         <translation>Zelle: ihr Umriss weicht {rms} px effektiv von einer Ellipse ab, höchstens {most} % des Radius; in die Mitte einer Zelle zeigen</translation>
     </message>
     <message>
-        <source>nothing like it where it should be</source>
-        <translation>nichts Ähnliches, wo sie sein sollte</translation>
+        <source>nothing matches it at its expected place</source>
+        <translation>an der erwarteten Stelle passt nichts zu ihr</translation>
     </message>
     <message>
-        <source>only {part} % of its surroundings look as they should</source>
-        <translation>nur {part} % ihrer Umgebung sehen aus wie erwartet</translation>
+        <source>only {part} % of its surroundings match</source>
+        <translation>nur {part} % ihrer Umgebung stimmen überein</translation>
     </message>
     <message>
-        <source>its place is uncertain by {doubt} px</source>
-        <translation>ihr Ort ist auf {doubt} px unsicher</translation>
+        <source>its position is uncertain by {doubt} px</source>
+        <translation>ihre Position ist um {doubt} px unsicher</translation>
     </message>
     <message>
-        <source>what is there takes {part} % of the light</source>
-        <translation>was dort ist, nimmt {part} % des Lichts</translation>
+        <source>the object there absorbs {part} % of the light</source>
+        <translation>das Objekt dort absorbiert {part} % des Lichts</translation>
     </message>
     <message>
-        <source>its contrast is {part} % of what it was</source>
-        <translation>ihr Kontrast ist {part} % des früheren</translation>
+        <source>its contrast has changed to {part} %</source>
+        <translation>ihr Kontrast hat sich auf {part} % geändert</translation>
     </message>
     <message>
         <source>stop and lock</source>
@@ -1148,7 +1148,7 @@
         <translation>Angehalten durch {who} um {time}</translation>
     </message>
     <message>
-        <source>no penetration&apos;s run: {error}</source>
+        <source>not the run of a penetration: {error}</source>
         <translation>kein Lauf einer Penetration: {error}</translation>
     </message>
     <message>
@@ -1156,15 +1156,15 @@
         <translation>{path}: kann nicht geschrieben werden: {strerror}</translation>
     </message>
     <message>
-        <source>{path}: the run is not whole there; the disk may be full</source>
-        <translation>{path}: der Lauf steht dort nicht ganz; die Platte ist vielleicht voll</translation>
+        <source>{path}: the run was not written completely; the disk may be full</source>
+        <translation>{path}: der Lauf wurde nicht vollständig geschrieben; der Datenträger ist vielleicht voll</translation>
     </message>
     <message>
         <source>axis = {axis}: must be the name of an axis</source>
         <translation>axis = {axis}: muss der Name einer Achse sein</translation>
     </message>
     <message>
-        <source>table: needed for a thrust of shape &apos;table&apos;, and for no other (shape is {shape}, the table has {count} points)</source>
+        <source>table: permitted only for a thrust of shape &apos;table&apos;, which needs it (shape is {shape}, the table has {count} points)</source>
         <translation>Tabelle: nötig für einen Stoß der Form &apos;table&apos; und für keinen anderen (die Form ist {shape}, die Tabelle hat {count} Punkte)</translation>
     </message>
     <message>
@@ -1200,15 +1200,15 @@
         <translation>Tabelle: muss von [0, 0] bis [1, 1] reichen</translation>
     </message>
     <message>
-        <source>contact: {count} samples at rest, at least {least_samples} are needed to know the noise; wait</source>
-        <translation>Kontakt: {count} Abtastwerte in Ruhe, mindestens {least_samples} sind nötig, um das Rauschen zu kennen; warten</translation>
+        <source>contact: {count} samples at rest, but at least {least_samples} are needed to measure the noise; wait</source>
+        <translation>Kontakt: {count} Abtastwerte in Ruhe, mindestens {least_samples} sind nötig, um das Rauschen zu messen; warten</translation>
     </message>
     <message>
         <source>bounds: range {low} to {high}, speed {max_speed}, acceleration {max_acceleration}: they must be finite, the range not empty, speed and acceleration above 0</source>
         <translation>Grenzen: Bereich {low} bis {high}, Geschwindigkeit {max_speed}, Beschleunigung {max_acceleration}: sie müssen endlich sein, der Bereich nicht leer, Geschwindigkeit und Beschleunigung über 0</translation>
     </message>
     <message>
-        <source>impedance: forces of up to {force} could accelerate the mass of {mass} by {reached} per s², the axis allows {max_acceleration}; lower the force, or use a mass of about {wanted} with the same damping ratio or time constant</source>
+        <source>impedance: forces of up to {force} could accelerate the mass of {mass} by {reached} per s², but the axis permits {max_acceleration}; lower the force, or use a mass of about {wanted} with the same damping ratio or time constant</source>
         <translation>Impedanz: Kräfte bis {force} könnten die Masse {mass} mit {reached} je s² beschleunigen, die Achse erlaubt {max_acceleration}; die Kraft verringern oder eine Masse von etwa {wanted} mit demselben Dämpfungsgrad oder derselben Zeitkonstante verwenden</translation>
     </message>
     <message>
@@ -1216,7 +1216,7 @@
         <translation>{path}: device = {device}: dies ist die Datei von {key}; das Gerät neu kalibrieren</translation>
     </message>
     <message>
-        <source>a calibration of {device} cannot be kept for {key}</source>
+        <source>the calibration of {device} cannot be stored for {key}</source>
         <translation>eine Kalibrierung von {device} kann nicht für {key} gespeichert werden</translation>
     </message>
     <message>
@@ -1233,21 +1233,21 @@
         <translation>Kontakt: Verstärkung {gain}, Rauschen {noise}, größte Kraft {most}, Steigung {slope}, Schritt {longest_step_s} s, Verzögerung {delay_s} s: alle müssen endlich und nicht kleiner als 0 sein, Steigung und Schritt über 0</translation>
     </message>
     <message>
-        <source>contact: gain {gain} might let the stick&apos;s mechanism give more energy than it was given: at most {most} with a damping of {damping} N s/m and readings {delay_s} ms old; lower the gain or raise the damping</source>
+        <source>contact: with gain {gain} the stick&apos;s mechanism might release more energy than it received: at most {most} is permitted with a damping of {damping} N s/m and readings {delay_s} ms old; lower the gain or raise the damping</source>
         <translation>Kontakt: mit Verstärkung {gain} könnte die Mechanik des Joysticks mehr Energie abgeben, als sie bekam: höchstens {most} bei einer Dämpfung von {damping} N s/m und {delay_s} ms alten Messwerten; die Verstärkung verringern oder die Dämpfung erhöhen</translation>
     </message>
     <message>
-        <source>{device} has neither axes nor buttons that could be mapped</source>
+        <source>{device} has neither axes nor buttons to map</source>
         <extracomment>Of a stick: the first button is under the finger that holds it. Of a device with few: the paper&apos;s start/stop button, and its mode button.</extracomment>
         <translation>{device} hat weder Achsen noch Tasten, die sich zuordnen ließen</translation>
     </message>
     <message>
-        <source>the program lets go of it</source>
-        <translation>das Programm lässt es los</translation>
+        <source>the program releases it</source>
+        <translation>das Programm gibt es frei</translation>
     </message>
     <message>
-        <source>re-centring: {value} is none of thx, thy, zn, which have a middle to come back to</source>
-        <translation>Zurückstellen: {value} gehört nicht zu thx, thy, zn, die eine Mitte haben</translation>
+        <source>re-centring: {value}: must be one of thx, thy, zn; only these have a middle to return to</source>
+        <translation>Zurückstellen: {value}: muss thx, thy oder zn sein; nur diese haben eine Mitte</translation>
     </message>
     <message>
         <source>no joint</source>
@@ -1262,7 +1262,7 @@
         <translation>{source}: {problem}</translation>
     </message>
     <message>
-        <source>{parent}: the folder cannot be made ({strerror}); choose another</source>
+        <source>{parent}: the folder cannot be created ({strerror}); choose another</source>
         <translation>{parent}: der Ordner lässt sich nicht anlegen ({strerror}); einen anderen wählen</translation>
     </message>
     <message>
@@ -1286,36 +1286,36 @@
         <translation>Modus: die Position der Achse {names} ist nicht bekannt; erst verbinden und referenzieren</translation>
     </message>
     <message>
-        <source>not below 0</source>
-        <translation>nicht kleiner als 0</translation>
+        <source>0 or more</source>
+        <translation>mindestens 0</translation>
     </message>
     <message>
         <source>above 0</source>
         <translation>größer als 0</translation>
     </message>
     <message>
-        <source>impedance: {name} {value}: it must be finite and {least}</source>
+        <source>impedance: {name} {value} must be finite and {least}</source>
         <translation>Impedanz: {name} {value}: muss endlich und {least} sein</translation>
     </message>
     <message>
-        <source>impedance: stiffness {stiffness} lets the force {force} reach {travel} m (or rad), at most {most_travel}; use 0 for none</source>
+        <source>impedance: with stiffness {stiffness} the force {force} reaches {travel} m (or rad), more than {most_travel}; use 0 for no spring</source>
         <translation>Impedanz: mit Steifigkeit {stiffness} reicht die Kraft {force} bis {travel} m (oder rad), höchstens {most_travel} sind erlaubt; 0 bedeutet keine</translation>
     </message>
     <message>
-        <source>impedance: damping ratio {damping_ratio} is below {least_damping_ratio}, it would ring; use a damping of {least_damping} or more</source>
+        <source>impedance: damping ratio {damping_ratio} is below {least_damping_ratio}, so the axis would ring; use a damping of {least_damping} or more</source>
         <translation>Impedanz: Dämpfungsgrad {damping_ratio} liegt unter {least_damping_ratio}, sie würde schwingen; eine Dämpfung von mindestens {least_damping} verwenden</translation>
     </message>
     <message>
-        <source>scaling: step of {dt} s with a reaction of {reaction}: both must be finite, the step not below 0</source>
+        <source>scaling: step of {dt} s with a reaction of {reaction}: both must be finite, the step 0 or more</source>
         <extracomment>Factors on a law&apos;s own scale that an operator steps through.</extracomment>
         <translation>Maßstab: Schritt von {dt} s bei einer Reaktion von {reaction}: beide müssen endlich sein, der Schritt nicht kleiner als 0</translation>
     </message>
     <message>
-        <source>scaling: factor {factor}: it must be finite and above 0</source>
+        <source>scaling: factor {factor} must be finite and above 0</source>
         <translation>Maßstab: Faktor {factor}: muss endlich und größer als 0 sein</translation>
     </message>
     <message>
-        <source>{what}: scale {scale}: it must be finite and not 0</source>
+        <source>{what}: scale {scale} must be finite and not 0</source>
         <translation>{what}: Maßstab {scale}: muss endlich und nicht 0 sein</translation>
     </message>
     <message>
@@ -1323,59 +1323,59 @@
         <translation>Maßstab: die Auslenkung {value} ist keine endliche Zahl</translation>
     </message>
     <message>
-        <source>{path}: a recording that was cut off ends with {unfinished}</source>
+        <source>{path}: the name of an interrupted recording ends with {unfinished}</source>
         <translation>{path}: eine abgebrochene Aufzeichnung endet auf {unfinished}</translation>
     </message>
     <message>
-        <source>{error}; what was recorded is in {source}</source>
+        <source>{error}; the recorded data are in {source}</source>
         <translation>{error}; das Aufgezeichnete steht in {source}</translation>
     </message>
     <message>
-        <source>{source}: it was cut off before anything was recorded; delete it</source>
+        <source>{source}: interrupted before anything was recorded; delete it</source>
         <translation>{source}: abgebrochen, bevor etwas aufgezeichnet war; löschen</translation>
     </message>
     <message>
-        <source>{source}: of version {get}; this program reads {version}: recover it with the program that recorded it</source>
-        <translation>{source}: von Version {get}; dieses Programm liest {version}: mit dem Programm wiederherstellen, das sie aufgezeichnet hat</translation>
+        <source>{source}: version {get}, but this program reads version {version}; recover it with the program that recorded it</source>
+        <translation>{source}: Version {get}, dieses Programm liest aber {version}; mit dem Programm wiederherstellen, das sie aufgezeichnet hat</translation>
     </message>
     <message>
-        <source>{target}: it is there already and is another recording; rename it, then recover {source}</source>
+        <source>{target} already exists and is another recording; rename it, then recover {source}</source>
         <translation>{target}: gibt es schon und ist eine andere Aufzeichnung; umbenennen, dann {source} wiederherstellen</translation>
     </message>
     <message>
-        <source>{path}: it was not ended; recover it first</source>
-        <translation>{path}: sie wurde nicht beendet; erst wiederherstellen</translation>
+        <source>{path}: the recording is unfinished; recover it first</source>
+        <translation>{path}: die Aufzeichnung ist unvollendet; erst wiederherstellen</translation>
     </message>
     <message>
         <source>name a recording</source>
         <translation>eine Aufzeichnung nennen</translation>
     </message>
     <message>
-        <source>{path}: no recording of this program, or a damaged one ({error})</source>
+        <source>{path}: not a recording of this program, or damaged ({error})</source>
         <translation>{path}: keine Aufzeichnung dieses Programms oder eine beschädigte ({error})</translation>
     </message>
     <message>
-        <source>{path}: no recording of this program</source>
+        <source>{path}: not a recording of this program</source>
         <translation>{path}: keine Aufzeichnung dieses Programms</translation>
     </message>
     <message>
-        <source>{path}: a recording of version {decode}; this program reads {version}</source>
+        <source>{path}: recording of version {decode}, but this program reads version {version}</source>
         <translation>{path}: eine Aufzeichnung der Version {decode}; dieses Programm liest {version}</translation>
     </message>
     <message>
-        <source>{path}: damaged, it no longer says its {names}</source>
-        <translation>{path}: beschädigt, sie nennt nicht mehr: {names}</translation>
+        <source>{path}: damaged, {names} missing</source>
+        <translation>{path}: beschädigt, es fehlen: {names}</translation>
     </message>
     <message>
         <source>{path}: damaged, began_s is {about}</source>
         <translation>{path}: beschädigt, began_s ist {about}</translation>
     </message>
     <message>
-        <source>{path}: damaged, table {name} is none of a recording</source>
+        <source>{path}: damaged, {name} is not a table of a recording</source>
         <translation>{path}: beschädigt, Tabelle {name} gehört zu keiner Aufzeichnung</translation>
     </message>
     <message>
-        <source>{path}: it is there already; record to another name</source>
+        <source>{path} already exists; record to another name</source>
         <translation>{path}: gibt es schon; unter anderem Namen aufzeichnen</translation>
     </message>
     <message>
@@ -1384,7 +1384,7 @@
         <translation>{path}: kann nicht geschrieben werden ({reason}); Platz schaffen oder einen anderen Ordner wählen</translation>
     </message>
     <message>
-        <source>{name}: its end could not be written ({failure})</source>
+        <source>{name}: the end of the recording could not be written ({failure})</source>
         <translation>{name}: das Ende konnte nicht geschrieben werden ({failure})</translation>
     </message>
     <message>
@@ -1400,48 +1400,48 @@
         <translation>{name}: der Datenträger brauchte {took_s} s für ein Segment: bei einem Absturz oder Stromausfall ginge jetzt mehr als eine Sekunde verloren; auf einen schnelleren aufzeichnen</translation>
     </message>
     <message>
-        <source>{path}: no axis was sent anywhere from there to there</source>
+        <source>{path}: no axis was commanded to move in this section</source>
         <extracomment>Metadata of a recording that stand in what is exported of it as well.</extracomment>
         <translation>{path}: in diesem Abschnitt wurde keine Achse bewegt</translation>
     </message>
     <message>
-        <source>{path}: no samples from there to there; it lasts {whole_s} s</source>
+        <source>{path}: no samples in this section; the recording lasts {whole_s} s</source>
         <translation>{path}: keine Abtastwerte in diesem Abschnitt; sie dauert {whole_s} s</translation>
     </message>
     <message>
-        <source>{path}: axis {axes} moves at the {end}; every axis must stand there for {rest_s} s: choose {advice}</source>
+        <source>{path}: axis {axes} moves at the {end}; every axis must rest there for {rest_s} s: choose {advice}</source>
         <translation>{path}: Achse {axes} bewegt sich am Rand ({end}); dort muss jede Achse {rest_s} s stehen: {advice} wählen</translation>
     </message>
     <message>
-        <source>{path}: it is there already, being recorded or left by a crash; record to another name, or recover it</source>
+        <source>{path} already exists, being recorded or left by a crash; record to another name, or recover it</source>
         <translation>{path}: gibt es schon, wird gerade aufgezeichnet oder blieb von einem Absturz; unter anderem Namen aufzeichnen oder wiederherstellen</translation>
     </message>
     <message>
-        <source>{path}: cannot be made ({reason}); choose another folder</source>
+        <source>{path}: cannot be created ({reason}); choose another folder</source>
         <translation>{path}: kann nicht angelegt werden ({reason}); einen anderen Ordner wählen</translation>
     </message>
     <message>
-        <source>{path}: another program has it; record to another name</source>
-        <translation>{path}: ein anderes Programm hat sie; unter anderem Namen aufzeichnen</translation>
+        <source>{path}: in use by another program; record to another name</source>
+        <translation>{path}: von einem anderen Programm benutzt; unter anderem Namen aufzeichnen</translation>
     </message>
     <message>
         <source>{path}: cannot be read ({reason})</source>
         <translation>{path}: kann nicht gelesen werden ({reason})</translation>
     </message>
     <message>
-        <source>{path}: it is still being recorded; end that first</source>
+        <source>{path}: still being recorded; end the recording first</source>
         <translation>{path}: wird noch aufgezeichnet; das erst beenden</translation>
     </message>
     <message>
-        <source>{path}: it was cut off before anything was recorded; delete it</source>
+        <source>{path}: interrupted before anything was recorded; delete it</source>
         <translation>{path}: abgebrochen, bevor etwas aufgezeichnet war; löschen</translation>
     </message>
     <message>
-        <source>{path}: of version {version}; this program reads {known}: recover it with the program that recorded it</source>
-        <translation>{path}: von Version {version}; dieses Programm liest {known}: mit dem Programm wiederherstellen, das sie aufgezeichnet hat</translation>
+        <source>{path}: version {version}, but this program reads version {known}; recover it with the program that recorded it</source>
+        <translation>{path}: Version {version}, dieses Programm liest aber {known}; mit dem Programm wiederherstellen, das sie aufgezeichnet hat</translation>
     </message>
     <message>
-        <source>{path}: no recording of this program that was cut off</source>
+        <source>{path}: not an interrupted recording of this program</source>
         <translation>{path}: keine abgebrochene Aufzeichnung dieses Programms</translation>
     </message>
     <message>
@@ -1450,7 +1450,7 @@
         <translation>die Roboterdatei hat sich geändert</translation>
     </message>
     <message>
-        <source>it was made for driver {driver}, this is {other_driver}</source>
+        <source>it was made for driver {driver}, but this is {other_driver}</source>
         <translation>es wurde für Treiber {driver} gemacht, dies ist {other_driver}</translation>
     </message>
     <message>
@@ -1458,28 +1458,28 @@
         <translation>die Parameter der Karten haben sich geändert</translation>
     </message>
     <message>
-        <source>the diagnosis is of the robot file {name} as it was then; the one in use, {robot_name}, is another: choose the model in use as the model, and diagnose again</source>
+        <source>the diagnosis belongs to an earlier state of the robot file {name}; the one in use, {robot_name}, differs: choose the model in use, and diagnose again</source>
         <translation>die Diagnose gilt für die damalige Roboterdatei {name}; die jetzige, {robot_name}, ist eine andere: das Modell in Gebrauch als Modell wählen und neu diagnostizieren</translation>
     </message>
     <message>
-        <source>the diagnosis found nothing that commands foretell: the nominal model is as good</source>
-        <translation>die Diagnose fand nichts, was Befehle vorhersagen; das nominale Modell ist ebenso gut</translation>
+        <source>the diagnosis found nothing that commands can predict: the nominal model is as good</source>
+        <translation>die Diagnose fand nichts, was sich aus Befehlen vorhersagen lässt; das nominale Modell ist ebenso gut</translation>
     </message>
     <message>
         <source>playback: the device went from row {from_row} to row {to_row} of a trajectory whose rows are 0 to {last}</source>
         <translation>Abspielen: das Gerät sprang von Zeile {from_row} zu Zeile {to_row} einer Trajektorie mit den Zeilen 0 bis {last}</translation>
     </message>
     <message>
-        <source>robot {name}: [microscope] pixel_size and magnification are missing; the tip&apos;s shape cannot be known without them</source>
+        <source>robot {name}: [microscope] pixel_size and magnification are missing; they determine the tip&apos;s shape in the picture</source>
         <translation>Roboter {name}: [microscope] pixel_size und magnification fehlen; ohne sie ist die Form der Spitze nicht bekannt</translation>
     </message>
     <message>
-        <source>objective: the name is empty; give one, such as &quot;20x&quot;</source>
+        <source>objective: the name is empty; enter one, such as &quot;20x&quot;</source>
         <extracomment>Why what is kept cannot be used.</extracomment>
         <translation>Objektiv: der Name ist leer; einen angeben, etwa &quot;20x&quot;</translation>
     </message>
     <message>
-        <source>the tip would go {distance}, more than {confirm_m}; confirm the move first</source>
+        <source>the tip would move {distance}, more than {confirm_m}; confirm the move first</source>
         <translation>die Spitze würde {distance} weit fahren, mehr als {confirm_m}; die Bewegung erst bestätigen</translation>
     </message>
     <message>
@@ -1507,20 +1507,20 @@
         <translation>das Ziel {index} gibt es nicht; vorhanden: {count}</translation>
     </message>
     <message>
-        <source>axis {axis}: the microscope tells the places of {names} only; depth has no zero</source>
+        <source>axis {axis}: the microscope measures only {names}; depth has no zero</source>
         <extracomment>Axes whose motion is across the view. Depth comes from blur, without its zero.</extracomment>
         <translation>Achse {axis}: das Mikroskop zeigt nur die Orte von {names}; die Tiefe hat keinen Nullpunkt</translation>
     </message>
     <message>
-        <source>{path}: no tip is in it; calibrate, and track the tip while it is recorded</source>
+        <source>{path}: the recording contains no tip; calibrate, and track the tip while recording</source>
         <translation>{path}: darin ist keine Spitze; kalibrieren und die Spitze beim Aufzeichnen verfolgen</translation>
     </message>
     <message>
-        <source>{path}: {count} pictures, and none of them tells where the tip is; calibrate the tables before recording</source>
+        <source>{path}: none of the {count} pictures shows where the tip is; calibrate the tables before recording</source>
         <translation>{path}: {count} Bilder, und keines zeigt, wo die Spitze ist; vor dem Aufzeichnen die Tische kalibrieren</translation>
     </message>
     <message>
-        <source>{name}: its place is not known; connect the machine first</source>
+        <source>{name}: its position is unknown; connect the machine first</source>
         <extracomment>The present ones, or the latest.</extracomment>
         <translation>{name}: der Ort ist nicht bekannt; erst die Maschine verbinden</translation>
     </message>
@@ -1529,11 +1529,11 @@
         <translation>Z-Stapel: {name} bei {place}: muss {low} bis {high} sein</translation>
     </message>
     <message>
-        <source>this microscope has no motor at its focus; use an axis, or turn</source>
+        <source>this microscope has no focus motor; use an axis, or focus by hand</source>
         <translation>dieses Mikroskop hat keinen Fokusmotor; eine Achse verwenden oder von Hand drehen</translation>
     </message>
     <message>
-        <source>{name} does not focus here; there is: {known}</source>
+        <source>{name} cannot focus here; available: {known}</source>
         <translation>{name} fokussiert hier nicht; möglich: {known}</translation>
     </message>
     <message>
@@ -1545,19 +1545,19 @@
         <translation>Achse {axis} bewegt die Spitze nicht; möglich: {joints}</translation>
     </message>
     <message>
-        <source>axis {axis}: the tip was seen farther from the pivot than the pin is long; the calibration is of another machine or place: calibrate anew</source>
+        <source>axis {axis}: the tip appears farther from the pivot than the pin is long; the calibration belongs to another machine or place: calibrate again</source>
         <translation>Achse {axis}: die Spitze war weiter vom Drehpunkt entfernt, als der Stift lang ist; die Kalibrierung gehört zu einer anderen Maschine oder Stelle: neu kalibrieren</translation>
     </message>
     <message>
-        <source>the record has a reference of axis {axis}; it needs one of {names} without its ref</source>
+        <source>the record already has a reference of axis {axis}; choose one of {names} without ref</source>
         <translation>die Aufzeichnung hat schon eine Referenz von Achse {axis}; sie braucht eine von {names} ohne deren ref</translation>
     </message>
     <message>
-        <source>the record has no axis {axis}; it needs one of {names} without its ref</source>
+        <source>the record has no axis {axis}; choose one of {names} without ref</source>
         <translation>die Aufzeichnung hat keine Achse {axis}; sie braucht eine von {names} ohne deren ref</translation>
     </message>
     <message>
-        <source>{count} frames show the tip and none of the record&apos;s times lies between them; record frames and samples together, on one clock</source>
+        <source>{count} frames show the tip, but no time of the record lies between them; record frames and samples together, on one clock</source>
         <translation>{count} Bilder zeigen die Spitze, und keine Zeit der Aufzeichnung liegt dazwischen; Bilder und Messwerte zusammen mit einer Uhr aufzeichnen</translation>
     </message>
     <message>
@@ -1574,23 +1574,23 @@
         <translation>keine Spitze kann durch einen Klick bewegt werden: {error}</translation>
     </message>
     <message>
-        <source>the tip is not tracked; switch tracking on, so that the move can be looked at</source>
+        <source>the tip is not tracked; turn on tracking, so that the move can be checked</source>
         <translation>die Spitze wird nicht verfolgt; die Verfolgung einschalten, damit die Bewegung zu sehen ist</translation>
     </message>
     <message>
-        <source>{path}: the disk has not taken the last pictures within {timeout_s} s; {pictures} pictures are kept</source>
-        <translation>{path}: der Datenträger hat die letzten Bilder in {timeout_s} s nicht aufgenommen; {pictures} Bilder bleiben</translation>
+        <source>{path}: the last pictures could not be written within {timeout_s} s; {pictures} pictures are kept</source>
+        <translation>{path}: die letzten Bilder konnten nicht innerhalb von {timeout_s} s geschrieben werden; {pictures} Bilder sind gespeichert</translation>
     </message>
     <message>
-        <source>{path}: the video has ended ({why}); {kept} pictures are kept. Make room, or choose another folder, and begin another one</source>
+        <source>{path}: the video has ended ({why}); {kept} pictures are kept. Free disk space, or choose another folder, and start another one</source>
         <translation>{path}: das Video ist zu Ende ({why}); {kept} Bilder bleiben. Platz schaffen oder einen anderen Ordner wählen und ein neues beginnen</translation>
     </message>
     <message>
-        <source>{name}: the video leaves pictures out: the disk is too slow, or the camera&apos;s settings were changed. Use a smaller region, fewer pictures a second, or another disk; begin another video after a change of settings</source>
+        <source>{name}: pictures are missing in the video: the disk is too slow, or the camera&apos;s settings were changed. Use a smaller region, fewer pictures per second, or another disk; start another video after a change of settings</source>
         <translation>{name}: im Video fehlen Bilder: der Datenträger ist zu langsam, oder die Einstellungen der Kamera wurden geändert. Einen kleineren Ausschnitt, weniger Bilder je Sekunde oder einen anderen Datenträger verwenden; nach geänderten Einstellungen ein neues Video beginnen</translation>
     </message>
     <message>
-        <source>{path}: the card cannot be kept ({strerror}); make room</source>
+        <source>{path}: the card cannot be stored ({strerror}); free disk space</source>
         <translation>{path}: die Karte kann nicht gespeichert werden ({strerror}); Platz schaffen</translation>
     </message>
     <message>
@@ -1598,35 +1598,35 @@
         <translation>Zustandskarte: die Aufzeichnung hat kein {axis}.{tap}</translation>
     </message>
     <message>
-        <source>a model of second order fits {fit_percent} % alone</source>
-        <translation>ein Modell zweiter Ordnung allein passt zu {fit_percent} %</translation>
+        <source>a second-order model fits only {fit_percent} %</source>
+        <translation>ein Modell zweiter Ordnung passt nur zu {fit_percent} %</translation>
     </message>
     <message>
-        <source>{axis}.cmd rests nowhere after a move</source>
+        <source>{axis}.cmd never rests after a move</source>
         <translation>{axis}.cmd ruht nach keiner Bewegung</translation>
     </message>
     <message>
-        <source>{path}: it is of axis {axis} of robot {robot}, not of {name}; calibrate this one</source>
+        <source>{path}: the calibration belongs to axis {axis} of robot {robot}, not of {name}; calibrate this one</source>
         <translation>{path}: gehört zu Achse {axis} von Roboter {robot}, nicht von {name}; diese hier kalibrieren</translation>
     </message>
     <message>
-        <source>{path}: unit = {unit}: axis {axis} has another</source>
-        <translation>{path}: unit = {unit}: Achse {axis} hat eine andere</translation>
+        <source>{path}: unit = {unit}: axis {axis} has another unit</source>
+        <translation>{path}: unit = {unit}: Achse {axis} hat eine andere Einheit</translation>
     </message>
     <message>
         <source>--set {text}: write it as name=value, such as baud=9600</source>
         <translation>--set {text}: als name=value schreiben, etwa baud=9600</translation>
     </message>
     <message>
-        <source>driver {driver} has no setting {setting}; it knows {known}</source>
+        <source>driver {driver} has no setting {setting}; available: {known}</source>
         <translation>Treiber {driver} hat keine Einstellung {setting}; bekannt: {known}</translation>
     </message>
     <message>
-        <source>{path}: it holds no table of preferences</source>
+        <source>{path} contains no table of preferences</source>
         <translation>{path}: enthält keine Tabelle mit Einstellungen</translation>
     </message>
     <message>
-        <source>fault {strip}: there is no such command; say {known}</source>
+        <source>fault {strip}: unknown command; use {known}</source>
         <translation>fault {strip}: diesen Befehl gibt es nicht; möglich: {known}</translation>
     </message>
     <message>
@@ -1634,35 +1634,35 @@
         <translation>fault {strip}: {error}</translation>
     </message>
     <message>
-        <source>{names} is no stepper: it has no steps</source>
+        <source>{names} is not a stepper axis and has no steps</source>
         <translation>{names} ist kein Schrittmotor: er hat keine Schritte</translation>
     </message>
     <message>
-        <source>there must be three readings, 0 to {most_reading}, and after them buttons, 0 to {most_buttons}, or none</source>
-        <translation>es müssen drei Messwerte sein, 0 bis {most_reading}, danach Tasten, 0 bis {most_buttons}, oder keine</translation>
+        <source>enter three readings, 0 to {most_reading}, then optionally buttons, 0 to {most_buttons}</source>
+        <translation>drei Messwerte eingeben, 0 bis {most_reading}, danach wahlweise Tasten, 0 bis {most_buttons}</translation>
     </message>
     <message>
-        <source>there must be an axis: one of {names}</source>
-        <translation>eine Achse muss dabei sein: eine von {names}</translation>
+        <source>enter an axis: one of {names}</source>
+        <translation>eine Achse eingeben: eine von {names}</translation>
     </message>
     <message>
         <source>{word} must be a number from 1 to {most}</source>
         <translation>{word} muss eine Zahl von 1 bis {most} sein</translation>
     </message>
     <message>
-        <source>there must be a time as &apos;5 ms&apos; or &apos;2 s&apos;, of {most_s} s at most</source>
-        <translation>eine Zeit muss dabei sein, etwa &apos;5 ms&apos; oder &apos;2 s&apos;, höchstens {most_s} s</translation>
+        <source>enter a time such as &apos;5 ms&apos; or &apos;2 s&apos;, at most {most_s} s</source>
+        <translation>eine Zeit eingeben, etwa &apos;5 ms&apos; oder &apos;2 s&apos;, höchstens {most_s} s</translation>
     </message>
     <message>
-        <source>{names} has no place here</source>
-        <translation>{names} gehört nicht hierher</translation>
+        <source>{names} is not allowed here</source>
+        <translation>{names} ist hier nicht erlaubt</translation>
     </message>
     <message>
         <source>baud {baud}: must be one of {names}</source>
         <translation>baud {baud}: muss eine von {names} sein</translation>
     </message>
     <message>
-        <source>robot {name}: its {count} axes take one board, which has one port; leave out the second one</source>
+        <source>robot {name}: its {count} axes need only one board, which has one port; leave out the second one</source>
         <translation>Roboter {name}: seine {count} Achsen brauchen eine Karte, und die hat einen Anschluss; den zweiten weglassen</translation>
     </message>
     <message>
@@ -1678,7 +1678,7 @@
         <translation>Rahmen: Nutzdaten von {count} Byte: höchstens {max_payload}</translation>
     </message>
     <message>
-        <source>frame of type 0x{type}: no message of this protocol</source>
+        <source>frame of type 0x{type}: not a message of this protocol</source>
         <translation>Rahmen vom Typ 0x{type}: keine Nachricht dieses Protokolls</translation>
     </message>
     <message>
@@ -1694,8 +1694,8 @@
         <translation>{name}: Nutzdaten von {count} Byte: müssen {size}{more} sein</translation>
     </message>
     <message>
-        <source>to tell all parameters</source>
-        <translation>um alle Parameter zu nennen</translation>
+        <source>to report all parameters</source>
+        <translation>um alle Parameter zu melden</translation>
     </message>
     <message>
         <source>board&apos;s program</source>
@@ -1706,12 +1706,12 @@
         <translation>Programm auf diesem Rechner</translation>
     </message>
     <message>
-        <source>{where} speaks version {version} of the protocol, this program {own}; update the {older}</source>
-        <translation>{where} spricht Version {version} des Protokolls, dieses Programm {own}; das {older} aktualisieren</translation>
+        <source>{where} uses version {version} of the protocol, this program {own}; update the {older}</source>
+        <translation>{where} verwendet Version {version} des Protokolls, dieses Programm {own}; das {older} aktualisieren</translation>
     </message>
     <message>
-        <source>{where} has {axes} axes, robot {name} wants {count} there ({names}); choose the robot file of this machine</source>
-        <translation>{where} hat {axes} Achsen, Roboter {name} will dort {count} ({names}); die Roboterdatei dieser Maschine wählen</translation>
+        <source>{where} has {axes} axes, but robot {name} has {count} there ({names}); choose the robot file of this machine</source>
+        <translation>{where} hat {axes} Achsen, Roboter {name} dort aber {count} ({names}); die Roboterdatei dieser Maschine wählen</translation>
     </message>
     <message>
         <source>to describe its axes</source>
@@ -1722,24 +1722,24 @@
         <translation>{wrong}; die Roboterdatei dieser Maschine wählen</translation>
     </message>
     <message>
-        <source>{where}: {what} of axis {axis} is {told}, the robot file says {wanted}</source>
-        <translation>{where}: {what} von Achse {axis} ist {told}, die Roboterdatei sagt {wanted}</translation>
+        <source>{where}: {what} of axis {axis} is {told}, but {wanted} in the robot file</source>
+        <translation>{where}: {what} von Achse {axis} ist {told}, laut Roboterdatei {wanted}</translation>
     </message>
     <message>
-        <source>{where}: a step of axis {axis} is {step}, by the robot file {wanted}</source>
+        <source>{where}: the step of axis {axis} is {step}, but {wanted} in the robot file</source>
         <translation>{where}: ein Schritt von Achse {axis} ist {step}, laut Roboterdatei {wanted}</translation>
     </message>
     <message>
-        <source>to tell where it is</source>
-        <translation>um zu melden, wo sie steht</translation>
+        <source>to report its position</source>
+        <translation>um ihre Position zu melden</translation>
     </message>
     <message>
         <source>to come to rest</source>
         <translation>um zur Ruhe zu kommen</translation>
     </message>
     <message>
-        <source>to forget its fault</source>
-        <translation>um ihren Fehler zu vergessen</translation>
+        <source>to clear its fault</source>
+        <translation>um ihren Fehler zu quittieren</translation>
     </message>
     <message>
         <source>to send telemetry</source>
@@ -1754,12 +1754,12 @@
         <translation>{where} nennt {tick} Takte je Sekunde: keinen oder keine ganze Zahl davon in den {period_ms} ms zwischen zwei Abtastwerten</translation>
     </message>
     <message>
-        <source>{who}: it took longer than {limit_s} s {what}; check cable and supply</source>
+        <source>{who} took longer than {limit_s} s {what}; check cable and supply</source>
         <translation>{who}: brauchte länger als {limit_s} s, {what}; Kabel und Versorgung prüfen</translation>
     </message>
     <message>
-        <source>{where}: nobody answers at {baud} baud; is the board switched on, its cable at this port and not at the other board&apos;s, the baud rate another one ({others})?</source>
-        <translation>{where}: bei {baud} Baud antwortet niemand; ist die Karte eingeschaltet, ihr Kabel an diesem Anschluss und nicht an dem der anderen Karte, die Baudrate eine andere ({others})?</translation>
+        <source>{where}: no answer at {baud} baud; check the power of the board, its cable (at this port, not the other board&apos;s), and the baud rate (others: {others})</source>
+        <translation>{where}: keine Antwort bei {baud} Baud; die Versorgung der Karte, ihr Kabel (an diesem Anschluss, nicht an dem der anderen Karte) und die Baudrate prüfen (andere: {others})</translation>
     </message>
     <message>
         <source>low</source>
@@ -1770,19 +1770,19 @@
         <translation>oben</translation>
     </message>
     <message>
-        <source>stopped, and not by this program: a stop came over the line; is it sound?</source>
-        <translation>angehalten, und nicht von diesem Programm: ein Halt kam über die Leitung; ist sie in Ordnung?</translation>
+        <source>stopped by a stop on the line that this program did not send; check the line</source>
+        <translation>von einem Halt auf der Leitung angehalten, den dieses Programm nicht gesendet hat; die Leitung prüfen</translation>
     </message>
     <message>
         <source>the host was silent for too long; the board halted</source>
         <translation>der Rechner schwieg zu lange; die Karte hat angehalten</translation>
     </message>
     <message>
-        <source>a limit switch was met</source>
+        <source>a limit switch was reached</source>
         <translation>ein Endschalter wurde erreicht</translation>
     </message>
     <message>
-        <source>an axis met an end of its range</source>
+        <source>an axis reached an end of its range</source>
         <translation>eine Achse erreichte ein Ende ihres Bereichs</translation>
     </message>
     <message>
@@ -1790,7 +1790,7 @@
         <translation>ein Positionssensor ist ausgefallen</translation>
     </message>
     <message>
-        <source>the supply voltage broke down; home it again</source>
+        <source>the supply voltage dropped; home it again</source>
         <translation>die Versorgungsspannung brach ein; neu referenzieren</translation>
     </message>
     <message>
@@ -1810,7 +1810,7 @@
         <translation>Karte {address} an {url}</translation>
     </message>
     <message>
-        <source>limit switch met: {switches}</source>
+        <source>limit switch reached: {switches}</source>
         <translation>Endschalter erreicht: {switches}</translation>
     </message>
     <message>
@@ -1874,7 +1874,7 @@
         <translation>{name}: Einstellung {setting} = {value} liegt nicht zwischen {least} und {greatest}</translation>
     </message>
     <message>
-        <source>a stop cut the writing off</source>
+        <source>a stop interrupted the writing</source>
         <translation>ein Halt brach das Schreiben ab</translation>
     </message>
     <message>
@@ -1886,15 +1886,15 @@
         <translation>und {count} weitere</translation>
     </message>
     <message>
-        <source>{name}: cannot {action}: the boards&apos; parameters are not those of the robot file ({differences}); accept_parameters or write_parameters first</source>
-        <translation>{name}: {action} ist nicht möglich: die Parameter der Karten sind nicht die der Roboterdatei ({differences}); erst accept_parameters oder write_parameters</translation>
+        <source>{name}: cannot {action}: the boards&apos; parameters differ from the robot file ({differences}); accept_parameters or write_parameters first</source>
+        <translation>{name}: {action} ist nicht möglich: die Parameter der Karten weichen von der Roboterdatei ab ({differences}); erst accept_parameters oder write_parameters</translation>
     </message>
     <message>
-        <source>board {address} did not keep what was written</source>
-        <translation>Karte {address} behielt nicht, was geschrieben wurde</translation>
+        <source>board {address} did not store the written parameters</source>
+        <translation>Karte {address} hat die geschriebenen Parameter nicht gespeichert</translation>
     </message>
     <message>
-        <source>board {address} refused to be given {what} (reason {reason})</source>
+        <source>board {address} refused to set {what} (reason {reason})</source>
         <translation>Karte {address} nahm {what} nicht an (Grund {reason})</translation>
     </message>
     <message>
@@ -1902,8 +1902,8 @@
         <translation>kein serieller Anschluss eingestellt; port auf ein Gerät setzen, zum Beispiel /dev/ttyUSB0</translation>
     </message>
     <message>
-        <source>{url}: it takes no more bytes; is the line blocked?</source>
-        <translation>{url}: nimmt keine Bytes mehr an; ist die Leitung blockiert?</translation>
+        <source>{url}: the port accepts no more bytes; check whether the line is blocked</source>
+        <translation>{url}: der Anschluss nimmt keine Bytes mehr an; prüfen, ob die Leitung blockiert ist</translation>
     </message>
     <message>
         <source>{url}: no permission to open it; add the user to the group that owns the device (dialout on most systems) and log in again</source>
@@ -1914,7 +1914,7 @@
         <translation>{url}: ein anderes Programm verwendet ihn; jenes Programm schließen</translation>
     </message>
     <message>
-        <source>{url}: it cannot be opened: {said}</source>
+        <source>{url} cannot be opened: {said}</source>
         <translation>{url}: lässt sich nicht öffnen: {said}</translation>
     </message>
     <message>
@@ -1938,16 +1938,16 @@
         <translation>{name}: {where} kann keine Trajektorien abspielen</translation>
     </message>
     <message>
-        <source>it does not know that message</source>
+        <source>it does not know this message</source>
         <translation>sie kennt die Nachricht nicht</translation>
     </message>
     <message>
-        <source>the message has another length there</source>
-        <translation>die Nachricht hat dort eine andere Länge</translation>
+        <source>it expects another length of this message</source>
+        <translation>sie erwartet eine andere Länge dieser Nachricht</translation>
     </message>
     <message>
-        <source>a value is beyond what it accepts; compare its parameters</source>
-        <translation>ein Wert liegt außerhalb dessen, was sie annimmt; ihre Parameter vergleichen</translation>
+        <source>a value is outside the range that it accepts; compare its parameters</source>
+        <translation>ein Wert liegt außerhalb des zulässigen Bereichs; ihre Parameter vergleichen</translation>
     </message>
     <message>
         <source>it is not homed</source>
@@ -1962,7 +1962,7 @@
         <translation>ihre Warteschlange ist voll</translation>
     </message>
     <message>
-        <source>it is not able to</source>
+        <source>it cannot do this</source>
         <translation>sie kann das nicht</translation>
     </message>
     <message>
@@ -1982,7 +1982,7 @@
         <translation>{name}: {names} sind nicht alle auf einer Karte</translation>
     </message>
     <message>
-        <source>{name}: a capture at {rate_hz} Hz: {most_period_us} Hz at least</source>
+        <source>{name}: capture at {rate_hz} Hz: must be at least {most_period_us} Hz</source>
         <translation>{name}: eine Erfassung mit {rate_hz} Hz: mindestens {most_period_us} Hz</translation>
     </message>
     <message>
@@ -2034,16 +2034,16 @@
         <translation>{name}: keine Achse {axis}; vorhanden: {names}</translation>
     </message>
     <message>
-        <source>{name}: an inverse of axis {axis} is none of {other}</source>
-        <translation>{name}: eine Inverse von Achse {axis} ist keine von {other}</translation>
+        <source>{name}: the inverse is for axis {axis}, not for {other}</source>
+        <translation>{name}: die Inverse ist für Achse {axis}, nicht für {other}</translation>
     </message>
     <message>
         <source>{name}: cannot change a loop while it is {state}; stop it or wait</source>
         <translation>{name}: ein Regelkreis lässt sich nicht ändern, während der Zustand {state} ist; anhalten oder warten</translation>
     </message>
     <message>
-        <source>{name}: a loop of axis {axis} is none of {other}</source>
-        <translation>{name}: ein Regelkreis von Achse {axis} ist keiner von {other}</translation>
+        <source>{name}: the loop is for axis {axis}, not for {other}</source>
+        <translation>{name}: der Regelkreis ist für Achse {axis}, nicht für {other}</translation>
     </message>
     <message>
         <source>{name}: axis {axis}: the loop was found stable on robot {robot_name} with another such axis; check it on this one</source>
@@ -2066,11 +2066,11 @@
         <translation>Abtastwerte: ein Befehl oder Messwert ist keine endliche Zahl</translation>
     </message>
     <message>
-        <source>{name}: it is closed; open it first</source>
+        <source>{name} is closed; open it first</source>
         <translation>{name}: geschlossen; erst öffnen</translation>
     </message>
     <message>
-        <source>{name}: it runs freely; configure a software trigger first</source>
+        <source>{name} is free-running; configure a software trigger first</source>
         <translation>{name}: läuft frei; erst einen Software-Trigger einstellen</translation>
     </message>
     <message>
@@ -2082,16 +2082,16 @@
         <translation>Simuliertes Mikroskop</translation>
     </message>
     <message>
-        <source>{name}: only a simulated machine can be seen; connect the simulator</source>
-        <translation>{name}: nur eine simulierte Maschine lässt sich sehen; den Simulator verbinden</translation>
+        <source>{name} shows only a simulated machine; connect the simulator</source>
+        <translation>{name} zeigt nur eine simulierte Maschine; den Simulator verbinden</translation>
     </message>
     <message>
         <source>{name}: focus at {focus_m} µm: must be {low} to {high} µm</source>
         <translation>{name}: Fokus bei {focus_m} µm: muss {low} bis {high} µm sein</translation>
     </message>
     <message>
-        <source>{name}: robot {robot_name} is in use now, not the one that it was opened on; close it and open it again</source>
-        <translation>{name}: jetzt ist Roboter {robot_name} in Gebrauch, nicht der, mit dem sie geöffnet wurde; schließen und wieder öffnen</translation>
+        <source>{name} was opened with another robot than {robot_name}, which is now in use; close it and open it again</source>
+        <translation>{name} wurde mit einem anderen Roboter als {robot_name} geöffnet, der jetzt in Gebrauch ist; schließen und wieder öffnen</translation>
     </message>
     <message>
         <source>USB camera, video file or stream</source>
@@ -2102,16 +2102,16 @@
         <translation>Nummer eines Geräts, Pfad einer Videodatei oder Adresse wie rtsp://…</translation>
     </message>
     <message>
-        <source>{name}: nothing was named; type a {address_hint}</source>
-        <translation>{name}: nichts genannt; einzugeben ist: {address_hint}</translation>
+        <source>{name}: no address; enter a {address_hint}</source>
+        <translation>{name}: keine Adresse; bitte eingeben: {address_hint}</translation>
     </message>
     <message>
-        <source>{name}: there is no camera {address}, or another program uses it, or you may not read it (group &apos;video&apos; on Linux)</source>
+        <source>{name}: there is no camera {address}, or another program uses it, or you have no permission (group &apos;video&apos; on Linux)</source>
         <translation>{name}: die Kamera {address} gibt es nicht, ein anderes Programm verwendet sie, oder sie darf nicht gelesen werden (Gruppe &apos;video&apos; unter Linux)</translation>
     </message>
     <message>
-        <source>{name}: it gives no picture; unplug it and plug it in</source>
-        <translation>{name}: sie liefert kein Bild; abstecken und wieder anstecken</translation>
+        <source>{name} gives no picture; unplug it, and plug it in again</source>
+        <translation>{name} liefert kein Bild; abstecken und wieder anstecken</translation>
     </message>
     <message>
         <source>a manual exposure</source>
@@ -2126,19 +2126,19 @@
         <translation>eine Verstärkung von {gain}</translation>
     </message>
     <message>
-        <source>{name}: it does not take {what}; leave it as it is</source>
-        <translation>{name}: {what} nimmt sie nicht an; so lassen</translation>
+        <source>{name} does not accept {what}; leave it unchanged</source>
+        <translation>{name} nimmt {what} nicht an; unverändert lassen</translation>
     </message>
     <message>
-        <source>{name}: it gives no picture any more; was it unplugged? Open it again</source>
-        <translation>{name}: sie liefert kein Bild mehr; wurde sie abgesteckt? Wieder öffnen</translation>
+        <source>{name} no longer gives pictures; check whether it is plugged in, and open it again</source>
+        <translation>{name} liefert keine Bilder mehr; prüfen, ob sie angesteckt ist, und wieder öffnen</translation>
     </message>
     <message>
-        <source>{address}: there is no such file; choose another one</source>
+        <source>{address}: file not found; choose another one</source>
         <translation>{address}: diese Datei gibt es nicht; eine andere wählen</translation>
     </message>
     <message>
-        <source>{address}: no video came from there within {timeout_ms} s; check the address and the network</source>
+        <source>{address}: no video arrived within {timeout_ms} ms; check the address and the network</source>
         <translation>{address}: von dort kam in {timeout_ms} s kein Video; Adresse und Netz prüfen</translation>
     </message>
     <message>
@@ -2146,24 +2146,24 @@
         <translation>{address}: {reason}; eine andere Datei wählen</translation>
     </message>
     <message>
-        <source>{name}: it has ended; open it again, or let it repeat</source>
+        <source>{name} has ended; open it again, or let it repeat</source>
         <translation>{name}: zu Ende; wieder öffnen oder wiederholen lassen</translation>
     </message>
     <message>
-        <source>{name}: it has ended; open it again</source>
+        <source>{name} has ended; open it again</source>
         <translation>{name}: zu Ende; wieder öffnen</translation>
     </message>
     <message>
-        <source>{name}: pixel type {pixel_type}: it has {known}</source>
+        <source>{name} has no pixel type {pixel_type}; available: {known}</source>
         <translation>{name}: Pixeltyp {pixel_type}: möglich: {known}</translation>
     </message>
     <message>
-        <source>{name}: trigger {trigger}: it has {known}</source>
+        <source>{name} has no trigger {trigger}; available: {known}</source>
         <translation>{name}: Trigger {trigger}: möglich: {known}</translation>
     </message>
     <message>
-        <source>{name}: {what} = {value}{unit}: it cannot be set; leave it</source>
-        <translation>{name}: {what} = {value}{unit}: nicht einstellbar; so lassen</translation>
+        <source>{name}: {what} = {value}{unit}: cannot be set; leave it unchanged</source>
+        <translation>{name}: {what} = {value}{unit}: nicht einstellbar; unverändert lassen</translation>
     </message>
     <message>
         <source>{name}: {what} = {value}{unit}: must be {least} to {most}{unit}</source>
@@ -2174,7 +2174,7 @@
         <translation>{name}: Ausschnitt von {width} × {height} px ab Spalte {left}, Zeile {top}: muss innerhalb der {can_width} × {can_height} px des Sensors liegen</translation>
     </message>
     <message>
-        <source>{name}: {address}: choose one that is listed</source>
+        <source>{name}: {address}: choose a listed one</source>
         <extracomment>The version of this interface that the class was written for. How screens call this kind of camera. What can be typed to name a camera that no list shows; empty: nothing.</extracomment>
         <translation>{name}: {address}: eine aus der Liste wählen</translation>
     </message>
@@ -2187,11 +2187,11 @@
         <translation>Ordner mit TIFF- oder PNG-Dateien oder TIFF-Datei mit mehreren Seiten</translation>
     </message>
     <message>
-        <source>{name}: it has ended after {count} pictures; open it again, or let it repeat</source>
+        <source>{name} has ended after {count} pictures; open it again, or let it repeat</source>
         <translation>{name}: nach {count} Bildern zu Ende; wieder öffnen oder wiederholen lassen</translation>
     </message>
     <message>
-        <source>{file}: a picture of type {pixel_type_of}, expected {pixel_types} as the first; convert it</source>
+        <source>{file}: a picture of type {pixel_type_of}, but the first has {pixel_types}; convert it</source>
         <translation>{file}: ein Bild vom Typ {pixel_type_of} statt {pixel_types} wie das erste; umwandeln</translation>
     </message>
     <message>
@@ -2199,20 +2199,20 @@
         <translation>{path}: in diesem Ordner ist keine TIFF- oder PNG-Datei; einen anderen wählen</translation>
     </message>
     <message>
-        <source>{path}: there is no such folder or file; choose another one</source>
+        <source>{path}: folder or file not found; choose another one</source>
         <translation>{path}: diesen Ordner oder diese Datei gibt es nicht; eine andere Angabe wählen</translation>
     </message>
     <message>
-        <source>is it cut off, or gone?</source>
-        <translation>ist sie abgeschnitten oder weg?</translation>
+        <source>the file is truncated or missing</source>
+        <translation>die Datei ist abgeschnitten oder fehlt</translation>
     </message>
     <message>
         <source>{file}: page {page} cannot be read: {error}</source>
         <translation>{file}: Seite {page} kann nicht gelesen werden: {error}</translation>
     </message>
     <message>
-        <source>{file}: page {page} cannot be read; it is cut off, or gone</source>
-        <translation>{file}: Seite {page} kann nicht gelesen werden; abgeschnitten oder weg</translation>
+        <source>{file}: page {page} cannot be read; the file is truncated or missing</source>
+        <translation>{file}: Seite {page} kann nicht gelesen werden; die Datei ist abgeschnitten oder fehlt</translation>
     </message>
     <message>
         <source>{file}: pixels of type {dtype} with {ndim} dimensions: must be grey of 8 or 16 bits, or colour of 8; convert it</source>
@@ -2223,12 +2223,12 @@
         <translation>{name}: die Kameraquelle {source} gibt es nicht; installiert: {known}</translation>
     </message>
     <message>
-        <source>there is no source {source} of cameras; there is: {known}</source>
+        <source>there is no source {source} of cameras; available: {known}</source>
         <translation>die Kameraquelle {source} gibt es nicht; vorhanden: {known}</translation>
     </message>
     <message>
-        <source>axis {name} at {at}, not at {end}, as the controller counts</source>
-        <translation>Achse {name} bei {at}, nicht bei {end}, nach Zählung der Steuerung</translation>
+        <source>axis {name} at {at} instead of {end} by the controller&apos;s count</source>
+        <translation>Achse {name} bei {at} statt {end} nach Zählung der Steuerung</translation>
     </message>
     <message>
         <source>{where}: its reports have no machine position; send it $10=1</source>
@@ -2243,12 +2243,12 @@
         <translation>setzte sich nicht zurück</translation>
     </message>
     <message>
-        <source>{where}: its axes still move {rest_s} s after a feed hold; use the machine&apos;s emergency switch</source>
+        <source>{where}: the axes still move {rest_s} s after a feed hold; use the machine&apos;s emergency switch</source>
         <translation>{where}: die Achsen bewegen sich {rest_s} s nach einem Vorschubhalt noch; den Notschalter der Maschine benutzen</translation>
     </message>
     <message>
-        <source>{where}: no answer to &apos;?&apos; in {limit_s} s; is it a GRBL controller, is it switched on, is the baud rate right?</source>
-        <translation>{where}: keine Antwort auf &apos;?&apos; in {limit_s} s; ist es eine GRBL-Steuerung, ist sie eingeschaltet, stimmt die Baudrate?</translation>
+        <source>{where}: no answer to &apos;?&apos; within {limit_s} s; check that it is a GRBL controller, its power and the baud rate</source>
+        <translation>{where}: keine Antwort auf &apos;?&apos; innerhalb von {limit_s} s; prüfen, ob es eine GRBL-Steuerung ist, sowie Versorgung und Baudrate</translation>
     </message>
     <message>
         <source>{where}: it {what} within {limit_s} s</source>
@@ -2259,7 +2259,7 @@
         <translation>beantwortete {line} nicht</translation>
     </message>
     <message>
-        <source>hard limit: a limit switch was hit</source>
+        <source>hard limit: a limit switch was reached</source>
         <translation>harte Grenze: ein Endschalter wurde erreicht</translation>
     </message>
     <message>
@@ -2267,7 +2267,7 @@
         <translation>weiche Grenze: ein Ziel liegt außerhalb des Verfahrwegs</translation>
     </message>
     <message>
-        <source>it was reset in motion</source>
+        <source>it was reset during motion</source>
         <translation>sie wurde in Bewegung zurückgesetzt</translation>
     </message>
     <message>
@@ -2275,7 +2275,7 @@
         <translation>ein Zurücksetzen beendete die Referenzfahrt</translation>
     </message>
     <message>
-        <source>the door was opened while homing</source>
+        <source>the door was opened during homing</source>
         <translation>die Tür wurde bei der Referenzfahrt geöffnet</translation>
     </message>
     <message>
@@ -2304,7 +2304,7 @@
         <translation>das Ziel liegt außerhalb des Verfahrwegs</translation>
     </message>
     <message>
-        <source>no jog command</source>
+        <source>not a jog command</source>
         <translation>kein Tippbefehl</translation>
     </message>
     <message>
@@ -2332,7 +2332,7 @@
         <translation>Roboter {name} hat {count} Achsen; die Buchstaben {letters} nennen {letter_count}</translation>
     </message>
     <message>
-        <source>robot {robot}: axis {axis} is moved by a {kind}; a G-code controller moves stepping motors: take a robot file that has such axes only, as xyz</source>
+        <source>robot {robot}: axis {axis} is moved by a {kind}, but a G-code controller moves stepping motors; choose a robot file with such axes only, such as xyz</source>
         <translation>Roboter {robot}: Achse {axis} wird von {kind} bewegt; eine G-Code-Steuerung bewegt Schrittmotoren: eine Roboterdatei nur mit solchen Achsen nehmen, etwa xyz</translation>
     </message>
     <message>
@@ -2340,7 +2340,7 @@
         <translation>gcode: letters = {letters}: müssen verschiedene aus XYZABCUVW sein</translation>
     </message>
     <message>
-        <source>{url}: the controller has {count} axes, robot {robot} {wanted}; take the robot file of this stage</source>
+        <source>{url}: the controller has {count} axes, robot {robot} {wanted}; choose the robot file of this stage</source>
         <translation>{url}: die Steuerung hat {count} Achsen, Roboter {robot} {wanted}; die Roboterdatei dieses Tischs nehmen</translation>
     </message>
     <message>
@@ -2348,7 +2348,7 @@
         <translation>{url}: {error}</translation>
     </message>
     <message>
-        <source>{name}: its axes still brake; clear the fault when they rest</source>
+        <source>{name}: the axes are still braking; clear the fault when they rest</source>
         <translation>{name}: die Achsen bremsen noch; den Fehler quittieren, wenn sie ruhen</translation>
     </message>
     <message>
@@ -2356,19 +2356,19 @@
         <translation>{name}: diese Steuerung referenziert alle Achsen zusammen; alle {count} referenzieren oder sie mit Einzelreferenzierung bauen</translation>
     </message>
     <message>
-        <source>{name}: it is still busy with a stop; ask again</source>
-        <translation>{name}: noch mit einem Halt beschäftigt; noch einmal anfordern</translation>
+        <source>{name} is still handling a stop; try again</source>
+        <translation>{name}: noch mit einem Halt beschäftigt; erneut versuchen</translation>
     </message>
     <message>
-        <source>it came to rest before its end: {short}</source>
-        <translation>sie kam vor dem Ende zur Ruhe: {short}</translation>
+        <source>the move ended before its target: {short}</source>
+        <translation>die Bewegung endete vor ihrem Ziel: {short}</translation>
     </message>
     <message>
         <source>the controller refused {line}: {text}</source>
         <translation>die Steuerung lehnte {line} ab: {text}</translation>
     </message>
     <message>
-        <source>the controller was reset by somebody else, or lost its supply</source>
+        <source>the controller was reset from outside, or lost its supply</source>
         <translation>die Steuerung wurde von anderer Seite zurückgesetzt oder verlor ihre Versorgung</translation>
     </message>
     <message>
@@ -2380,31 +2380,31 @@
         <translation>gcode: {name} = {value}: muss {low} bis {high} sein</translation>
     </message>
     <message>
-        <source>simulator: robot {name} has an axis moved by a force that no controller holds; give it one in the robot file</source>
-        <translation>Simulator: Roboter {name} hat eine Achse, die von einer Kraft bewegt und von keinem Regler gehalten wird; ihr in der Roboterdatei einen geben</translation>
+        <source>simulator: robot {name} has a force axis without a controller; add one to the robot file</source>
+        <translation>Simulator: Roboter {name} hat eine Kraftachse ohne Regler; in der Roboterdatei einen hinzufügen</translation>
     </message>
     <message>
         <source>simulator: setting {name} = {value} is not between {least} and {greatest}</source>
         <translation>Simulator: Einstellung {name} = {value} liegt nicht zwischen {least} und {greatest}</translation>
     </message>
     <message>
-        <source>{name}: axis {axis} runs under a controller, which alone sets its voltage</source>
-        <translation>{name}: Achse {axis} läuft unter einem Regler, der allein ihre Spannung stellt</translation>
+        <source>{name}: the controller of axis {axis} sets its voltage</source>
+        <translation>{name}: der Regler von Achse {axis} stellt ihre Spannung</translation>
     </message>
     <message>
-        <source>{name}: axis {axis} is compensated, which sets its voltage; switch the compensation off first</source>
-        <translation>{name}: Achse {axis} ist kompensiert, das stellt ihre Spannung; erst die Kompensation ausschalten</translation>
+        <source>{name}: the inverse of axis {axis} sets its voltage; remove the inverse first</source>
+        <translation>{name}: die Inverse von Achse {axis} stellt ihre Spannung; erst die Inverse abschalten</translation>
     </message>
     <message>
-        <source>{name}: axis {axis} is under a loop, which sets its voltage; take it off first</source>
-        <translation>{name}: Achse {axis} hat einen Regelkreis, der ihre Spannung stellt; ihn erst öffnen</translation>
+        <source>{name}: the loop of axis {axis} sets its voltage; open the loop first</source>
+        <translation>{name}: der Regelkreis von Achse {axis} stellt ihre Spannung; ihn erst öffnen</translation>
     </message>
     <message>
         <source>{name}: the axis of the profile has moved since; wait until it rests, and upload the profile again</source>
         <translation>{name}: die Achse des Profils hat sich seither bewegt; warten, bis sie ruht, und das Profil neu hochladen</translation>
     </message>
     <message>
-        <source>simulator: rows of the trajectory follow at {rate_hz} Hz; it plays {max_rate_hz} Hz at most; resample the trajectory</source>
+        <source>simulator: the trajectory has {rate_hz} rows per second, but at most {max_rate_hz} can be played; resample the trajectory</source>
         <translation>Simulator: die Zeilen der Trajektorie folgen mit {rate_hz} Hz; er spielt höchstens {max_rate_hz} Hz; die Trajektorie neu abtasten</translation>
     </message>
     <message>
@@ -2417,7 +2417,7 @@
         <translation>{where}: die simulierte Maschine tastet mit {sample_s} Hz ab, und die Rate eines Regelkreises muss ein ganzes Vielfaches davon sein; für eine solche Rate abstimmen</translation>
     </message>
     <message>
-        <source>{where}: that of axis {axis} runs at {rate_hz} Hz, and all must run at one rate; take the other one off, or tune for its rate</source>
+        <source>{where}: the loop of axis {axis} runs at {rate_hz} Hz, and all loops must run at one rate; open that loop, or tune for its rate</source>
         <translation>{where}: der von Achse {axis} läuft mit {rate_hz} Hz, und alle müssen mit einer Rate laufen; den anderen öffnen oder für dessen Rate abstimmen</translation>
     </message>
     <message>
@@ -2425,7 +2425,7 @@
         <translation>{where}: die eigenen Regler des Roboters laufen mit {sample_s} Hz; für diese Rate abstimmen oder sample_rate_hz des Simulators auf die des Regelkreises setzen</translation>
     </message>
     <message>
-        <source>{name}: a potentiometer at {reading}: must be 0 to 1</source>
+        <source>{name}: potentiometer reading {reading}: must be 0 to 1</source>
         <translation>{name}: ein Potentiometer bei {reading}: muss 0 bis 1 sein</translation>
     </message>
     <message>
@@ -2433,15 +2433,11 @@
         <translation>{name}: {device} {unit}, Roboterdatei {robot} {unit}</translation>
     </message>
     <message>
-        <source>none at all</source>
-        <translation>gar keine</translation>
-    </message>
-    <message>
-        <source>{owner}: unknown setting {unknown}; it knows {known}</source>
+        <source>{owner}: unknown setting {unknown}; available: {known}</source>
         <translation>{owner}: unbekannte Einstellung {unknown}; bekannt: {known}</translation>
     </message>
     <message>
-        <source>{where}: {value} is no {name}, like its default {default}</source>
+        <source>{where}: {value} must be a {name}, like its default {default}</source>
         <translation>{where}: {value} ist kein {name} wie die Vorgabe {default}</translation>
     </message>
     <message>
@@ -2449,17 +2445,17 @@
         <translation>{where}: {value} ist keine endliche Zahl</translation>
     </message>
     <message>
-        <source>the connection is another one now; ask again</source>
+        <source>the connection has changed; try again</source>
         <extracomment>Why what a permit is for cannot be now, or None; it is called under the gate&apos;s lock, and so neither waits nor takes another lock.</extracomment>
-        <translation>die Verbindung ist jetzt eine andere; noch einmal anfordern</translation>
+        <translation>die Verbindung hat sich geändert; erneut versuchen</translation>
     </message>
     <message>
-        <source>a stop came after this was asked for; ask again</source>
-        <translation>ein Halt kam nach dieser Anforderung; noch einmal anfordern</translation>
+        <source>a stop came after this request; try again</source>
+        <translation>nach dieser Anforderung kam ein Halt; erneut versuchen</translation>
     </message>
     <message>
-        <source>its lease has run out; ask again</source>
-        <translation>ihre Frist ist abgelaufen; noch einmal anfordern</translation>
+        <source>the lease of the request has expired; try again</source>
+        <translation>die Frist der Anforderung ist abgelaufen; erneut versuchen</translation>
     </message>
     <message>
         <source>driver {name} cannot be used: {broken}</source>
@@ -2478,19 +2474,19 @@
         <translation>{name}: {axis} bei {deflection}: muss -1 bis 1 sein</translation>
     </message>
     <message>
-        <source>{name} ({key}): it is not there</source>
-        <translation>{name} ({key}): nicht vorhanden</translation>
+        <source>{name} ({key}) is not connected</source>
+        <translation>{name} ({key}) ist nicht angeschlossen</translation>
     </message>
     <message>
-        <source>{name}: it was taken away</source>
-        <translation>{name}: weggenommen</translation>
+        <source>{name} was removed</source>
+        <translation>{name} wurde entfernt</translation>
     </message>
     <message>
         <source>{name}: no {kind} {wanted}; it has {known}</source>
         <translation>{name}: {kind} {wanted} gibt es nicht; vorhanden: {known}</translation>
     </message>
     <message>
-        <source>{name}: it was closed; open it again</source>
+        <source>{name} was closed; open it again</source>
         <extracomment>(host time, strength) of each call of :meth:`rumble`.</extracomment>
         <translation>{name}: geschlossen; wieder öffnen</translation>
     </message>
@@ -2499,47 +2495,47 @@
         <translation>Joystick der Steuerung</translation>
     </message>
     <message>
-        <source>{name}: the driver in use has none of this name</source>
-        <translation>{name}: der Treiber in Gebrauch hat keinen dieses Namens</translation>
+        <source>{name} does not belong to the driver in use</source>
+        <translation>{name} gehört nicht zum Treiber in Gebrauch</translation>
     </message>
     <message>
         <source>{name}: another driver is in use now</source>
         <translation>{name}: jetzt ist ein anderer Treiber in Gebrauch</translation>
     </message>
     <message>
-        <source>{name}: it has {axes} axes and {buttons} buttons now, {axes_before} and {buttons_before} before; open it again</source>
+        <source>{name} now has {axes} axes and {buttons} buttons instead of {axes_before} and {buttons_before}; open it again</source>
         <translation>{name}: hat jetzt {axes} Achsen und {buttons} Tasten, vorher {axes_before} und {buttons_before}; wieder öffnen</translation>
     </message>
     <message>
-        <source>{name}: its joystick tells nothing: {error}</source>
-        <translation>{name}: der Joystick meldet nichts: {error}</translation>
+        <source>{name}: the joystick cannot be read: {error}</source>
+        <translation>{name}: der Joystick lässt sich nicht lesen: {error}</translation>
     </message>
     <message>
-        <source>{name}: it is not connected; connect it for its joystick</source>
-        <translation>{name}: nicht verbunden; für den Joystick verbinden</translation>
+        <source>{name} is not connected; connect it to use its joystick</source>
+        <translation>{name} ist nicht verbunden; verbinden, um den Joystick zu benutzen</translation>
     </message>
     <message>
-        <source>{name}: its joystick is not trusted in a fault; clear it</source>
-        <translation>{name}: dem Joystick wird im Fehler nicht getraut; den Fehler quittieren</translation>
+        <source>{name}: the joystick is not trusted during a fault; clear the fault</source>
+        <translation>{name}: während eines Fehlers ist der Joystick gesperrt; den Fehler quittieren</translation>
     </message>
     <message>
-        <source>{name}: nothing was heard of it and its joystick for a while</source>
-        <translation>{name}: von ihm und seinem Joystick kam eine Weile nichts</translation>
+        <source>{name} and its joystick have been silent for a while</source>
+        <translation>{name} und sein Joystick schweigen seit einer Weile</translation>
     </message>
     <message>
-        <source>{name} ({key}): it is not plugged in</source>
+        <source>{name} ({key}) is not plugged in</source>
         <translation>{name} ({key}): nicht angesteckt</translation>
     </message>
     <message>
-        <source>{name}: it was unplugged, as its script says</source>
-        <translation>{name}: abgesteckt, wie sein Skript sagt</translation>
+        <source>{name} was unplugged by its script</source>
+        <translation>{name} wurde von seinem Skript abgesteckt</translation>
     </message>
     <message>
-        <source>{name}: a strength of {strength}: must be 0 to 1</source>
+        <source>{name}: strength {strength}: must be 0 to 1</source>
         <translation>{name}: eine Stärke von {strength}: muss 0 bis 1 sein</translation>
     </message>
     <message>
-        <source>input device {key} is not plugged in; there are: {keys}</source>
+        <source>input device {key} is not plugged in; available: {keys}</source>
         <translation>Eingabegerät {key} ist nicht angesteckt; vorhanden: {keys}</translation>
     </message>
     <message>
@@ -2575,7 +2571,7 @@
         <translation>{where}: ein anderes Programm verwendet es; jenes schließen ({said})</translation>
     </message>
     <message>
-        <source>{where}: it cannot be opened ({said}); unplug it and plug it in again; see docs/inputs.md</source>
+        <source>{where} cannot be opened ({said}); unplug it and plug it in again; see docs/inputs.md</source>
         <translation>{where}: lässt sich nicht öffnen ({said}); abstecken und wieder anstecken; siehe docs/inputs.md</translation>
     </message>
     <message>
@@ -2595,15 +2591,15 @@
         <translation>{name}: {error}; nicht nutzbar</translation>
     </message>
     <message>
-        <source>its report descriptor makes no sense at byte {at}: {what}</source>
-        <translation>der Report-Deskriptor ergibt bei Byte {at} keinen Sinn: {what}</translation>
+        <source>its report descriptor is invalid at byte {at}: {what}</source>
+        <translation>der Report-Deskriptor ist bei Byte {at} ungültig: {what}</translation>
     </message>
     <message>
-        <source>{name}: it was unplugged, or has lost its power or radio link ({error})</source>
+        <source>{name} was unplugged, or lost its power or radio link ({error})</source>
         <translation>{name}: abgesteckt, oder Strom oder Funkverbindung verloren ({error})</translation>
     </message>
     <message>
-        <source>its report descriptor is cut off: byte {at} of {count} begins an item with {size} bytes of data</source>
+        <source>its report descriptor is truncated: byte {at} of {count} begins an item with {size} bytes of data</source>
         <translation>der Report-Deskriptor ist abgeschnitten: Byte {at} von {count} beginnt ein Element mit {size} Datenbytes</translation>
     </message>
     <message>
@@ -2635,15 +2631,15 @@
         <translation>{path}: {error}</translation>
     </message>
     <message>
-        <source>{path}, line 1: there must be a column {time}</source>
-        <translation>{path}, Zeile 1: eine Spalte {time} muss dabei sein</translation>
+        <source>{path}, line 1: column {time} is missing</source>
+        <translation>{path}, Zeile 1: die Spalte {time} fehlt</translation>
     </message>
     <message>
-        <source>{path}, line 1: unknown column {name}; there can be {time}, {plugged}, &apos;axis NAME&apos; and &apos;button NAME&apos;</source>
+        <source>{path}, line 1: unknown column {name}; permitted are {time}, {plugged}, &apos;axis NAME&apos; and &apos;button NAME&apos;</source>
         <translation>{path}, Zeile 1: unbekannte Spalte {name}; möglich: {time}, {plugged}, &apos;axis NAME&apos; und &apos;button NAME&apos;</translation>
     </message>
     <message>
-        <source>{path}, line 1: column {name} is there twice</source>
+        <source>{path}, line 1: column {name} appears twice</source>
         <translation>{path}, Zeile 1: Spalte {name} kommt zweimal vor</translation>
     </message>
     <message>
@@ -2659,7 +2655,7 @@
         <translation>die Datei</translation>
     </message>
     <message>
-        <source>{name}: {place}: {first}; train it anew, or take an unchanged copy</source>
+        <source>{name}: {place}: {first}; train it again, or use an unchanged copy</source>
         <translation>{name}: {place}: {first}; neu lernen oder eine unveränderte Kopie nehmen</translation>
     </message>
     <message>
@@ -2683,7 +2679,7 @@
         <translation>{name}: {count} Zeilen sind zu wenig; nötig sind {fewest}</translation>
     </message>
     <message>
-        <source>{name}: row {row} comes {lengths} s after the one before, others {sample_s} s; an inverse needs even time: resample the record (rotemina convert)</source>
+        <source>{name}: row {row} comes {lengths} s after the previous one, others {sample_s} s; an inverse needs evenly spaced rows: resample the record (rotemina convert)</source>
         <translation>{name}: Zeile {row} kommt {lengths} s nach der vorigen, andere {sample_s} s; eine Inverse braucht gleichmäßige Zeit: die Aufzeichnung neu abtasten (rotemina convert)</translation>
     </message>
     <message>
@@ -2699,7 +2695,7 @@
         <translation>Inverse von Achse {axis}: sample_s = {sample_s} s: muss endlich und größer als 0 sein</translation>
     </message>
     <message>
-        <source>inverse of axis {axis}: a state of shape {shape} with finite numbers must have shape {state_shape}; take one of this inverse</source>
+        <source>inverse of axis {axis}: a state of shape {shape} with finite numbers must have shape {state_shape}; use a state of this inverse</source>
         <translation>Inverse von Achse {axis}: ein Zustand der Form {shape} aus endlichen Zahlen muss die Form {state_shape} haben; einen dieser Inverse nehmen</translation>
     </message>
     <message>
@@ -2715,7 +2711,7 @@
         <translation>Achse {axis}: Roboter {name} hat keine solche Piezoachse</translation>
     </message>
     <message>
-        <source>ANFIS: the training did not converge: after {count} epochs it leaves {error} rms of commands that vary by {spread}; nothing was replaced. Record slower motions over the whole range, or take another kind</source>
+        <source>ANFIS: the training did not converge: after {count} epochs it leaves {error} rms of commands that vary by {spread}; nothing was replaced. Record slower motions over the whole range, or use another kind</source>
         <translation>ANFIS: das Training konvergierte nicht: nach {count} Epochen bleiben {error} rms von Befehlen, die um {spread} schwanken; nichts wurde ersetzt. Langsamere Bewegungen über den ganzen Bereich aufzeichnen oder eine andere Art nehmen</translation>
     </message>
     <message>
@@ -2723,7 +2719,7 @@
         <translation>Nachlauf und Kriechen</translation>
     </message>
     <message>
-        <source>{name}: axis {axis}: less than {fewest} rows are left to train on, after the first swing over the whole range; record longer</source>
+        <source>{name}: axis {axis}: fewer than {fewest} rows are left to train on, after the first swing over the whole range; record longer</source>
         <translation>{name}: Achse {axis}: nach dem ersten Hub über den ganzen Bereich bleiben weniger als {fewest} Zeilen zum Lernen; länger aufzeichnen</translation>
     </message>
     <message>
@@ -2739,19 +2735,19 @@
         <translation>fertig</translation>
     </message>
     <message>
-        <source>inverse of axis {axis}: the trajectory commands {names}; it must command this piezo axis, or take the inverse of another one</source>
+        <source>inverse of axis {axis}: the trajectory commands {names}; it must command this piezo axis, or use the inverse of another one</source>
         <translation>Inverse von Achse {axis}: die Trajektorie bewegt {names}; sie muss diese Piezoachse bewegen, oder die Inverse einer anderen nehmen</translation>
     </message>
     <message>
-        <source>axis {axis}: the trajectory went through an inverse before ({metadata}); take the one that was wanted at first</source>
+        <source>axis {axis}: the trajectory is already compensated ({metadata}); use the original one</source>
         <translation>Achse {axis}: die Trajektorie ging schon durch eine Inverse ({metadata}); die ursprünglich gewünschte nehmen</translation>
     </message>
     <message>
-        <source>trajectory: it has one row; an inverse needs a path of several</source>
+        <source>trajectory: it has only one row; an inverse needs a path of several</source>
         <translation>Trajektorie: sie hat eine Zeile; eine Inverse braucht einen Weg aus mehreren</translation>
     </message>
     <message>
-        <source>trajectory: row {row} comes {lengths} s after the one before, others {sample_s} s; an inverse needs even time: resample the trajectory</source>
+        <source>trajectory: row {row} comes {lengths} s after the previous one, others {sample_s} s; an inverse needs evenly spaced rows: resample the trajectory</source>
         <translation>Trajektorie: Zeile {row} kommt {lengths} s nach der vorigen, andere {sample_s} s; eine Inverse braucht gleichmäßige Zeit: die Trajektorie neu abtasten</translation>
     </message>
     <message>
@@ -2763,7 +2759,7 @@
         <translation>linear</translation>
     </message>
     <message>
-        <source>axis {axis}: no row lies within {low} to {high}, which the inverse was trained on; judge it on such a record, or train it on a wider one</source>
+        <source>axis {axis}: no row lies within {low} to {high}, the training range of the inverse; use such a record for the check, or train with a wider one</source>
         <translation>Achse {axis}: keine Zeile liegt zwischen {low} und {high}, wo die Inverse gelernt wurde; an einer solchen Aufzeichnung prüfen oder auf einer weiteren lernen</translation>
     </message>
     <message>
@@ -2775,8 +2771,8 @@
         <translation>{kind} lässt {share} des Bereichs übrig, auf Zeilen, mit denen keine Inverse gelernt wurde; {others}.</translation>
     </message>
     <message>
-        <source>All swings are of one size, so that richer kinds would guess at other sizes: train on swings that grow or fade.</source>
-        <translation>Alle Hübe sind gleich groß, so dass reichere Arten bei anderen Größen raten würden: mit wachsenden oder abklingenden Hüben lernen.</translation>
+        <source>All swings have one size, so richer kinds would only guess at other sizes: train with swings that grow or fade.</source>
+        <translation>Alle Hübe sind gleich groß; reichere Arten könnten bei anderen Größen nur raten: mit wachsenden oder abklingenden Hüben lernen.</translation>
     </message>
     <message>
         <source>It is the simplest of those within {share} of the least.</source>
@@ -2839,7 +2835,7 @@
         <translation>ganze Zeilen je Chip</translation>
     </message>
     <message>
-        <source>excitation: no axis is named; name one at least</source>
+        <source>excitation: no axis is named; name at least one</source>
         <translation>Anregung: keine Achse genannt; mindestens eine nennen</translation>
     </message>
     <message>
@@ -2855,7 +2851,7 @@
         <translation>Rate {rate_hz} Hz: muss über 0 liegen, höchstens {fastest_hz} Hz</translation>
     </message>
     <message>
-        <source>axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device would stand between rows and jump, beyond its speed and acceleration</source>
+        <source>axis {name}: rate {rate_hz} Hz is below {slowest_hz} Hz: the device would rest between rows and jump, which exceeds its speed and acceleration</source>
         <translation>Achse {name}: Rate {rate_hz} Hz liegt unter {slowest_hz} Hz: das Gerät stünde zwischen den Zeilen und spränge, über seine Geschwindigkeit und Beschleunigung hinaus</translation>
     </message>
     <message>
@@ -2871,7 +2867,7 @@
         <translation>Ende des Bands</translation>
     </message>
     <message>
-        <source>detection = 1: would leave out every line; use 0 or 2 and more</source>
+        <source>detection = 1: would leave out every line; use 0, or 2 or more</source>
         <translation>detection = 1: ließe jede Linie aus; 0 oder ab 2 verwenden</translation>
     </message>
     <message>
@@ -2919,7 +2915,7 @@
         <translation>{where}: instabil, der größte Pol {radius} liegt nicht innerhalb des Einheitskreises; die Verstärkungen verringern oder ein Kerbfilter an die Resonanz setzen; nichts wurde angewendet</translation>
     </message>
     <message>
-        <source>{where}: peak sensitivity Ms = {peak} at {peak_hz} Hz, {most} at most; lower the gains; nothing was applied</source>
+        <source>{where}: peak sensitivity Ms = {peak} at {peak_hz} Hz, must be at most {most}; lower the gains; nothing was applied</source>
         <translation>{where}: Empfindlichkeitsspitze Ms = {peak} bei {peak_hz} Hz, höchstens {most}; die Verstärkungen verringern; nichts wurde angewendet</translation>
     </message>
     <message>
@@ -2932,7 +2928,7 @@
         <translation>Intervall {interval_s} s des Regelkreises: muss positiv und endlich sein</translation>
     </message>
     <message>
-        <source>{name} at {frequency_hz} Hz: it must lie above 0 and below half the loop&apos;s rate, {rate_hz} Hz</source>
+        <source>{name} at {frequency_hz} Hz: must lie above 0 and below half the loop&apos;s rate, {rate_hz} Hz</source>
         <translation>{name} bei {frequency_hz} Hz: muss über 0 und unter der halben Rate des Regelkreises liegen, {rate_hz} Hz</translation>
     </message>
     <message>
@@ -2984,32 +2980,32 @@
         <translation>Totzeit des Regelkreises {delay} Intervalle: muss 0 bis {longest_delay} sein</translation>
     </message>
     <message>
-        <source>{error} (with gain or resonance off by {spread} %, as they may be)</source>
-        <translation>{error} (mit Verstärkung oder Resonanz um {spread} % daneben, wie es vorkommen kann)</translation>
+        <source>{error} (with gain or resonance off by {spread} %)</source>
+        <translation>{error} (mit Verstärkung oder Resonanz um {spread} % daneben)</translation>
     </message>
     <message>
         <source>axis {axis}: effect delay of {delay_s} s is {intervals} intervals of a loop at {rate_hz} Hz, and must be a whole number of them; choose another rate or delay</source>
         <translation>Achse {axis}: die Totzeit {delay_s} s ihres Effekts ist das {intervals}-Fache des Intervalls eines Regelkreises mit {rate_hz} Hz und muss ein ganzes Vielfaches sein; eine andere Rate oder Totzeit wählen</translation>
     </message>
     <message>
-        <source>it has added {much} ({share} of the range at most)</source>
+        <source>it has added {much} (at most {share} of the range is permitted)</source>
         <translation>er hat {much} hinzugefügt (höchstens {share} des Bereichs)</translation>
     </message>
     <message>
-        <source>axis {name}: its loop was given up, as nothing answers it: {what}; check the sensor and the actuator, clear the fault, then close the loop again</source>
-        <translation>Achse {name}: ihr Regelkreis wurde aufgegeben, da nichts auf ihn antwortet: {what}; Sensor und Antrieb prüfen, den Fehler quittieren, dann wieder schließen</translation>
+        <source>axis {name}: its loop was opened because the axis does not respond: {what}; check the sensor and the actuator, clear the fault, then close the loop again</source>
+        <translation>Achse {name}: ihr Regelkreis wurde geöffnet, weil die Achse nicht reagiert: {what}; Sensor und Antrieb prüfen, den Fehler quittieren, dann den Regelkreis wieder schließen</translation>
     </message>
     <message>
-        <source>axis {axes}: the response under a loop grows beyond what a number can hold; lower the gains</source>
-        <translation>Achse {axes}: die geregelte Antwort wächst über das hinaus, was eine Zahl fasst; die Verstärkungen verringern</translation>
+        <source>axis {axes}: the response of the loop grows without bound; lower the gains</source>
+        <translation>Achse {axes}: die Antwort des Regelkreises wächst unbegrenzt; die Verstärkungen verringern</translation>
     </message>
     <message>
-        <source>{name}: it cannot be read (there is no such file){then}</source>
-        <translation>{name}: kann nicht gelesen werden (diese Datei gibt es nicht){then}</translation>
+        <source>{name} cannot be read (file not found){then}</source>
+        <translation>{name} kann nicht gelesen werden (Datei nicht gefunden){then}</translation>
     </message>
     <message>
-        <source>{name}: it cannot be read ({reason}){then}</source>
-        <translation>{name}: kann nicht gelesen werden ({reason}){then}</translation>
+        <source>{name} cannot be read ({reason}){then}</source>
+        <translation>{name} kann nicht gelesen werden ({reason}){then}</translation>
     </message>
     <message>
         <source>{name}: not UTF-8 text (byte {start})</source>
@@ -3032,7 +3028,7 @@
         <translation>das ist ein Ordner</translation>
     </message>
     <message>
-        <source>it is a pipe or a device and no file</source>
+        <source>it is a pipe or a device, not a file</source>
         <translation>das ist eine Pipe oder ein Gerät und keine Datei</translation>
     </message>
     <message>
@@ -3040,11 +3036,11 @@
         <translation>{name}: größer als {most_bytes} Byte, also eine andere Art von Datei{then}</translation>
     </message>
     <message>
-        <source>{source}: tables or lists are nested too deeply, more than {deepest} in each other</source>
-        <translation>{source}: Tabellen oder Listen sind zu tief verschachtelt, mehr als {deepest} ineinander</translation>
+        <source>{source}: tables or lists are nested more than {deepest} levels deep</source>
+        <translation>{source}: Tabellen oder Listen sind mehr als {deepest} Ebenen tief verschachtelt</translation>
     </message>
     <message>
-        <source>{source}: a whole number of {count} digits; 18 at most</source>
+        <source>{source}: an integer has {count} digits; at most 18 are permitted</source>
         <translation>{source}: eine ganze Zahl mit {count} Ziffern; höchstens 18</translation>
     </message>
     <message>
@@ -3056,11 +3052,11 @@
         <translation>{name} hat die Form {shape}; ({n}, {n}) endliche Zahlen angeben, je eine Zeile und Spalte für {names}</translation>
     </message>
     <message>
-        <source>accelerations under a perturbation by its rate have no finite response; ask for velocities</source>
+        <source>accelerations under a perturbation by its rate have no finite response; use velocities</source>
         <translation>Beschleunigungen bei einer Störung über deren Rate haben keine endliche Antwort; nach Geschwindigkeiten fragen</translation>
     </message>
     <message>
-        <source>the samples after t = {time_s} s are {apart_s} s apart, rounding there is {tick} s; count time from the start of the record</source>
+        <source>the samples after t = {time_s} s are {apart_s} s apart, but the rounding there is {tick} s; count time from the start of the record</source>
         <translation>die Abtastwerte nach t = {time_s} s liegen {apart_s} s auseinander, gerundet wird dort auf {tick} s; die Zeit ab dem Beginn der Aufzeichnung zählen</translation>
     </message>
     <message>
@@ -3068,11 +3064,11 @@
         <translation>period_samples = {period}: die Aufzeichnung hat nur {rows} Zeilen</translation>
     </message>
     <message>
-        <source>the model does not come to a steady state within {most_periods} periods; use &apos;# history: unknown&apos;</source>
+        <source>the model does not reach a steady state within {most_periods} periods; use &apos;# history: unknown&apos;</source>
         <translation>das Modell schwingt in {most_periods} Perioden nicht ein; &apos;# history: unknown&apos; verwenden</translation>
     </message>
     <message>
-        <source>axis {axes}: it has no steady state, nothing holds it; use &apos;# history: unknown&apos;</source>
+        <source>axis {axes} has no steady state because nothing holds it; use &apos;# history: unknown&apos;</source>
         <translation>Achse {axes}: sie hat keinen eingeschwungenen Zustand, nichts hält sie; &apos;# history: unknown&apos; verwenden</translation>
     </message>
     <message>
@@ -3096,19 +3092,19 @@
         <translation>Störung: sie hat {count} Zeilen; die Befehle haben {rows}</translation>
     </message>
     <message>
-        <source>{array}: it is no flat, contiguous array</source>
+        <source>{array} is not a flat, contiguous array</source>
         <translation>{array}: kein flaches, zusammenhängendes Feld</translation>
     </message>
     <message>
-        <source>perturbation: none is given, and Q of the row before still acts; give one for every piece of a run, with zeros where nothing shakes</source>
+        <source>perturbation: none is given, but Q of the previous row still acts; pass one for every piece of a run, with zeros where nothing shakes</source>
         <translation>Störung: keine angegeben, und Q der vorigen Zeile wirkt noch; für jedes Stück eines Laufs eine angeben, mit Nullen, wo nichts rüttelt</translation>
     </message>
     <message>
-        <source>axis {axis}: the response grows beyond what a number can hold at t = {time_s} s; check the commands,{named} and the controller&apos;s gains</source>
-        <translation>Achse {axis}: die Antwort wächst bei t = {time_s} s über das hinaus, was eine Zahl fasst; die Befehle prüfen,{named} und die Verstärkungen des Reglers</translation>
+        <source>axis {axis}: the response grows without bound at t = {time_s} s; check the commands,{named} and the controller&apos;s gains</source>
+        <translation>Achse {axis}: die Antwort wächst bei t = {time_s} s unbegrenzt; die Befehle prüfen,{named} und die Verstärkungen des Reglers</translation>
     </message>
     <message>
-        <source>axis {axis} of the record: robot {name} has {known}</source>
+        <source>axis {axis} of the record: robot {name} has only {known}</source>
         <translation>Achse {axis} der Aufzeichnung: Roboter {name} hat {known}</translation>
     </message>
     <message>
@@ -3138,7 +3134,7 @@
         <translation>{value} kann nicht importiert werden: {name}: {error}</translation>
     </message>
     <message>
-        <source>{value} is made for version {version} of the interface, this program has version {wanted}: install a version of the plugin that is made for it</source>
+        <source>{value} is made for version {version} of the interface, but this program has version {wanted}: install a matching version of the plugin</source>
         <translation>{value} ist für Version {version} der Schnittstelle gemacht, dieses Programm hat Version {wanted}: eine dafür gemachte Version des Plugins installieren</translation>
     </message>
     <message>
@@ -3150,7 +3146,7 @@
         <translation>Aufzeichnung: das Stück ab t = {time_s} s hat andere Spalten als das erste</translation>
     </message>
     <message>
-        <source>record: the piece from t = {time_s} s does not come after the one before, which ends at t = {last_s} s</source>
+        <source>record: the piece from t = {time_s} s does not follow the previous one, which ends at t = {last_s} s</source>
         <translation>Aufzeichnung: das Stück ab t = {time_s} s folgt nicht auf das vorige, das bei t = {last_s} s endet</translation>
     </message>
     <message>
@@ -3306,7 +3302,7 @@
         <translation>Wert {value} ist nicht endlich; eine endliche Zahl schreiben</translation>
     </message>
     <message>
-        <source>value {value} is no plain decimal number; write such as -12.5 or 3e-6</source>
+        <source>value {value} is not a plain decimal number; write it like -12.5 or 3e-6</source>
         <translation>Wert {value} ist keine einfache Dezimalzahl; schreiben wie -12.5 oder 3e-6</translation>
     </message>
     <message>
@@ -3342,7 +3338,7 @@
         <translation>metadata:{key}: länger als {longest} Byte; kürzen</translation>
     </message>
     <message>
-        <source>{where}: heading {heading} is no &apos;axis.channel [unit]&apos;; write such as {example}</source>
+        <source>{where}: heading {heading} is not &apos;axis.channel [unit]&apos;; write it like {example}</source>
         <translation>{where}: Überschrift {heading} ist kein &apos;axis.channel [unit]&apos;; schreiben wie {example}</translation>
     </message>
     <message>
@@ -3370,7 +3366,7 @@
         <translation>{where}:{number}: Spalte {column} ist schon Spalte {before}; eine entfernen</translation>
     </message>
     <message>
-        <source>{where}: no column beside time; write such as {example}</source>
+        <source>{where}: no column beside time; add one, such as {example}</source>
         <translation>{where}: keine Spalte neben der Zeit; schreiben wie {example}</translation>
     </message>
     <message>
@@ -3398,7 +3394,7 @@
         <translation>{name}:{first_line}: keine Zeilen mit Zahlen; die Aufzeichnung ist leer</translation>
     </message>
     <message>
-        <source>{name}:{line}: too many bytes of comments in all; shorten them</source>
+        <source>{name}:{line}: too many bytes of comments; shorten them</source>
         <translation>{name}:{line}: insgesamt zu viele Byte an Kommentaren; kürzen</translation>
     </message>
     <message>
@@ -3406,7 +3402,7 @@
         <translation>{name}:{line}: keine Kopfzeile und keine Zeilen mit Zahlen; die Aufzeichnung ist leer</translation>
     </message>
     <message>
-        <source>{where}:{index}: the header names {found} where you named {asked}; name the same or leave it to the header</source>
+        <source>{where}:{index}: the header names {found} where you named {asked}; use the same name, or omit it</source>
         <translation>{where}:{index}: die Kopfzeile nennt {found}, genannt wurde {asked}; dasselbe nennen oder es der Kopfzeile überlassen</translation>
     </message>
     <message>
@@ -3426,7 +3422,7 @@
         <translation>{source}: {describe}</translation>
     </message>
     <message>
-        <source>{source}: model.{name}: {count} coefficients over {denominator}; the denominator begins with 1 and is at least as long</source>
+        <source>{source}: model.{name}: {count} coefficients over {denominator}; the denominator must begin with 1 and be at least as long</source>
         <translation>{source}: model.{name}: {count} Koeffizienten über {denominator}; der Nenner beginnt mit 1 und ist mindestens so lang</translation>
     </message>
     <message>
@@ -3466,7 +3462,7 @@
         <translation>{source}: kein [[axis.NAME.effect]] kann hinzukommen ({error}); Achsen und Effekte als eigene Abschnitte schreiben</translation>
     </message>
     <message>
-        <source>{name}: it exists already; name another file</source>
+        <source>{name} already exists; name another file</source>
         <translation>{name}: gibt es schon; eine andere Datei nennen</translation>
     </message>
     <message>
@@ -3642,15 +3638,15 @@
         <translation>Input-Shaping für {frequency_hz} Hz und Dämpfungsgrad {damping_ratio}: die Frequenz muss positiv, der Dämpfungsgrad mindestens 0 und kleiner als 1 sein</translation>
     </message>
     <message>
-        <source>input shaping of order {order}: 1 (ZV) to {most_order}</source>
+        <source>input shaping of order {order}: must be 1 (ZV) to {most_order}</source>
         <translation>Input-Shaping der Ordnung {order}: 1 (ZV) bis {most_order}</translation>
     </message>
     <message>
-        <source>{name} limit of a move: {value}: more than 0</source>
+        <source>{name} limit of a move: {value}: must be more than 0</source>
         <translation>Grenze {name} einer Bewegung: {value}: muss größer als 0 sein</translation>
     </message>
     <message>
-        <source>S-curve: ramp {ramp}, rounding {rounding}: more than 0, at most 0.5 and 1</source>
+        <source>S-curve: ramp {ramp}, rounding {rounding}: must be more than 0, and at most 0.5 and 1</source>
         <translation>S-Kurve: Rampe {ramp}, Verrundung {rounding}: größer als 0, höchstens 0,5 und 1</translation>
     </message>
     <message>
@@ -3658,7 +3654,7 @@
         <translation>eine ruckminimale Bewegung braucht eine Grenze für Geschwindigkeit, Beschleunigung oder Ruck</translation>
     </message>
     <message>
-        <source>profile table: {size} times and {values_size} positions: as many of each, 2 to {most_rows}</source>
+        <source>profile table: {size} times and {values_size} positions: must be equally many, 2 to {most_rows}</source>
         <translation>Profiltabelle: {size} Zeiten und {values_size} Positionen: gleich viele, 2 bis {most_rows}</translation>
     </message>
     <message>
@@ -3674,11 +3670,11 @@
         <translation>Profiltabelle, Zeile {count}: endet, wo sie begann</translation>
     </message>
     <message>
-        <source>profile: a way of {distance}: must be finite, and not zero</source>
+        <source>profile: distance {distance}: must be finite and not zero</source>
         <translation>Profil: ein Weg von {distance}: muss endlich und nicht null sein</translation>
     </message>
     <message>
-        <source>profile: a duration of {duration_s} s: must be finite and positive</source>
+        <source>profile: duration {duration_s} s: must be finite and positive</source>
         <translation>Profil: eine Dauer von {duration_s} s: muss endlich und positiv sein</translation>
     </message>
     <message>
@@ -3694,11 +3690,11 @@
         <translation>Form: Zeiten müssen ab 0 s steigen</translation>
     </message>
     <message>
-        <source>profile: {most_pieces} cubics leave an error of {error}, {most_error} at most (SI units); choose a smoother one, or input shaping of a lower order</source>
+        <source>profile: {most_pieces} cubics leave an error of {error}, more than {most_error} (SI units); choose a smoother profile, or input shaping of a lower order</source>
         <translation>Profil: {most_pieces} kubische Stücke lassen einen Fehler von {error}, höchstens {most_error} (SI-Einheiten); ein glatteres wählen oder Input-Shaping niedrigerer Ordnung</translation>
     </message>
     <message>
-        <source>feed-forward: the acceleration of the profile jumps by {jump} (SI units), of {greatest} at most; use an S-curve or minimum jerk, or input shaping</source>
+        <source>feed-forward: the acceleration of the profile jumps by {jump} (SI units), with a maximum of {greatest}; use an S-curve or minimum jerk, or input shaping</source>
         <translation>Vorsteuerung: die Beschleunigung des Profils springt um {jump} (SI-Einheiten), höchstens {greatest}; eine S-Kurve, minimalen Ruck oder Input-Shaping verwenden</translation>
     </message>
     <message>
@@ -3706,7 +3702,7 @@
         <translation>{name} {value}: muss {least} bis {most} sein</translation>
     </message>
     <message>
-        <source>axis {axis}: a loop at {rate_hz} Hz is too slow for a resonance at {frequency_hz} Hz; take a rate above {least_hz} Hz</source>
+        <source>axis {axis}: a loop at {rate_hz} Hz is too slow for a resonance at {frequency_hz} Hz; use a rate above {least_hz} Hz</source>
         <translation>Achse {axis}: ein Regelkreis mit {rate_hz} Hz ist zu langsam für eine Resonanz bei {frequency_hz} Hz; eine Rate über {least_hz} Hz nehmen</translation>
     </message>
     <message>
@@ -3718,7 +3714,7 @@
         <translation>Punkt {number}: die Front hat die Punkte 0 bis {count}; einen davon wählen</translation>
     </message>
     <message>
-        <source>axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} and overshoot ≤ {overshoot} %; search longer, take a faster loop, or allow more</source>
+        <source>axis {axis}: after {done} generations no gains keep Ms ≤ {peak_sensitivity} and overshoot ≤ {overshoot} %; search longer, use a faster loop, or permit more</source>
         <translation>Achse {axis}: nach {done} Generationen hält keine Verstärkung Ms ≤ {peak_sensitivity} und Überschwingen ≤ {overshoot} % ein; länger suchen, einen schnelleren Regelkreis nehmen oder mehr zulassen</translation>
     </message>
     <message>
@@ -3734,7 +3730,7 @@
         <translation>unbekannte Einheit {unit}; möglich: {known}</translation>
     </message>
     <message>
-        <source>{si_unit} is no SI unit of a record; use one of {names}</source>
+        <source>{si_unit} is not an SI unit of a record; use one of {names}</source>
         <translation>{si_unit} ist keine SI-Einheit einer Aufzeichnung; möglich: {names}</translation>
     </message>
     <message>
@@ -3746,7 +3742,7 @@
         <translation>Bild: ein Bildpunkt ist keine endliche Zahl; die Daten der Kamera sind beschädigt</translation>
     </message>
     <message>
-        <source>image: every pixel is {low}; the camera is dark, saturated or covered: look at lamp, shutter and exposure</source>
+        <source>image: every pixel is {low}; the camera is dark, saturated or covered: check lamp, shutter and exposure</source>
         <translation>Bild: jeder Bildpunkt ist {low}; die Kamera ist dunkel, übersteuert oder abgedeckt: Lampe, Blende und Belichtung prüfen</translation>
     </message>
     <message>
@@ -3758,20 +3754,20 @@
         <translation>Pipette: {name} = {value} px: muss größer als 0 sein</translation>
     </message>
     <message>
-        <source>pipette: it stands at {angle}° to the focal plane, must be at most {most}°; seen from its end it has no shape to be found by: tilt the view</source>
+        <source>pipette: its angle to the focal plane is {angle}°, must be at most {most}°; seen from its end it has no recognisable shape: tilt the view</source>
         <translation>Pipette: sie steht {angle}° zur Fokusebene, höchstens {most}°; von der Spitze her gesehen hat sie keine erkennbare Form: die Ansicht neigen</translation>
     </message>
     <message>
-        <source>{name}: it is a folder; name a file in it</source>
+        <source>{name} is a folder; name a file in it</source>
         <translation>{name}: das ist ein Ordner; eine Datei darin nennen</translation>
     </message>
     <message>
-        <source>{name}: it is a device and no file; name a file</source>
+        <source>{name} is a device, not a file; name a file</source>
         <translation>{name}: das ist ein Gerät und keine Datei; eine Datei nennen</translation>
     </message>
     <message>
-        <source>{name}: it cannot be written ({reason}); choose another folder or make room</source>
-        <translation>{name}: kann nicht geschrieben werden ({reason}); einen anderen Ordner wählen oder Platz schaffen</translation>
+        <source>{name} cannot be written ({reason}); choose another folder, or free disk space</source>
+        <translation>{name} kann nicht geschrieben werden ({reason}); einen anderen Ordner wählen oder Platz schaffen</translation>
     </message>
     <message>
         <source>A, accuracy</source>
@@ -3826,11 +3822,11 @@
         <translation>{name}: es fehlt die Spalte {axis}.{tap}, die Messwerte von: {what}; vorhanden: {names}; mit dem Laser aufzeichnen oder seine Datei verbinden</translation>
     </message>
     <message>
-        <source>{name}: {count} rows; a calibration needs {least_rows} at the least</source>
+        <source>{name}: {count} rows; a calibration needs at least {least_rows}</source>
         <translation>{name}: {count} Zeilen; eine Kalibrierung braucht mindestens {least_rows}</translation>
     </message>
     <message>
-        <source>{name}: {axis} travels {travel} by the laser, {share} of its range; a calibration needs {least_share}: {least}; move it further</source>
+        <source>{name}: {axis} travels {travel} by the laser, {share} of its range; a calibration needs {least_share}: {least}; move it farther</source>
         <translation>{name}: {axis} fährt laut Laser {travel}, das sind {share} ihres Bereichs; eine Kalibrierung braucht {least_share}: {least}; weiter fahren</translation>
     </message>
     <message>
@@ -3842,7 +3838,7 @@
         <translation>keine Zeilen von {begin} s bis {end} s</translation>
     </message>
     <message>
-        <source>record: there is no column {axis}.meas to join a laser&apos;s with</source>
+        <source>record: there is no column {axis}.meas to match with the laser</source>
         <translation>Aufzeichnung: es fehlt die Spalte {axis}.meas, zu der die des Lasers kommen soll</translation>
     </message>
     <message>
@@ -3850,27 +3846,27 @@
         <translation>Laser: es fehlt die Spalte {axis}.ref; vorhanden: {names}</translation>
     </message>
     <message>
-        <source>laser: its motion and that of {axis} in the record are not alike at any shift of the clocks; join the files of one run</source>
+        <source>laser: its motion does not match that of {axis} in the record at any shift of the clocks; use the files of one run</source>
         <translation>Laser: seine Bewegung und die von {axis} in der Aufzeichnung gleichen sich bei keiner Verschiebung der Uhren; Dateien eines Laufs verbinden</translation>
     </message>
     <message>
-        <source>a record of less than 20 ms cannot be joined with another</source>
+        <source>a record of less than 20 ms cannot be matched with another</source>
         <translation>eine Aufzeichnung von weniger als 20 ms lässt sich mit keiner anderen verbinden</translation>
     </message>
     <message>
-        <source>the zero drifts by {drift} rms while the runs last: it goes with time and not with the axis, and no calibration removes it; warm up, or calibrate often</source>
-        <translation>der Nullpunkt driftet während der Läufe um {drift} rms: er geht mit der Zeit und nicht mit der Achse, und keine Kalibrierung nimmt das weg; aufwärmen oder oft kalibrieren</translation>
+        <source>the zero drifts by {drift} rms during the runs: it depends on time, not on the axis, and no calibration removes it; warm up, or calibrate often</source>
+        <translation>der Nullpunkt driftet während der Läufe um {drift} rms: er hängt von der Zeit ab, nicht von der Achse, und keine Kalibrierung beseitigt das; aufwärmen oder oft kalibrieren</translation>
     </message>
     <message>
         <source>deviations have shape {shape}; ISO 230-2 needs (targets, runs, 2)</source>
         <translation>die Abweichungen haben die Form {shape}; ISO 230-2 braucht (Ziele, Läufe, 2)</translation>
     </message>
     <message>
-        <source>each target was approached {shape} times from each side; ISO 230-2 needs {iso_runs} runs, a spread {least_runs} at the least</source>
+        <source>each target was approached {shape} times from each side; ISO 230-2 needs {iso_runs} runs, a spread at least {least_runs}</source>
         <translation>jedes Ziel wurde {shape}-mal von jeder Seite angefahren; ISO 230-2 braucht {iso_runs} Läufe, eine Streuung mindestens {least_runs}</translation>
     </message>
     <message>
-        <source>{axis}: at runs that were left out of the fit the reading&apos;s error is {after} {unit} rms with the calibration and {before} {same} without; it is not better and not used</source>
+        <source>{axis}: in the runs left out of the fit the reading&apos;s error is {after} {unit} rms with the calibration and {before} {same} without; the calibration is not better and is not used</source>
         <translation>{axis}: bei zurückgehaltenen Läufen ist der Fehler des Messwerts {after} {unit} rms mit der Kalibrierung und {before} {same} ohne; sie ist nicht besser und wird nicht genutzt</translation>
     </message>
     <message>
@@ -3918,7 +3914,7 @@
         <translation>die Läufe haben keinen gemessenen Kanal gemeinsam: {measured} und {measured_other}</translation>
     </message>
     <message>
-        <source>axis {axis} is in {unit} in one run and in {other_unit} in the other; these are not of one machine</source>
+        <source>axis {axis} is in {unit} in one run and in {other_unit} in the other; the runs are from different machines</source>
         <translation>Achse {axis} steht im einen Lauf in {unit}, im anderen in {other_unit}; das ist nicht dieselbe Maschine</translation>
     </message>
     <message>
@@ -3931,7 +3927,7 @@
         <translation>die Aufzeichnung enthält keinen gemessenen Kanal (u, ref oder meas) zum Vergleichen; vorhanden: {names}</translation>
     </message>
     <message>
-        <source>{path}: a picture&apos;s name ends in {names}</source>
+        <source>{path}: the name of a picture must end in {names}</source>
         <translation>{path}: der Name eines Bildes endet auf {names}</translation>
     </message>
     <message>
@@ -3963,11 +3959,11 @@
         <translation>{where}.formulation = {name}: muss eine von {known} sein</translation>
     </message>
     <message>
-        <source>{where}{what}: sits on an axis of kind {names}; this one is of kind {kind}</source>
+        <source>{where}{what}: acts on axes of kind {names}; this one is of kind {kind}</source>
         <translation>{where}{what}: gehört zu Achsen der Art {names}; diese ist von der Art {kind}</translation>
     </message>
     <message>
-        <source>{where}: formulation {name} acts on the dynamics of an axis, and this one is static; give it mass, damping and stiffness or choose another formulation</source>
+        <source>{where}: formulation {name} acts on the dynamics of an axis, but this one is static; give it mass, damping and stiffness, or choose another formulation</source>
         <translation>{where}: Formulierung {name} wirkt auf die Dynamik einer Achse, und diese ist statisch; ihr Masse, Dämpfung und Steifigkeit geben oder eine andere Formulierung wählen</translation>
     </message>
     <message>
@@ -3983,11 +3979,11 @@
         <translation>{where}.{name} = {beyond}</translation>
     </message>
     <message>
-        <source>there is no effect {effect_id}; {meant}there are {known}</source>
+        <source>there is no effect {effect_id}; {meant}available: {known}</source>
         <translation>den Effekt {effect_id} gibt es nicht; {meant}vorhanden: {known}</translation>
     </message>
     <message>
-        <source>effect {effect_id} ({value}) is no Effect</source>
+        <source>effect {effect_id} ({value}) is not an Effect</source>
         <translation>Effekt {effect_id} ({value}) ist kein Effect</translation>
     </message>
     <message>
@@ -3995,7 +3991,7 @@
         <translation>Effekt {effect_id}: {error}</translation>
     </message>
     <message>
-        <source>effect {effect_id} ({value}) calls itself {id}</source>
+        <source>effect {effect_id} ({value}) has the id {id}</source>
         <translation>Effekt {effect_id} ({value}) nennt sich selbst {id}</translation>
     </message>
     <message>
@@ -4003,11 +3999,11 @@
         <translation>Effekt {effect_id} ({value}) hat keine Formulierung</translation>
     </message>
     <message>
-        <source>flexible_mode: formulation &apos;appendage&apos; pulls on the mass of an axis, and this axis is static; give it mass, damping and stiffness or choose another formulation</source>
+        <source>flexible_mode: formulation &apos;appendage&apos; pulls on the mass of an axis, but this axis is static; give it mass, damping and stiffness, or choose another formulation</source>
         <translation>flexible_mode: Formulierung &apos;appendage&apos; zieht an der Masse einer Achse, und diese ist statisch; ihr Masse, Dämpfung und Steifigkeit geben oder eine andere Formulierung wählen</translation>
     </message>
     <message>
-        <source>resonance_mismatch: nothing holds this axis, so it has no resonance; give it mass, damping and stiffness or take the effect away</source>
+        <source>resonance_mismatch: nothing holds this axis, so it has no resonance; give it mass, damping and stiffness, or remove the effect</source>
         <translation>resonance_mismatch: diese Achse wird von nichts gehalten und hat deshalb keine Resonanz; ihr Masse, Dämpfung und Steifigkeit geben oder den Effekt entfernen</translation>
     </message>
     <message>
@@ -4027,11 +4023,11 @@
         <translation>{what}: die Aufzeichnung bestimmt nicht alle {count} Parameter (Singulärwerte {least} bis {most}, Grenze {bound}); niedrigere Ordnungen wählen oder mehr Frequenzen anregen</translation>
     </message>
     <message>
-        <source>{name} {values}: needs finite coefficients in a row</source>
+        <source>{name} {values}: must be a row of finite coefficients</source>
         <translation>{name} {values}: braucht endliche Koeffizienten in einer Reihe</translation>
     </message>
     <message>
-        <source>denominator: begins with {denominator}; it must be 1</source>
+        <source>denominator: must begin with 1, not {denominator}</source>
         <translation>Nenner: beginnt mit {denominator}; muss 1 sein</translation>
     </message>
     <message>
@@ -4043,7 +4039,7 @@
         <translation>Rate {rate_hz} Hz: eine positive Zahl verwenden</translation>
     </message>
     <message>
-        <source>resonance: band {band_hz} Hz; the lowest comes first</source>
+        <source>resonance: band {band_hz} Hz; the lower end comes first</source>
         <translation>Resonanz: Band {band_hz} Hz; die niedrigste Frequenz kommt zuerst</translation>
     </message>
     <message>
@@ -4071,11 +4067,11 @@
         <translation>Welch: Überlappung {overlap} ist nicht in [0, 1); 0.5 verwenden</translation>
     </message>
     <message>
-        <source>experiments: none given; one at least is needed</source>
+        <source>experiments: none given; at least one is needed</source>
         <translation>Experimente: keines angegeben; mindestens eines ist nötig</translation>
     </message>
     <message>
-        <source>experiment {number}: {inputs} → {outputs} at {rate_hz} Hz, the first has {first_inputs} → {first_outputs} at {first_rate_hz} Hz; all must be alike</source>
+        <source>experiment {number}: {inputs} → {outputs} at {rate_hz} Hz, but the first has {first_inputs} → {first_outputs} at {first_rate_hz} Hz; all must be equal</source>
         <translation>Experiment {number}: {inputs} → {outputs} mit {rate_hz} Hz, das erste hat {first_inputs} → {first_outputs} mit {first_rate_hz} Hz; alle müssen gleich sein</translation>
     </message>
     <message>
@@ -4091,7 +4087,7 @@
         <translation>periodische Antwort: {periods} ganze Perioden von {period} Abtastwerten nach {skip_periods} übersprungenen; das Rauschen braucht mindestens 2</translation>
     </message>
     <message>
-        <source>experiments: periods of {periods} samples; all must be alike</source>
+        <source>experiments: periods of {periods} samples; all must be equal</source>
         <translation>Experimente: Perioden von {periods} Abtastwerten; alle müssen gleich sein</translation>
     </message>
     <message>
@@ -4099,7 +4095,7 @@
         <translation>Schleifen: {lag_samples} Abtastwerte Nachlauf, kleinster Hub {least_swing}; 0 oder mehr und einen Hub in (0, 1) verwenden</translation>
     </message>
     <message>
-        <source>loops: {inputs} samples of input, {outputs} of output, {lag_samples} of lag; as many of both and at least three are needed</source>
+        <source>loops: {inputs} samples of input, {outputs} of output, {lag_samples} of lag; input and output must be equally long, with at least three samples left</source>
         <translation>Schleifen: {inputs} Abtastwerte des Eingangs, {outputs} des Ausgangs, {lag_samples} Nachlauf; gleich viele und mindestens drei sind nötig</translation>
     </message>
     <message>
@@ -4123,7 +4119,7 @@
         <translation>{side}: ein Wert ist nicht endlich</translation>
     </message>
     <message>
-        <source>signals: {inputs} samples of input, {outputs} of output; they must be as many</source>
+        <source>signals: {inputs} samples of input, {outputs} of output; their numbers must be equal</source>
         <translation>Signale: {inputs} Abtastwerte des Eingangs, {outputs} des Ausgangs; es müssen gleich viele sein</translation>
     </message>
     <message>
@@ -4135,7 +4131,7 @@
         <translation>Signale: {inputs} Eingänge und {outputs} Ausgänge; dieses Verfahren nimmt je einen, ein Paar wählen</translation>
     </message>
     <message>
-        <source>{side}: no channel chosen; name one at least</source>
+        <source>{side}: no channel chosen; name at least one</source>
         <translation>{side}: kein Kanal gewählt; mindestens einen nennen</translation>
     </message>
     <message>
@@ -4163,7 +4159,7 @@
         <translation>Neuabtastungsfaktor {factor}: nicht in (0, 1]; etwa 0.15 verwenden</translation>
     </message>
     <message>
-        <source>resampling factor {factor}: no fraction with a denominator up to {finest}; use {fraction}</source>
+        <source>resampling factor {factor}: not a fraction with a denominator up to {finest}; use {fraction}</source>
         <translation>Neuabtastungsfaktor {factor}: kein Bruch mit einem Nenner bis {finest}; {fraction} verwenden</translation>
     </message>
     <message>
@@ -4208,7 +4204,7 @@
         <translation>Teilungen des Umfangs = {divisions}: müssen {fewest} bis {most} sein; üblich sind {usual}</translation>
     </message>
     <message>
-        <source>no mesh can be made: the element at x {x} mm, y {y} mm has quality {quality} (at least {worst_quality}); edges of cut-outs are too close to one another or nearly in line there; put them in line, or further apart</source>
+        <source>no mesh can be made: the element at x {x} mm, y {y} mm has quality {quality} (at least {worst_quality}); edges of cut-outs are too close together or nearly in line there; align them, or move them apart</source>
         <translation>es lässt sich kein Netz bilden: das Element bei x {x} mm, y {y} mm hat die Güte {quality} (mindestens {worst_quality}); Kanten von Ausschnitten liegen dort zu nah beieinander oder fast in einer Linie; in eine Linie legen oder weiter auseinander</translation>
     </message>
     <message>
@@ -4288,7 +4284,7 @@
         <translation>Dauer der Rampe = {duration_s} s: muss positiv sein</translation>
     </message>
     <message>
-        <source>robot {name}: it has no axis {missing}; the plate carries {axes}: name a robot that has them</source>
+        <source>robot {name} has no axis {missing}; the plate carries {axes}: name a robot that has them</source>
         <translation>Roboter {name}: keine Achse {missing}; die Platte trägt {axes}: einen Roboter nennen, der sie hat</translation>
     </message>
     <message>
@@ -4316,15 +4312,15 @@
         <translation>Roboter {robot}: axis.{axis} hat keine eigene Masse und Steifigkeit; Masse, Dämpfung und Steifigkeit angeben, damit die der Platte dorthin kommen</translation>
     </message>
     <message>
-        <source>the plate makes no possible robot: {problem}</source>
-        <translation>mit der Platte wird kein möglicher Roboter daraus: {problem}</translation>
+        <source>the plate gives an impossible robot: {problem}</source>
+        <translation>die Platte ergibt einen unmöglichen Roboter: {problem}</translation>
     </message>
     <message>
         <source>robot {name}: plate.pin.length: missing, and robot.pin_length too; give one</source>
         <translation>Roboter {name}: plate.pin.length: fehlt, und robot.pin_length auch; eines angeben</translation>
     </message>
     <message>
-        <source>robot {name}: plate.pin.length = {length} m: must be {low} to {high} m, {shortest} to {longest} times its diameter; as a beam it is computed</source>
+        <source>robot {name}: plate.pin.length = {length} m: must be {low} to {high} m, {shortest} to {longest} times its diameter, because it is computed as a beam</source>
         <translation>Roboter {name}: plate.pin.length = {length} m: muss {low} bis {high} m sein, das {shortest}- bis {longest}-Fache des Durchmessers; er wird als Balken berechnet</translation>
     </message>
     <message>
@@ -4332,7 +4328,7 @@
         <translation>Achse {axis}: {what} {value} bei t = {time} s liegt jenseits der Grenze {bound}; {advice}</translation>
     </message>
     <message>
-        <source>axis {axis}: a speed of {speed}: must be a finite number above 0, of an axis with a target</source>
+        <source>axis {axis}: speed {speed}: must be a finite number above 0, of an axis with a target</source>
         <translation>Achse {axis}: Geschwindigkeit {speed}: muss eine endliche Zahl über 0 sein, für eine Achse mit Ziel</translation>
     </message>
     <message>
@@ -4352,7 +4348,7 @@
         <translation>Achse {axis}: Ziel {position} braucht {voltage} V, außerhalb der {low} V bis {high} V des Verstärkers; ein Ziel näher an der Ruhelage wählen</translation>
     </message>
     <message>
-        <source>trajectory: it has no set-point column (axis.cmd); a trajectory needs one at least</source>
+        <source>trajectory: it has no set-point column (axis.cmd); a trajectory needs at least one</source>
         <translation>Trajektorie: sie hat keine Sollwertspalte (axis.cmd); mindestens eine ist nötig</translation>
     </message>
     <message>
@@ -4400,7 +4396,7 @@
         <translation>Trajektorie: {times}-mal wiederholt hat sie {count} Zeilen: höchstens {most_rows}; weniger oft wiederholen</translation>
     </message>
     <message>
-        <source>trajectory: axis {axis} ends {apart} from where it begins: it cannot be repeated; lead it back in its file</source>
+        <source>trajectory: axis {axis} ends {apart} from where it begins, so it cannot be repeated; return to the start in its file</source>
         <translation>Trajektorie: Achse {axis} endet {apart} von ihrem Anfang entfernt: sie kann nicht wiederholt werden; in ihrer Datei zurückführen</translation>
     </message>
     <message>
@@ -4412,7 +4408,7 @@
         <translation>Trajektorie: geprüft für Roboter {name} mit anderen Achsen oder Grenzen als {robot_name}; für diesen prüfen</translation>
     </message>
     <message>
-        <source>axis {axis}: a sweep from {start}: it must begin between {low} and {high}, its range as far as its inverse saw it</source>
+        <source>axis {axis}: a sweep from {start}: must begin between {low} and {high}, the training range of its inverse</source>
         <translation>Achse {axis}: ein Hub ab {start}: er muss zwischen {low} und {high} beginnen, ihrem Bereich, soweit ihre Inverse ihn kennt</translation>
     </message>
     <message>
@@ -4424,15 +4420,15 @@
         <translation>{name}: {speed} innerhalb einer Zeitkonstante von {time_constant_s} s ist mehr, als die Achsen beschleunigen können; höchstens {most} verwenden oder mindestens {other} s</translation>
     </message>
     <message>
-        <source>axis {axis}: a width of {width}: must be above 0 and at most {most}, a hundredth of the range</source>
+        <source>axis {axis}: width {width}: must be above 0 and at most {most}, a hundredth of the range</source>
         <translation>Achse {axis}: eine Weite von {width}: muss über 0 und höchstens {most} sein, ein Hundertstel des Bereichs</translation>
     </message>
     <message>
-        <source>axis {axis}: the one-sided approach to {target} begins at {begin}, outside of {low} to {high}; stay {width} away from that end, or switch the approach off</source>
+        <source>axis {axis}: the one-sided approach to {target} begins at {begin}, outside {low} to {high}; stay {width} away from that end, or switch the approach off</source>
         <translation>Achse {axis}: die einseitige Anfahrt zu {target} beginnt bei {begin}, außerhalb von {low} bis {high}; {width} Abstand von diesem Ende halten, oder die Anfahrt ausschalten</translation>
     </message>
     <message>
-        <source>{error}; the one-sided approach begins there: take the other side, or switch it off</source>
+        <source>{error}; the one-sided approach begins there: choose the other side, or switch it off</source>
         <translation>{error}; dort beginnt die einseitige Anfahrt: die andere Seite nehmen, oder sie ausschalten</translation>
     </message>
     <message>
@@ -4440,8 +4436,8 @@
         <translation>das Gerät hat noch nichts gesendet; warten, oder neu verbinden</translation>
     </message>
     <message>
-        <source>axis {axis} is compensated, which sets its voltage; take the inverse off</source>
-        <translation>Achse {axis} ist kompensiert, das setzt ihre Spannung; erst die Inverse abnehmen</translation>
+        <source>the inverse of axis {axis} sets its voltage; remove the inverse</source>
+        <translation>die Inverse von Achse {axis} stellt ihre Spannung; erst die Inverse abschalten</translation>
     </message>
     <message>
         <source>cannot change a compensation while it moves; stop it or wait</source>
@@ -4449,27 +4445,27 @@
         <translation>eine Kompensation lässt sich nicht während einer Bewegung ändern; anhalten oder warten</translation>
     </message>
     <message>
-        <source>cells: nobody knows where the axes are; home them, or reconnect</source>
-        <translation>Zellen: niemand weiß, wo die Achsen sind; referenzieren, oder neu verbinden</translation>
+        <source>cells: the positions of the axes are unknown; home them, or reconnect</source>
+        <translation>Zellen: die Positionen der Achsen sind unbekannt; referenzieren oder neu verbinden</translation>
     </message>
     <message>
         <source>cells: the list has {most}; remove one</source>
         <translation>Zellen: die Liste hat {most}; eine entfernen</translation>
     </message>
     <message>
-        <source>axis {axis}: a range from {low} to {high}: its low end must be lower</source>
+        <source>axis {axis}: range {low} to {high}: the low end must be lower</source>
         <translation>Achse {axis}: ein Bereich von {low} bis {high}: das untere Ende muss kleiner sein</translation>
     </message>
     <message>
-        <source>axis {axis}: target {target} is outside of {low} to {high}, to which its range was narrowed; choose a target inside, or widen it in Control, Axes</source>
-        <translation>Achse {axis}: Ziel {target} liegt außerhalb von {low} bis {high}, worauf ihr Bereich eingeengt ist; ein Ziel darin wählen, oder ihn unter Steuerung, Achsen erweitern</translation>
+        <source>axis {axis}: target {target} is outside {low} to {high}, its narrowed range; choose a target inside, or widen the range in Control, Axes</source>
+        <translation>Achse {axis}: Ziel {target} liegt außerhalb ihres eingeengten Bereichs {low} bis {high}; ein Ziel darin wählen oder den Bereich unter Steuerung, Achsen erweitern</translation>
     </message>
     <message>
-        <source>z-stack: a step of {step}: must be above 0 µm</source>
+        <source>z-stack: step {step}: must be above 0 µm</source>
         <translation>Z-Stapel: ein Schritt von {step}: muss über 0 µm sein</translation>
     </message>
     <message>
-        <source>z-stack: {count} pictures: at most {most}; take a larger step</source>
+        <source>z-stack: {count} pictures: must be at most {most}; use a larger step</source>
         <translation>Z-Stapel: {count} Bilder: höchstens {most}; einen größeren Schritt nehmen</translation>
     </message>
     <message>
@@ -4477,7 +4473,7 @@
         <translation>Z-Stapel: es gibt kein Bild; eine Kamera öffnen</translation>
     </message>
     <message>
-        <source>z-stack: {count} pictures of {each} MB: at most {most} MB together; take a larger step, or a part of the sensor</source>
+        <source>z-stack: {count} pictures of {each} MB: must be at most {most} MB together; use a larger step, or a part of the sensor</source>
         <translation>Z-Stapel: {count} Bilder zu {each} MB: zusammen höchstens {most} MB; einen größeren Schritt nehmen, oder einen Teil des Sensors</translation>
     </message>
     <message>
@@ -4485,23 +4481,23 @@
         <translation>{path}: Der Inhalt ist nicht der der Aufzeichnung {name}; wählen Sie die Datei, die verschoben wurde</translation>
     </message>
     <message>
-        <source>{path}: {rows} samples are too many to be taken as one record (at most {most}); export a stretch of it in the panel Recorder</source>
+        <source>{path}: {rows} samples are too many for one record (at most {most}); export a section in the panel Recorder</source>
         <translation>{path}: {rows} Abtastwerte sind zu viele für eine Aufzeichnung (höchstens {most}); exportieren Sie einen Abschnitt im Panel Rekorder</translation>
     </message>
     <message>
-        <source>{path}: it cannot be deleted ({reason}); let this user write there</source>
+        <source>{path} cannot be deleted ({reason}); give this user permission to write there</source>
         <translation>{path}: Die Datei lässt sich nicht löschen ({reason}); geben Sie diesem Benutzer dort Schreibrecht</translation>
     </message>
     <message>
-        <source>{path}: the library of records cannot be used ({reason}); make room, or let this user write there. The records themselves are untouched</source>
+        <source>{path}: the library of records cannot be used ({reason}); free disk space, or give this user permission to write there. The records themselves are untouched</source>
         <translation>{path}: Die Bibliothek der Aufzeichnungen ist nicht benutzbar ({reason}); schaffen Sie Platz, oder geben Sie diesem Benutzer dort Schreibrecht. Die Aufzeichnungen selbst sind unberührt</translation>
     </message>
     <message>
-        <source>{path}: the library of records is of version {version}, this program uses {own}: start the newer program, or move the file away; the records are then listed anew, without the names and notes that were typed</source>
+        <source>{path}: the library of records has version {version}, but this program uses {own}: start the newer program, or move the file away; the records are then listed again, without their names and notes</source>
         <translation>{path}: Die Bibliothek der Aufzeichnungen hat Version {version}, dieses Programm benutzt {own}: Starten Sie das neuere Programm, oder verschieben Sie die Datei; die Aufzeichnungen werden dann neu aufgelistet, ohne eingegebene Namen und Notizen</translation>
     </message>
     <message>
-        <source>{path}: the library of records was damaged; it is kept as {aside}. The records are listed anew from their files, without the names and notes that were typed</source>
+        <source>{path}: the library of records was damaged; it is kept as {aside}. The records are listed again from their files, without their names and notes</source>
         <translation>{path}: Die Bibliothek der Aufzeichnungen war beschädigt; sie ist als {aside} aufbewahrt. Die Aufzeichnungen sind aus ihren Dateien neu aufgelistet, ohne eingegebene Namen und Notizen</translation>
     </message>
     <message>
@@ -4529,23 +4525,23 @@
         <translation>Profil von {count} Takten: eine Karte zählt höchstens {most}; verkürzen</translation>
     </message>
     <message>
-        <source>{folder}: there is no such folder; make it, or name another one</source>
+        <source>{folder}: folder not found; create it, or name another one</source>
         <translation>{folder}: diesen Ordner gibt es nicht; anlegen oder einen anderen nennen</translation>
     </message>
     <message>
-        <source>{place}: it is there already and is not overwritten; choose another name or folder</source>
+        <source>{place} already exists and is not overwritten; choose another name or folder</source>
         <translation>{place}: gibt es schon und wird nicht überschrieben; einen anderen Namen oder Ordner wählen</translation>
     </message>
     <message>
-        <source>{name} cannot be the name of a plugin: it must be small letters, digits and single underscores, a letter first, at most {longest} signs, such as &apos;glass_stage&apos;</source>
+        <source>{name} cannot be the name of a plugin: it must have small letters, digits and single underscores, a letter first, at most {longest} characters, such as &apos;glass_stage&apos;</source>
         <translation>{name} kann kein Plugin heißen: erlaubt sind Kleinbuchstaben, Ziffern und einzelne Unterstriche, zuerst ein Buchstabe, höchstens {longest} Zeichen, etwa &apos;glass_stage&apos;</translation>
     </message>
     <message>
-        <source>the {kind} {name} is there already{package}; choose another name</source>
+        <source>the {kind} {name} already exists{package}; choose another name</source>
         <translation>{kind} {name} gibt es schon{package}; einen anderen Namen wählen</translation>
     </message>
     <message>
-        <source>{place}: it cannot be written ({reason}); choose another folder or make room</source>
+        <source>{place} cannot be written ({reason}); choose another folder, or free disk space</source>
         <translation>{place}: kann nicht geschrieben werden ({reason}); einen anderen Ordner wählen oder Platz schaffen</translation>
     </message>
     <message>
@@ -5167,8 +5163,8 @@
         <translation>Geschrieben von RoTeMiNa {version} aus {file}.</translation>
     </message>
     <message>
-        <source>No axis has a gap that could be told: none was seen to move.</source>
-        <translation>Von keiner Achse lässt sich eine Abweichung angeben: keine bewegte sich sichtbar.</translation>
+        <source>No axis has a gap: none was seen to move.</source>
+        <translation>Keine Achse hat eine Abweichung: keine bewegte sich sichtbar.</translation>
     </message>
     <message>
         <source>Largest gap: {axis}, {gap}</source>
@@ -5237,6 +5233,34 @@
     <message>
         <source>Command, model in use and measured of {axis}, and the gap</source>
         <translation>Sollwert, Modell im Einsatz und Messwert von {axis}, und die Abweichung</translation>
+    </message>
+    <message>
+        <source>axis {axis}: {parameter} {asked} → {used} (× {factor}), for {cause}</source>
+        <translation>Achse {axis}: {parameter} {asked} → {used} (× {factor}), wegen: {cause}</translation>
+    </message>
+    <message>
+        <source>{range} of the motion that the model predicts</source>
+        <translation>{range} der Bewegung, die das Modell vorhersagt</translation>
+    </message>
+    <message>
+        <source>the limits</source>
+        <translation>die Grenzen</translation>
+    </message>
+    <message>
+        <source>the speed limit {limit}</source>
+        <translation>die Geschwindigkeitsgrenze {limit}</translation>
+    </message>
+    <message>
+        <source>the acceleration limit {limit}</source>
+        <translation>die Beschleunigungsgrenze {limit}</translation>
+    </message>
+    <message>
+        <source>the range {low} to {high}</source>
+        <translation>der Bereich {low} bis {high}</translation>
+    </message>
+    <message>
+        <source>{limits} and the jerk</source>
+        <translation>{limits} und der Ruck</translation>
     </message>
 </context>
 </TS>

@@ -1553,7 +1553,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>{name}: beschreibt einen anderen Roboter als den diagnostizierten, {robot_name}: sie unterscheiden sich in {differences}; mit dieser Datei neu diagnostizieren oder sie weglassen, um den diagnostizierten zu schreiben</translation>
     </message>
     <message>
-        <source>{fspath}: it exists already; name another file</source>
+        <source>{fspath} already exists; name another file</source>
         <translation>{fspath}: gibt es schon; eine andere Datei nennen</translation>
     </message>
     <message>

@@ -425,11 +425,11 @@
     </message>
     <message>
         <source>The stick acts only while this is pressed</source>
-        <translation>Der Knüppel wirkt nur, solange dies gedrückt ist</translation>
+        <translation>Der Joystick wirkt nur, solange dies gedrückt ist</translation>
     </message>
     <message>
         <source>While this is pressed, the stick moves without the robot</source>
-        <translation>Solange dies gedrückt ist, bewegt sich der Knüppel ohne den Roboter</translation>
+        <translation>Solange dies gedrückt ist, bewegt sich der Joystick ohne den Roboter</translation>
     </message>
     <message>
         <source>A tenth of the scale while this is pressed</source>

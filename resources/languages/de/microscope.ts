@@ -510,7 +510,7 @@
         <translation>Reichweite</translation>
     </message>
     <message>
-        <source>Show all that the axes can reach</source>
+        <source>Show everything within reach of the axes</source>
         <translation>Alles zeigen, was die Achsen erreichen</translation>
     </message>
     <message>
@@ -530,12 +530,12 @@
         <translation>die Position ist nicht bekannt</translation>
     </message>
     <message>
-        <source>Lift the tip above both places, go across, come down</source>
+        <source>Raise the tip above both places, move across, lower it</source>
         <translation>Die Spitze über beide Orte heben, verfahren, absenken</translation>
     </message>
     <message>
-        <source>A far way: go?</source>
-        <translation>Ein weiter Weg: fahren?</translation>
+        <source>Far away: go there?</source>
+        <translation>Weit entfernt: hinfahren?</translation>
     </message>
     <message>
         <source>Click a place to choose it.</source>
@@ -582,7 +582,7 @@
         <translation>Hintergrund aufnehmen</translation>
     </message>
     <message>
-        <source>watch the drift</source>
+        <source>monitor drift</source>
         <translation>Drift beobachten</translation>
     </message>
     <message>

@@ -143,7 +143,7 @@
         <translation>Weniger ▾</translation>
     </message>
     <message>
-        <source>Runs, the latest first</source>
+        <source>Runs, latest first</source>
         <translation>Läufe, der neueste zuerst</translation>
     </message>
     <message>
@@ -371,16 +371,16 @@
         <translation>Nachhalten</translation>
     </message>
     <message>
-        <source>Speed back</source>
-        <translation>Tempo zurück</translation>
+        <source>Return speed</source>
+        <translation>Rückfahrgeschwindigkeit</translation>
     </message>
     <message>
         <source>Speed of the retraction</source>
         <translation>Geschwindigkeit des Rückzugs</translation>
     </message>
     <message>
-        <source>Depth off by</source>
-        <translation>Tiefenfehler</translation>
+        <source>Depth tolerance</source>
+        <translation>Tiefentoleranz</translation>
     </message>
     <message>
         <source>Overload</source>

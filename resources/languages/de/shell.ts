@@ -32,11 +32,11 @@
         <translation>Regelkreis öffnen</translation>
     </message>
     <message>
-        <source>putting an inverse on</source>
+        <source>applying an inverse</source>
         <translation>inverses Modell einschalten</translation>
     </message>
     <message>
-        <source>taking an inverse off</source>
+        <source>removing an inverse</source>
         <translation>inverses Modell abschalten</translation>
     </message>
     <message>
@@ -52,7 +52,7 @@
         <translation>Achsen reservieren</translation>
     </message>
     <message>
-        <source>changing how an axis comes to its targets</source>
+        <source>changing the approach of an axis</source>
         <translation>Ändern, wie eine Achse ihre Ziele anfährt</translation>
     </message>
     <message>
@@ -68,7 +68,7 @@
         <translation>Profil</translation>
     </message>
     <message>
-        <source>putting out a voltage</source>
+        <source>setting a voltage</source>
         <translation>Spannung ausgeben</translation>
     </message>
     <message>
@@ -104,7 +104,7 @@
         <translation>abspielen</translation>
     </message>
     <message>
-        <source>put out a voltage</source>
+        <source>set a voltage</source>
         <translation>eine Spannung ausgeben</translation>
     </message>
     <message>
@@ -116,7 +116,7 @@
         <translation>ein Profil ausführen</translation>
     </message>
     <message>
-        <source>show a text</source>
+        <source>show text</source>
         <translation>einen Text anzeigen</translation>
     </message>
     <message>
@@ -128,7 +128,7 @@
         <translation>das Werkzeug einschalten</translation>
     </message>
     <message>
-        <source>take a profile</source>
+        <source>accept a profile</source>
         <translation>ein Profil annehmen</translation>
     </message>
     <message>
@@ -136,7 +136,7 @@
         <translation>seine Parameter schreiben</translation>
     </message>
     <message>
-        <source>go on with</source>
+        <source>resume</source>
         <translation>fortsetzen</translation>
     </message>
     <message>
@@ -472,7 +472,7 @@
         <translation>und</translation>
     </message>
     <message>
-        <source>{output}: the folder cannot be made: {strerror}</source>
+        <source>{output}: the folder cannot be created: {strerror}</source>
         <translation>{output}: der Ordner lässt sich nicht anlegen: {strerror}</translation>
     </message>
     <message>
@@ -875,8 +875,8 @@
         <translation>keine Meldung wird gezeigt</translation>
     </message>
     <message>
-        <source>Window late by {usual} ms at most in 99 %, worst {worst} ms</source>
-        <translation>Fenster zu 99 % höchstens {usual} ms verspätet, schlimmstens {worst} ms</translation>
+        <source>Window delay: at most {usual} ms in 99 %, worst {worst} ms</source>
+        <translation>Verzögerung des Fensters: in 99 % höchstens {usual} ms, schlimmstens {worst} ms</translation>
     </message>
     <message>
         <source>Messages, newest first</source>

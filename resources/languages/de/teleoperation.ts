@@ -335,7 +335,7 @@ Leer  Kupplung</translation>
         <translation>{left} – zentrieren</translation>
     </message>
     <message>
-        <source>not by this mode</source>
+        <source>not in this mode</source>
         <translation>nicht in diesem Modus</translation>
     </message>
     <message>
@@ -452,7 +452,7 @@ Leer  Kupplung</translation>
     </message>
     <message>
         <source>The stick tilts the tool while the tables hold its tip in place.</source>
-        <translation>Der Knüppel neigt das Werkzeug, während die Tische seine Spitze am Ort halten.</translation>
+        <translation>Der Joystick neigt das Werkzeug, während die Tische seine Spitze am Ort halten.</translation>
     </message>
     <message>
         <source>The stick pushes a virtual mass with or without a spring; a contact pushes back.</source>

@@ -111,7 +111,7 @@
         <translation>Das Programm antwortet nicht: die Zeichnung ist veraltet.</translation>
     </message>
     <message>
-        <source>No news from the program: the drawing is out of date.</source>
+        <source>No data from the program: the drawing is out of date.</source>
         <translation>Keine Nachricht vom Programm: die Zeichnung ist veraltet.</translation>
     </message>
     <message>

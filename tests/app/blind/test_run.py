@@ -214,7 +214,7 @@ def test_labels_that_cannot_be_understood_are_said(tmp_path, ask, labels, said):
         (["--from", "own"], "--from DIR and --labels FILE belong together"),
         (["--from", "nowhere", "--labels", "l.json"], "nowhere: there is no such folder"),
         (["--from", ".", "--labels", "l.json"], "no folder in it holds records"),
-        (["--from", "own", "--labels", "l.json"], "l.json: it cannot be read"),
+        (["--from", "own", "--labels", "l.json"], "l.json cannot be read"),
         (["--from", "own", "--labels", "l.json", "--cases", "3"], "all cases of the folder"),
         (["--cases", "0"], "at least 1 case"),
         (["--robot", "picma"], "no cases can be made of it"),

@@ -86,7 +86,7 @@ def test_a_file_is_strict(robot, before, after, said):
 
 
 def test_one_that_is_not_better_is_not_kept(robot):
-    with pytest.raises(CalibrationError, match="not better and not used"):
+    with pytest.raises(CalibrationError, match="the calibration is not better and is not used"):
         kept(made(after=4.99e-7), robot.name, (SOURCE,), NOON)
 
 

@@ -125,7 +125,7 @@ def test_a_stop_gives_a_run_up(bench):
     bench.step(10)
     assert run.state.phase is Phase.FAILED
     assert run.record is None
-    with pytest.raises(RefusedError, match="begun before"):
+    with pytest.raises(RefusedError, match="already started"):
         run.start()
 
 

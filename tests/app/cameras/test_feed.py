@@ -143,7 +143,7 @@ def test_unplugged_while_live_and_started_again(feed, camera):
 
 
 def test_a_camera_that_cannot_be_opened(feed, camera):
-    camera.refuses = CameraLostError("Puppet: not there; plug it in")
+    camera.refuses = CameraLostError("Puppet: not connected; plug it in")
     feed.start()
     assert feed.close(PATIENCE_S)
     assert (feed.view.state, feed.view.frame) == (FeedState.LOST, None)

@@ -78,7 +78,7 @@ def test_a_host_talks_to_boards_and_stops_them_and_all_ends_cleanly(tmp_path):
             os.close(handle)
             process.send_signal(signal.SIGTERM)
             assert process.wait(ANSWER_S) == 0
-            assert "fault 'nonsense': there is no such command" in process.stderr.read()
+            assert "fault 'nonsense': unknown command" in process.stderr.read()
         finally:
             process.kill()
     assert not any(link.is_symlink() for link in links)
@@ -160,17 +160,17 @@ def test_on_a_socket_until_standard_input_closes():
     ("arguments", "words"),
     [
         (["--robot", "emps"], "axis q is moved by a force"),
-        (["--tcp", "0.0.0.0:5000"], "'0.0.0.0' is not this machine's own loop"),
+        (["--tcp", "0.0.0.0:5000"], "'0.0.0.0' is not a loopback address"),
         (["--tcp", "127.0.0.1:x"], "the port must be a number"),
         (["--tcp", "5000"], "'no host' is not"),
         (["--baud", "19200"], "must be one of 125000, 9600"),
         (["--seed", "-1"], "--seed -1: must be 0 or more"),
         (["--mishaps", "-1"], "--mishaps -1: must be from 0"),
-        (["--bus", "--robot", "fsm"], "take one board"),
-        (["--bus", "--port", "a", "--port", "b"], "name one port only"),
-        (["--port", "a", "--port", "b", "--port", "c"], "3 ports: two boards have 2 at most"),
-        (["--port", "a", "--port", "b", "--robot", "fsm"], "take one board"),
-        (["--port", "nowhere/at/all"], "--port nowhere/at/all: cannot make a link there"),
+        (["--bus", "--robot", "fsm"], "need only one board"),
+        (["--bus", "--port", "a", "--port", "b"], "name only one port"),
+        (["--port", "a", "--port", "b", "--port", "c"], "3 ports: two boards have at most 2"),
+        (["--port", "a", "--port", "b", "--robot", "fsm"], "need only one board"),
+        (["--port", "nowhere/at/all"], "--port nowhere/at/all: cannot create a link there"),
     ],
 )
 def test_what_cannot_be_served_is_refused_in_one_line(
@@ -194,7 +194,7 @@ def test_nothing_is_overwritten_by_the_name_of_a_port(tmp_path, capsys, kind):
     else:
         name.symlink_to("/dev/null" if kind == "live link" else tmp_path / "gone")
     assert main(["board", "--bus", "--port", str(name)]) == 2
-    assert "there is something of this name already" in capsys.readouterr().err
+    assert "already exists" in capsys.readouterr().err
     assert name.exists() or name.is_symlink()
 
 

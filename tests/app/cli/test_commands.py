@@ -63,7 +63,7 @@ def test_two_runs_are_compared_as_a_run_and_a_model_are(in_tmp, capsys):
     assert tap["rms"] == pytest.approx(2e-5 * np.sin(0.02 * np.pi) / 2**0.5, rel=0.01)
     assert "tip path: the joints of a tip were not all measured" in capsys.readouterr().out
     assert main(["compare", "two.csv", "--with", "one.csv", "--fit", "gain"]) == 2
-    assert "--fit: it re-fits the model" in capsys.readouterr().err
+    assert "--fit re-fits the model" in capsys.readouterr().err
 
 
 def write_trajectory(name, axis, time_s, command, unit="m"):
@@ -182,7 +182,7 @@ def test_a_bad_file_is_one_clear_line_and_status_2(in_tmp, capsys, name, command
         (["compare", "."], "."),
         (["compare", "r.csv", "--robot", "nobody"], "nobody: no such robot"),
         (["compare", "r.csv", "--fit", "speed"], "'speed' cannot be re-fitted"),
-        (["compare", "r.csv", "--plot", "out.bmp"], "out.bmp: a picture's name ends in"),
+        (["compare", "r.csv", "--plot", "out.bmp"], "out.bmp: the name of a picture must end in"),
         (["compare", "r.csv", "--json", "no/such/folder/out.json"], "cannot be written"),
         (["convert", "r.csv", "-o", "out.csv", "--units", "kg"], "unknown unit 'kg'"),
         (["convert", "r.csv", "-o", "out.csv", "--units", "V"], "a length or an angle"),

@@ -101,14 +101,14 @@ def test_the_simulator_is_learned_from_and_the_same_seed_gives_the_same_bytes():
         ("train --simulate --axis zn --seed -1 -o it.json", "--seed -1: must be 0 or more"),
         ("train a.csv --seed 1 -o it.json", "--effects and --seed belong to --simulate"),
         ("train a.csv -o no/it.json", "there is no folder no"),
-        ("train a.csv -o a.csv", "a.csv: it is named twice"),
-        ("train none.csv -o it.json", "none.csv: it cannot be read (there is no such file)"),
+        ("train a.csv -o a.csv", "a.csv is named twice"),
+        ("train none.csv -o it.json", "none.csv cannot be read (file not found)"),
         ("train two.csv -o it.json", "two.csv: its piezo axes are thx, zn; name one by --axis"),
         ("train a.csv --axis thx -o it.json", "axis thx needs the columns thx.cmd"),
         ("train x.csv --axis x -o it.json", "has no such piezo axis; use one of thx, thy, zn"),
         ("train bare.csv -o it.json", "needs the columns zn.cmd and zn.meas or zn.ref"),
         ("check a.csv a.csv", "a.csv: the file: Invalid JSON"),
-        ("check none.json a.csv", "none.json: it cannot be read"),
+        ("check none.json a.csv", "none.json cannot be read"),
     ],
 )
 def test_a_bad_request_is_one_clear_line_and_status_2(arguments, message, capsys):
@@ -128,7 +128,7 @@ def test_inverses_of_another_robot_are_refused(capsys):
     write("a.csv")
     assert main(["compensate", "train", "a.csv", "-o", "zn.json"]) == 0
     assert main(["compensate", "check", "zn.json", "a.csv", "--robot", "picma"]) == 2
-    assert "it was trained for robot 'RoTeMiNa', not for" in capsys.readouterr().err
+    assert "was trained for robot 'RoTeMiNa', not for" in capsys.readouterr().err
 
 
 def test_a_trajectory_is_compensated_and_played(capsys):
@@ -159,4 +159,4 @@ def test_a_trajectory_is_compensated_and_played(capsys):
         assert main(arguments.split()) == 2
         assert "inverse of axis zn" in capsys.readouterr().err
     assert main(["compensate", "apply", "zn.json", "way.csv", "-o", "way.csv"]) == 2
-    assert "way.csv: it is named twice" in capsys.readouterr().err
+    assert "way.csv is named twice" in capsys.readouterr().err

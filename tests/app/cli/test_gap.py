@@ -216,7 +216,7 @@ def test_a_report_that_cannot_be_written_leaves_no_document(asked, capsys):
     Path("out.html").mkdir()
     asked_for = ["--report", "out.html", "--json", "out.json"]
     assert main(["gap", "diagnose", "r.csv", *asked_for]) == 2
-    assert "out.html: it is a folder; name a file in it" in capsys.readouterr().err
+    assert "out.html is a folder; name a file in it" in capsys.readouterr().err
     assert files() == ["out.html", "r.csv"]
 
 
@@ -224,7 +224,7 @@ def test_a_folder_that_is_missing_is_said_before_the_work(asked, capsys):
     write_measured()
     for option in ("--json", "--report"):
         assert main(["gap", "diagnose", "r.csv", option, "no/such/out"]) == 2
-        assert "no/such/out: it cannot be written, there is no folder" in capsys.readouterr().err
+        assert "no/such/out cannot be written: there is no folder" in capsys.readouterr().err
     assert not asked
 
 
@@ -236,16 +236,19 @@ def test_a_folder_that_is_missing_is_said_before_the_work(asked, capsys):
         ("diagnose r.csv --robot picma", "robot 'PICMA P-885.91' has no axis 'thx'"),
         ("diagnose r.csv --seed -1", "--seed -1: must be 0 or more"),
         ("diagnose r.csv --jobs 0", "--jobs 0: must be 1 or more"),
-        ("diagnose r.csv --json ./r.csv", "r.csv: it is named twice"),
-        ("diagnose r.csv --robot own.toml --json own.toml", "own.toml: it is named twice"),
-        ("diagnose r.csv --report r.csv", "r.csv: it is named twice"),
-        ("diagnose r.csv --json o.html --report ./o.html", "o.html: it is named twice"),
-        ("diagnose r.csv --json no/such/out.json", "no/such/out.json: it cannot be written"),
-        ("diagnose o_experiment_1.csv --json o.json", "a suggested experiment of o.json would"),
-        ("predict none.json r.csv", "none.json: it cannot be read"),
+        ("diagnose r.csv --json ./r.csv", "r.csv is named twice"),
+        ("diagnose r.csv --robot own.toml --json own.toml", "own.toml is named twice"),
+        ("diagnose r.csv --report r.csv", "r.csv is named twice"),
+        ("diagnose r.csv --json o.html --report ./o.html", "o.html is named twice"),
+        ("diagnose r.csv --json no/such/out.json", "no/such/out.json cannot be written"),
+        (
+            "diagnose o_experiment_1.csv --json o.json",
+            "would be overwritten by a suggested experiment of o.json",
+        ),
+        ("predict none.json r.csv", "none.json cannot be read"),
         ("predict r.csv r.csv", "r.csv:1: not valid JSON"),
-        ("twin none.json -o t.toml", "none.json: it cannot be read"),
-        ("", "name what to do: diagnose, predict"),
+        ("twin none.json -o t.toml", "none.json cannot be read"),
+        ("", "name a subcommand: diagnose, predict"),
     ],
 )
 def test_a_bad_request_is_one_clear_line_and_status_2(asked, arguments, message, capsys):
@@ -284,9 +287,9 @@ def test_predict_needs_no_other_file(document, made_diagnosis, capsys):
     expected = simulate(corrected, None, read_record("c.csv"))
     assert np.array_equal(found.values, expected.values)
     assert main(["gap", "predict", document, "c.csv"]) == 2
-    assert "c-predicted.csv: it exists already" in capsys.readouterr().err
+    assert "c-predicted.csv already exists" in capsys.readouterr().err
     assert main(["gap", "predict", document, "c.csv", "-o", "c.csv"]) == 2
-    assert "c.csv: it is named twice" in capsys.readouterr().err
+    assert "c.csv is named twice" in capsys.readouterr().err
 
 
 def test_predict_refuses_commands_of_another_robot(document, capsys):
@@ -308,7 +311,7 @@ def test_a_twin_is_a_robot_file_that_every_command_takes(document, made_diagnosi
     assert main(["gap", "predict", document, "r.csv", "-o", "p.csv"]) == 0
     assert np.array_equal(read_record("s.csv").values, read_record("p.csv").values)
     assert main(["gap", "twin", document, "-o", "twin.toml"]) == 2
-    assert "twin.toml: it exists already" in capsys.readouterr().err
+    assert "twin.toml already exists" in capsys.readouterr().err
     assert main(["gap", "twin", document, "-o", "t.toml", "--robot", "picma"]) == 2
     assert "picma: it describes another robot" in capsys.readouterr().err
     assert not Path("t.toml").exists()
@@ -382,7 +385,7 @@ def test_a_cluster_that_does_not_answer_is_said(monkeypatch, capsys, asked):
     distributed = types.SimpleNamespace(Client=client, KilledWorker=RuntimeError)
     monkeypatch.setitem(sys.modules, "distributed", distributed)
     assert main(["gap", "diagnose", "r.csv", "--cluster", "tcp://host:8786"]) == 2
-    assert "--cluster tcp://host:8786: it cannot be reached" in capsys.readouterr().err
+    assert "--cluster tcp://host:8786 cannot be reached" in capsys.readouterr().err
     assert not asked
 
 
@@ -398,5 +401,5 @@ def test_a_cluster_without_workers_is_said(monkeypatch, capsys, asked):
     distributed = types.SimpleNamespace(Client=Client, KilledWorker=RuntimeError)
     monkeypatch.setitem(sys.modules, "distributed", distributed)
     assert main(["gap", "diagnose", "r.csv", "--cluster", "tcp://host:8786"]) == 2
-    assert "--cluster tcp://host:8786: it has no workers" in capsys.readouterr().err
+    assert "--cluster tcp://host:8786 has no workers" in capsys.readouterr().err
     assert not asked

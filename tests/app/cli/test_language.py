@@ -21,11 +21,9 @@ def refusal(capsys, *arguments):
 
 
 def test_a_refusal_is_german_where_german_is_asked_for_or_spoken(capsys, monkeypatch):
-    english = (
-        "rotemina: missing.csv: it cannot be read (there is no such file); name a record file\n"
-    )
+    english = "rotemina: missing.csv cannot be read (file not found); name a record file\n"
     german = (
-        "rotemina: missing.csv: kann nicht gelesen werden (diese Datei gibt es nicht); eine Datei "
+        "rotemina: missing.csv kann nicht gelesen werden (Datei nicht gefunden); eine Datei "
         "mit einer Aufzeichnung nennen\n"
     )
     assert refusal(capsys) == english

@@ -58,7 +58,7 @@ def test_a_folder_is_recovered_but_for_what_is_none(crashed, capsys):
     assert main(["recording", "recover", "."]) == 2
     told = capsys.readouterr()
     assert told.out == "run.arrows\n"
-    assert "bad.arrows.part: no recording of this program" in told.err
+    assert "bad.arrows.part: not an interrupted recording of this program" in told.err
     crashed.with_name("bad.arrows.part").unlink()
     assert main(["recording", "recover", "."]) == 0
     assert "nothing to recover" in capsys.readouterr().out
@@ -82,11 +82,11 @@ def test_export_a_record_and_a_trajectory_that_plays(crashed, capsys):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["info", "none.arrows"], "none.arrows: it cannot be read"),
+        (["info", "none.arrows"], "none.arrows cannot be read"),
         (["info", "run.arrows.part"], "recover it first"),
         (["recover", "none.arrows.part"], "cannot be read"),
-        (["export", "run.arrows", "-o", "run.arrows"], "is the file that is read"),
-        (["export", "run.arrows", "-o", "a.csv", "--from", "3"], "no samples from there to there"),
+        (["export", "run.arrows", "-o", "run.arrows"], "is the input file"),
+        (["export", "run.arrows", "-o", "a.csv", "--from", "3"], "no samples in this section"),
         (["export", "run.arrows", "-o", "a.csv", "--from", "2", "--to", "1"], "in order"),
         (["export", "run.arrows", "-o", "a.csv", "--period", "0"], "--period 0"),
         (
@@ -116,4 +116,4 @@ def test_a_report_is_written_of_a_recording_and_of_a_record(crashed, capsys, mon
     page = crashed.with_name("csv.html").read_text("utf-8")
     assert page.count("<svg") == 1
     assert main(["recording", "report", "run.csv", "-o", "run.csv"]) == 2
-    assert "it is the file that is read" in capsys.readouterr().err
+    assert "is the input file" in capsys.readouterr().err

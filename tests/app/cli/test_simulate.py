@@ -204,17 +204,17 @@ def test_a_refusal_in_a_later_piece_leaves_no_file(name, capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ("none.csv -o r.csv", "none.csv: it cannot be read (there is no such file)"),
+        ("none.csv -o r.csv", "none.csv cannot be read (file not found)"),
         ("c.csv -o r.csv --robot nobody", "nobody: no such robot"),
         ("c.csv -o r.csv --robot emps", "robot 'EMPS' has no axis 'x'"),
         ("c.csv -o r.csv --effects none.toml", "none.toml: no such robot file"),
         ("c.csv -o r.csv --effects q.toml", "q.toml: on robot 'RoTeMiNa': axis.q.effect delay"),
         ("c.csv -o r.csv --seed -1", "--seed -1: must be 0 or more"),
-        ("c.csv -o c.csv", "c.csv: it is named twice"),
-        ("c.csv -o r.csv --loads r.csv", "r.csv: it is named twice"),
-        ("c.csv -o r.csv --loads ./c.csv", "c.csv: it is named twice"),
-        ("c.csv -o no/such/r.csv", "no/such/r.csv: it cannot be written"),
-        ("c.csv -o r.csv --loads no/such/l.csv", "no/such/l.csv: it cannot be written"),
+        ("c.csv -o c.csv", "c.csv is named twice"),
+        ("c.csv -o r.csv --loads r.csv", "r.csv is named twice"),
+        ("c.csv -o r.csv --loads ./c.csv", "c.csv is named twice"),
+        ("c.csv -o no/such/r.csv", "no/such/r.csv cannot be written"),
+        ("c.csv -o r.csv --loads no/such/l.csv", "no/such/l.csv cannot be written"),
         ("p.csv -o r.csv", "period_samples = 5000: the record has only 2000 rows"),
     ],
 )

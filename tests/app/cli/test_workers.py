@@ -97,7 +97,7 @@ def _ends_its_process(_):
 def test_work_that_ends_its_worker_ends_the_run_with_an_error(cluster):
     cluster.scheduler.allowed_failures = 0  # otherwise three more try it first
     with (
-        pytest.raises(InputError, match=r"--cluster: a worker of it died again"),
+        pytest.raises(InputError, match=r"--cluster: a worker died repeatedly"),
         workers(None, cluster.scheduler_address) as jobs,
     ):
         joblib.Parallel(n_jobs=jobs)([joblib.delayed(_ends_its_process)(1)])

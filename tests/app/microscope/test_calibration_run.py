@@ -100,7 +100,7 @@ class Spoilt:
         (Spoilt.stalled, "stalled"),
         (Spoilt.black, "black"),
         (Spoilt.smaller, "400 × 300 px"),
-        (Spoilt.empty, "nothing looks like it"),
+        (Spoilt.empty, "nothing in the picture matches it"),
     ],
 )
 def test_a_picture_that_cannot_be_trusted_ends_it_without_further_moves(bench, how, told):
@@ -121,7 +121,7 @@ def test_a_featureless_picture_is_refused_before_anything_moves(bench):
     before = dict(bench.session.snapshot().command)
     status = bench.run(bench.begin())
     assert status.phase is Phase.FAILED
-    assert "nothing looks like it" in status.reason
+    assert "nothing in the picture matches it" in status.reason
     assert bench.session.snapshot().command == before
 
 

@@ -94,7 +94,7 @@ def test_one_that_is_gone_is_said_and_opens_when_it_is_back(used):
     assert gone.camera is None
     assert gone.view.state is FeedState.LOST
     assert gone.view.reason == (
-        "Eye a (fake:a), the camera used last, is not there; plug it in, or choose another"
+        "Eye a (fake:a), the camera used last, is not connected; plug it in, or choose another"
     )
     gone.source.addresses.append("a")
     gone.step(10.0)
@@ -127,7 +127,7 @@ def test_who_closed_it_is_asked_anew(used):
     first = used("a")
     first.open("fake:a")
     first.step(0.1)
-    first.let_go()
+    first.close_and_forget()
     first.step(0.2)
     assert used("a").camera.identity.key == "simulated:microscope"
 

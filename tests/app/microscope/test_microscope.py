@@ -40,7 +40,7 @@ def test_nothing_is_opened_before_somebody_looks_and_then_by_itself(tmp_path, ma
     assert status.camera.key == "simulated:microscope"
     assert status.feed.frame is not None
     assert status.scale_source is ScaleSource.ROBOT_FILE
-    work.microscope.camera.let_go()
+    work.microscope.camera.close_and_forget()
     work.step(40)
     assert work.microscope.status.camera is None  # who closed it wants none
 
@@ -54,7 +54,7 @@ def test_another_machine_than_the_simulated_is_said_in_words():
     used.watched = True
     used.step(0.0)
     assert used.camera is None
-    assert "MC68HC11 board: only a simulated machine can be seen" in used.truth
+    assert "MC68HC11 board shows only a simulated machine" in used.truth
     with pytest.raises(MicroscopeError, match="there is no camera"):
         used.open("simulated:microscope")
 
@@ -143,7 +143,7 @@ def black(work):
 
 
 def lost(work):
-    work.feed.lose("it was unplugged")
+    work.feed.lose("was unplugged")
 
 
 @pytest.mark.parametrize(
@@ -189,7 +189,7 @@ def test_a_stop_since_the_wish_ends_a_click_and_a_visit_of_a_target(work):
         microscope.plan(place)
         permit = session.permit()
         session.stop()
-        with pytest.raises(RefusedError, match="ask again"):
+        with pytest.raises(RefusedError, match="try again"):
             go(confirmed=True, permit=permit)
         work.step(2)
         assert still(work)
@@ -224,7 +224,7 @@ def test_what_the_autofocus_found_is_kept_for_the_next_start(work, tmp_path, mak
     again.step()
     assert again.microscope.status.calibration is None
     assert again.microscope.status.pixel_m == pytest.approx(0.1675e-6)
-    with pytest.raises(MicroscopeError, match="'axes' does not focus"):
+    with pytest.raises(MicroscopeError, match="'axes' cannot focus"):
         again.microscope.autofocus("axes")
 
 

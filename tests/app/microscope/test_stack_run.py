@@ -43,7 +43,9 @@ def test_places_are_even_and_never_beyond_the_last():
     for step in (0.0, -UM, float("nan")):
         with pytest.raises(MicroscopeError, match="must be above 0 µm"):
             places_of(0.0, UM, step)
-    with pytest.raises(MicroscopeError, match="1001 pictures: at most 1000; take a larger step"):
+    with pytest.raises(
+        MicroscopeError, match="1001 pictures: must be at most 1000; use a larger step"
+    ):
         places_of(0.0, 1e-3, UM)
 
 
@@ -82,6 +84,8 @@ def test_a_stop_ends_it_where_it_is(bench):
 def test_what_does_not_fit_is_refused_before_anything_moves(bench, monkeypatch):
     moved = []
     monkeypatch.setattr(stack_run, "MOST_BYTES", 1_000_000)
-    with pytest.raises(MicroscopeError, match=r"5 pictures of 0\.7 MB: at most 1 MB together"):
+    with pytest.raises(
+        MicroscopeError, match=r"5 pictures of 0\.7 MB: must be at most 1 MB together"
+    ):
         started(bench, places_of(0.0, 4 * UM, UM), lambda *asked: moved.append(asked))
     assert moved == []

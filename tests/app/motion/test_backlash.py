@@ -93,7 +93,7 @@ def test_a_falling_approach_comes_from_above(machine):
 
 def test_an_approach_passes_range_narrowed_range_and_floor(machine):
     session = machine.session
-    with pytest.raises(OutOfLimitsError, match=r"to 10 µm begins at -10 µm, outside of 0 .* 20 µm"):
+    with pytest.raises(OutOfLimitsError, match=r"to 10 µm begins at -10 µm, outside 0 .* 20 µm"):
         session.go_to({"x": 1e-5})
     session.ranges.narrow("x", AT - 1e-3, AT + 1e-3)
     with pytest.raises(OutOfLimitsError, match="one-sided approach to"):

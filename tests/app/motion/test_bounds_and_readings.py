@@ -92,7 +92,7 @@ def test_the_wrong_reading_also_locks_motion_until_it_is_mended_and_confirmed(mi
     stepped.step()
     stepped.driver.off = {"z": -0.04}
     state = stepped.step(times=8)
-    assert state.locked.startswith("axis z reads 40 mm from where it was sent")
+    assert state.locked.startswith("axis z reads 40 mm away from its command")
     assert stepped.told(Faulted)
     stopped = stepped.until_idle().command["x"]
     assert 0.0275 < stopped < 0.03

@@ -128,9 +128,11 @@ def test_a_record_holds_what_was_wanted_what_was_sent_and_the_inverse(machine):
 
 def test_beyond_what_it_saw_nothing_goes(machine):
     session = machine.session
-    with pytest.raises(OutOfLimitsError, match="beyond 2 µm to 60 µm, which its inverse was"):
+    with pytest.raises(
+        OutOfLimitsError, match="outside 2 µm to 60 µm, the training range of its inverse"
+    ):
         session.go_to({"zn": 61e-6})
-    with pytest.raises(OutOfLimitsError, match="beyond 2 µm to 60 µm"):
+    with pytest.raises(OutOfLimitsError, match="outside 2 µm to 60 µm"):
         session.profiles.upload(Profile("zn", (ProfileSegment(0.1, 0.0, 0.0, -35e-6),)))
     with pytest.raises(CompensationError, match="which the inverse was trained on"):
         session.play(trajectory(PATH + 16e-6))
@@ -202,7 +204,7 @@ def test_no_voltage_is_put_out_past_it(machine):
     machine.session.set_voltage("zn", 60.0)
     machine.step(0.05, 2)
     (refused,) = [one for one in machine.events if isinstance(one, CommandRefused)]
-    assert "is compensated, which sets its voltage" in refused.message
+    assert "sets its voltage" in refused.message
 
 
 def test_sessions_without_an_inverse_send_what_is_wanted(make_stepped):

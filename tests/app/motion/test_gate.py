@@ -111,7 +111,7 @@ def test_a_request_made_while_latched_is_void_after_the_release(stepped, monkeyp
     permit = session.permit()
     session.release()
     stepped.step(0.02, 3)
-    with pytest.raises(RefusedError, match="ask again"):
+    with pytest.raises(RefusedError, match="try again"):
         session.go_to({"x": TARGET}, permit=permit)
     assert stands(stepped)
 
@@ -144,7 +144,7 @@ def test_a_plan_ends_with_the_stop_that_comes_while_it_is_made(stepped, tmp_path
     planned.set()
     operation._planning.join()
     assert stands(stepped)
-    assert "ask again" in told[0]
+    assert "try again" in told[0]
     operation.close()
 
 
@@ -171,7 +171,7 @@ def test_a_stop_does_not_wait_for_the_check_of_a_path(stepped, monkeypatch):
     session.stop()  # would hang here
     checked.set()
     thread.join()
-    assert "a stop came after this was asked for" in refusals[0]
+    assert "a stop came after this request" in refusals[0]
     assert stands(stepped)
 
 

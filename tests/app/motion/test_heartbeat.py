@@ -4,7 +4,7 @@ import pytest
 from tests.app.motion.test_session import there_and_back
 
 from rotemina.app.motion.heartbeat import PERIOD_S, SILENT_S
-from rotemina.app.motion.stop_request import PROGRAM
+from rotemina.app.motion.stop import PROGRAM
 from rotemina.drivers.samples import DeviceState
 
 BEGUN = {
@@ -23,7 +23,7 @@ def test_a_window_that_hangs_stops_what_moves(stepped, begin):
     assert session.snapshot().activity is not DeviceState.IDLE
     stepped.step(0.02, 7)
     stop = session.snapshot().stop
-    assert (stop.by, stop.why) == (PROGRAM, "the window does not answer")
+    assert (stop.by, stop.why) == (PROGRAM, "the window does not respond")
     stepped.until_idle()
     assert session.snapshot().stop is stop, "stopped once, not in every cycle"
 

@@ -104,7 +104,7 @@ def test_a_model_is_one_object_with_an_id_that_its_contents_decide():
 def test_what_no_command_foretells_is_left_out_and_said():
     model = corrected(Simulator(ROBOT), LOOP, NOISE)
     assert (model.effects, model.left_out) == ((LOOP,), (NOISE,))
-    with pytest.raises(ModelError, match="nothing that commands foretell"):
+    with pytest.raises(ModelError, match="nothing that commands can predict"):
         corrected(Simulator(ROBOT), NOISE)
 
 
@@ -310,7 +310,10 @@ def test_a_model_of_another_machine_is_refused(worn):
     model = corrected(worn.driver)
     other = replace(model, machine=Machine("0" * 64, model.machine.driver))
     use(worn, other)
-    assert "not of this machine: the robot file has changed" in worn.told(CommandRefused)[0].message
+    assert (
+        "belongs to another machine: the robot file has changed"
+        in worn.told(CommandRefused)[0].message
+    )
     assert not worn.session.model.corrected
 
 

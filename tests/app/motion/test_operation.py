@@ -9,8 +9,8 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.operation import PENETRATION, SCALES, Operation
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.recording.merging import unfinished
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import unfinished
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.scales import Scale, Scales
@@ -126,7 +126,7 @@ def test_recentring_brings_zn_to_mid_range_and_the_tip_stays(bench):
 def test_preparing_makes_room_for_a_penetration_and_the_tip_stays(bench):
     parameters = PenetrationParameters()
     tip = bench.run(0.1).tip
-    with pytest.raises(PenetrationError, match=r"32.5 µm of its range are left"):
+    with pytest.raises(PenetrationError, match=r"32.5 µm of travel left"):
         bench.operation.arm_penetration(parameters)
     bench.run(0.1)
     bench.operation.prepare_penetration(parameters)
@@ -136,7 +136,7 @@ def test_preparing_makes_room_for_a_penetration_and_the_tip_stays(bench):
     assert state.command["zn"] > 62e-6
     assert state.tip[2] == pytest.approx(tip[2], abs=2e-7)
     bench.operation.arm_penetration(parameters)
-    with pytest.raises(PenetrationError, match="its whole range is 65 µm"):
+    with pytest.raises(PenetrationError, match="the whole range is 65 µm"):
         bench.operation.prepare_penetration(replace(parameters, depth=7e-5))
     with pytest.raises(PenetrationError, match="only zn can be moved back"):
         bench.operation.prepare_penetration(replace(parameters, axis="z"))

@@ -8,7 +8,7 @@ from rotemina.app.motion.guard import Guard
 from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.mailbox import Move, RefusedError
 from rotemina.app.motion.reservations import Reservations
-from rotemina.app.motion.stop_request import PROGRAM, StopRequest
+from rotemina.app.motion.stop import PROGRAM, StopRequest
 from rotemina.app.motion.subscribers import Subscribers
 from rotemina.app.motion.tool import Tool
 from rotemina.app.motion.undo import Undo
@@ -37,7 +37,7 @@ def admission(link):
 
 
 def halt(link):
-    link.halt(StopRequest(PROGRAM, "", None))
+    link.stop(StopRequest(PROGRAM, "", None))
 
 
 def test_a_refused_request_leaves_neither_an_owner_nor_a_command(link, admission):

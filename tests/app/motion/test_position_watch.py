@@ -48,7 +48,7 @@ def test_a_bound_is_exceeded_only_where_every_sample_is_beyond_it_for_50_ms(port
     assert judged(error, portions=portions) == ([], [])
     error[100:152] = 1.01 * bound
     (lock, *_), _ = judged(error[:152], portions=portions)
-    assert lock.startswith("axis zn reads 22.9775 µm from where it was sent, 22.75 µm at most")
+    assert lock.startswith("axis zn reads 22.9775 µm away from its command; at most 22.75 µm")
 
 
 def test_outliers_say_nothing_however_large_and_many():
@@ -83,7 +83,7 @@ def test_a_reading_beyond_the_range_by_more_than_its_noise_alarms_once_until_it_
 
 def test_a_reading_far_beyond_the_range_locks():
     locks, alarms = beyond_the_range(np.full(100, 23e-6))
-    assert locks[0] == "axis zn reads 23 µm beyond its range, 22.75 µm at most"
+    assert locks[0] == "axis zn reads 23 µm beyond its range; at most 22.75 µm is permitted"
     assert alarms == []
 
 

@@ -191,7 +191,7 @@ def test_a_voltage_moves_its_piezo_and_is_held_against_every_limit(ready):
     with pytest.raises(OutOfLimitsError, match="no amplifier"):
         stepped.session.set_voltage("x", 1.0)
     low = ready(CLOSE)
-    with pytest.raises(RefusedError, match="move it instead"):
+    with pytest.raises(RefusedError, match="move the axis instead"):
         low.session.set_voltage("zn", 1.0)
 
 

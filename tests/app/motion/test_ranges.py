@@ -18,7 +18,7 @@ from rotemina.sim.trajectory.limits import OutOfLimitsError
 ROBOT = load_robot("rotemina")
 ZN = tuple(ROBOT.axes).index("zn")
 LOW, HIGH = 20e-6, 45e-6
-NARROWED = "is outside of 20 µm to 45 µm, to which its range was narrowed"
+NARROWED = "is outside 20 µm to 45 µm, its narrowed range"
 TIME_S = 1e-3 * np.arange(1000)
 SWING = np.sin(2.0 * np.pi * TIME_S) ** 2
 
@@ -85,8 +85,8 @@ def test_it_is_never_wider_and_holds_where_the_axis_stands(machine):
     for ends, why in (
         ((10e-6, 66e-6), "outside its range"),
         ((-1e-6, 50e-6), "outside its range"),
-        ((40e-6, 30e-6), "its low end must be lower"),
-        ((30e-6, 30e-6), "its low end must be lower"),
+        ((40e-6, 30e-6), "the low end must be lower"),
+        ((30e-6, 30e-6), "the low end must be lower"),
         ((float("nan"), 30e-6), "not a finite number"),
         ((40e-6, 50e-6), "is at 32.5 µm, outside 40 µm to 50 µm; move it inside first"),
     ):
@@ -128,7 +128,7 @@ def test_an_axis_that_begins_outside_only_comes_in(make_stepped):
     stepped.session.ranges.begin_with({"zn": (40e-6, 50e-6)})
     stepped.connect().step(0.05, 3)
     session = stepped.session
-    with pytest.raises(OutOfLimitsError, match="was narrowed"):
+    with pytest.raises(OutOfLimitsError, match="its narrowed range"):
         session.jog("zn", 1e-6)
     session.move_velocity({"zn": -1e-4}, 0.1)
     settle(stepped)

@@ -18,7 +18,7 @@ from rotemina.app.motion.state import (
     StateChanged,
     Stopped,
 )
-from rotemina.app.motion.stop_request import StopRequest
+from rotemina.app.motion.stop import StopRequest
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import ConnectionLostError, DriverTimeoutError, StateError
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
@@ -29,7 +29,7 @@ from rotemina.sim.trajectory import checked as checked_module
 from rotemina.sim.trajectory.checked import check
 from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.violations import TrajectoryError
+from rotemina.sim.trajectory.validation import TrajectoryError
 
 NOON = datetime(2026, 1, 2, 12)
 
@@ -122,7 +122,7 @@ def test_a_full_queue_refuses(make_stepped):
     made = make_stepped(queue_size=3)
     for _ in range(3):
         made.session.jog("x", 1e-5)
-    with pytest.raises(RefusedError, match="3 commands are waiting"):
+    with pytest.raises(RefusedError, match="3 commands are already waiting"):
         made.session.jog("x", 1e-5)
     assert made.session.snapshot().queued == 3
     made.until_idle()
@@ -533,7 +533,7 @@ def test_a_session_on_its_own_thread(make_stepped):
 
     session.subscribe(watch)
     session.start()
-    with pytest.raises(RefusedError, match="started before"):
+    with pytest.raises(RefusedError, match="already been started"):
         session.start()
     try:
         assert seen["connected"].wait(20)
@@ -561,12 +561,12 @@ def test_a_stop_says_who_asked_for_it_why_and_when(make_stepped):
     assert session.snapshot().stop is None
     session.stop(by=OPERATOR)
     assert session.snapshot().stop == StopRequest("operator", "", NOON)
-    session.stop("the window does not answer")
+    session.stop("the window does not respond")
     session.emergency_stop(by=OPERATOR)
     stepped.step()
     assert [str(event.request) for event in stepped.told(Stopped)] == [
         "Stopped by the operator at 12:00:00",
-        "Stopped by the program at 12:00:00: the window does not answer",
+        "Stopped by the program at 12:00:00: the window does not respond",
         "Stopped by the operator at 12:00:00: stop and lock",
     ]
 

@@ -72,7 +72,9 @@ def test_one_made_for_another_version_is_named(install, monkeypatch):
     for kind in Kind:
         plugin = others(kind)
         assert (plugin.package, plugin.version, plugin.loaded) == ("old_plugins", "0.9", None)
-        said = f"made for version 0 of the interface, this program has version {kind.api_version}"
+        said = (
+            f"made for version 0 of the interface, but this program has version {kind.api_version}"
+        )
         assert said in plugin.refused
 
 

@@ -66,13 +66,13 @@ def test_the_rules_of_style_are_those_of_the_program():
     ["", "Stage", "1st", "a-b", "a b", "_a", "a_", "a__b", "../a", "a/b", "ä", "a" * 31, "a\n"],
 )
 def test_a_bad_name_is_refused(tmp_path, name):
-    with pytest.raises(PluginNameError, match="must be small letters"):
+    with pytest.raises(PluginNameError, match="must have small letters"):
         new_plugin(Kind.PANEL, name, tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_name_that_is_taken_is_refused_for_that_kind_alone(tmp_path):
-    with pytest.raises(PluginNameError, match=r"effect 'delay' is there already.*package rotemina"):
+    with pytest.raises(PluginNameError, match=r"effect 'delay' already exists.*package rotemina"):
         new_plugin(Kind.EFFECT, "delay", tmp_path)
     assert new_plugin(Kind.PANEL, "delay", tmp_path).is_dir()
 
@@ -93,7 +93,7 @@ def test_nothing_is_overwritten(tmp_path, there):
 
 
 def test_a_missing_folder_is_refused(tmp_path):
-    with pytest.raises(PluginWriteError, match="no such folder"):
+    with pytest.raises(PluginWriteError, match="folder not found"):
         new_plugin(Kind.PANEL, "glass", tmp_path / "gone")
 
 

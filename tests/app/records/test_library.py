@@ -85,7 +85,7 @@ def test_a_file_that_cannot_be_read_says_why_and_keeps_nobody_from_the_others(da
     (data / "played" / "cut.csv.gz").write_bytes(b"\x1f\x8b\x08")
     problems = {one.path.name: one.problem for one in looked(data).entries}
     assert problems["good.csv"] == ""
-    assert "no recording of this program" in problems["spoilt.arrows"]
+    assert "not a recording of this program" in problems["spoilt.arrows"]
     assert "cut.csv.gz" in problems["cut.csv.gz"]
 
 
@@ -220,7 +220,7 @@ def test_a_library_of_a_newer_program_is_refused_and_left_alone(data):
     with sqlite3.connect(data / "records.sqlite3") as base:
         base.execute("PRAGMA user_version = 7")
     base.close()
-    with pytest.raises(LibraryError, match="is of version 7, this program uses 1"):
+    with pytest.raises(LibraryError, match="has version 7, but this program uses 1"):
         looked(data)
 
 

@@ -206,5 +206,5 @@ def test_colours_change_everything_that_has_one():
 
 
 def test_a_robot_without_the_chain_is_refused_with_the_reason():
-    with pytest.raises(ChainError, match="missing"):
+    with pytest.raises(ChainError, match="has no axis"):
         RobotScene(load_robot("emps"), COLOURS, old_s=0.5)

@@ -192,7 +192,7 @@ def test_refusals_of_each_layer_are_german_in_a_german_window(application, tmp_p
 def test_a_boards_fault_is_german_with_all_that_stands_in_it(application):
     language.use(application, "de")
     board = message("engine", "board {address}: {words}")
-    met = message("engine", "limit switch met: {switches}").fill(switches="x")
+    met = message("engine", "limit switch reached: {switches}").fill(switches="x")
     assert spoken(board.fill(address=1, words=met)) == "Karte 1: Endschalter erreicht: x"
     assert spoken(Alarm(1).text) == "ALARM:1, harte Grenze: ein Endschalter wurde erreicht"
 

@@ -91,7 +91,7 @@ def test_the_log_page_and_the_bundle_tell_how_late_the_window_was(qtbot, window)
     for _ in range(10):
         window.loop_watch.beat()
     window.show_log()
-    assert window.log_page.lateness.text().startswith("Window late by")
+    assert window.log_page.lateness.text().startswith("Window delay:")
     window.log_page.close()
     window.show_support()
     page = window._support

@@ -224,9 +224,9 @@ def test_who_stopped_is_shown_until_something_moves(qtbot, window):
     window.workbench.stop()
     told = f"Stopped by the operator at {session.snapshot().stop.at:%H:%M:%S}"
     qtbot.waitUntil(lambda: bar.doing.text() == told, timeout=LONG_MS)
-    session.stop("the window does not answer")
+    session.stop("the window does not respond")
     qtbot.waitUntil(lambda: bar.doing.text().startswith("Stopped by the program"), timeout=LONG_MS)
-    assert bar.doing.text().endswith(": the window does not answer")
+    assert bar.doing.text().endswith(": the window does not respond")
 
 
 # --- the header -----------------------------------------------------------------------------------

@@ -65,7 +65,7 @@ def test_a_missing_library_is_one_line_with_the_command(monkeypatch, capsys, tmp
             "there is no driver 'nobody'; installed: gcode, mc68hc11, simulator",
         ),
         (["--robot", "nobody"], "nobody: no such robot file"),
-        (["--set", "colour=red"], "driver 'simulator' has no setting 'colour'; it knows"),
+        (["--set", "colour=red"], "driver 'simulator' has no setting 'colour'; available"),
         (["--set", "seed=many"], "setting seed: 'many' is not an integer"),
         (["--set", "seed"], "write it as name=value"),
         (["--set", "start_fraction=7"], "start_fraction"),
@@ -82,4 +82,4 @@ def test_a_folder_that_cannot_be_made_is_one_clear_line(qapp, tmp_path, capsys, 
     monkeypatch.setattr("rotemina.app.shell.qt_messages.log_qt_messages", lambda: None)
     (tmp_path / "taken").write_text("a file", "utf-8")
     assert main(["--offscreen", "--output", str(tmp_path / "taken")]) == 2
-    assert "taken: the folder cannot be made" in capsys.readouterr().err
+    assert "taken: the folder cannot be created" in capsys.readouterr().err

@@ -36,12 +36,12 @@ def test_a_camera_by_its_identity_and_by_its_address(clock, capture):
     camera = hub.addressed("opencv", "1")
     assert camera.identity.key == "opencv:1"
     assert hub.camera(camera.identity).identity == camera.identity
-    with pytest.raises(CameraRefusedError, match="there is: opencv"):
+    with pytest.raises(CameraRefusedError, match="available: opencv"):
         hub.addressed("gige", "1")
     with pytest.raises(CameraRefusedError, match="no source 'gige'"):
         hub.camera(CameraIdentity("gige:1", "Cam", "gige"))
 
 
 def test_a_source_without_addresses():
-    with pytest.raises(CameraRefusedError, match="choose one that is listed"):
+    with pytest.raises(CameraRefusedError, match="choose a listed one"):
         Broken().addressed("x")

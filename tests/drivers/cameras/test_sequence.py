@@ -52,18 +52,20 @@ def test_a_picture_unlike_the_first(source, write_sequence, size, dtype):
     folder = write_sequence([1])
     camera = opened(source, write_sequence([2], size, dtype))
     camera.grab(1.0)
-    with pytest.raises(CameraLostError, match=r"32 × 48 px, expected 64|mono8, expected mono16"):
+    with pytest.raises(
+        CameraLostError, match=r"32 × 48 px, expected 64|mono8, but the first has mono16"
+    ):
         camera.grab(1.0)
     assert folder.is_dir()
 
 
 def test_what_is_no_sequence(source, tmp_path):
-    with pytest.raises(CameraLostError, match="no such folder"):
+    with pytest.raises(CameraLostError, match="folder or file not found"):
         opened(source, tmp_path / "gone")
     with pytest.raises(CameraRefusedError, match="no TIFF or PNG"):
         opened(source, tmp_path)
     (tmp_path / "cut.tif").write_bytes(b"II*\0 cut off")
     with pytest.raises(CameraRefusedError, match="not a picture"):
         opened(source, tmp_path / "cut.tif")
-    with pytest.raises(CameraRefusedError, match="nothing was named"):
+    with pytest.raises(CameraRefusedError, match="no address"):
         source.addressed("")

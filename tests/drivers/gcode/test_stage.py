@@ -282,7 +282,7 @@ def test_what_does_not_answer_is_told(joined):
         return port
 
     bench.driver._open_port = deaf
-    with pytest.raises(DriverTimeoutError, match="is it a GRBL controller"):
+    with pytest.raises(DriverTimeoutError, match="check that it is a GRBL controller"):
         bench.driver.open()
 
 

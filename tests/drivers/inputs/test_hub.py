@@ -61,7 +61,7 @@ def test_it_tells_what_came_and_what_went(hub, hidapi, pad, descriptors):
 def test_a_device_is_opened_by_its_key(hub, pad):
     hub.poll()
     assert hub.open("keys:pad").identity == pad.identity
-    with pytest.raises(InputLostError, match="'hid:1' is not plugged in; there are: keys:pad"):
+    with pytest.raises(InputLostError, match="'hid:1' is not plugged in; available: keys:pad"):
         hub.open("hid:1")
 
 

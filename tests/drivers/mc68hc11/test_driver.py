@@ -244,7 +244,7 @@ def test_a_stop_that_nobody_asked_for_is_a_fault(bench):
     bench.run(0.1)
     bench.boards.lines[0].receive(b"\0\0", bench.clock() - bench.begin_s)
     bench.run_until(DeviceState.FAULT)
-    assert "not by this program" in bench.driver.status().fault
+    assert "that this program did not send" in bench.driver.status().fault
     with pytest.raises(StateError, match="clear"):
         bench.driver.move_to({"x": 0.03})
     bench.run(0.3)

@@ -188,7 +188,7 @@ def test_a_stop_that_cuts_the_writing_of_parameters_off_leaves_them_to_be_writte
     bench.driver.write_parameters()
     bench.driver.stop()
     bench.run(0.3)
-    with pytest.raises(StateError, match="a stop cut the writing off"):
+    with pytest.raises(StateError, match="a stop interrupted the writing"):
         bench.driver.move_to({"x": 0.03})
     bench.driver.write_parameters()
     bench.run(0.3)

@@ -40,7 +40,7 @@ def test_a_short_loss_is_masked_and_nothing_begins_to_move(bench):
     assert len(samples) <= 2
     status = bench.driver.status()
     assert 0.1 < status.silent_s < 0.25
-    with pytest.raises(StateError, match="has said nothing"):
+    with pytest.raises(StateError, match="has been silent"):
         bench.driver.move_to({"y": 0.03})
     cut(bench, off=False)
     later = bench.run_until(IDLE)

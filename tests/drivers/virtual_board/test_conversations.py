@@ -191,7 +191,7 @@ def test_after_power_up_nothing_moves_but_homing(hosts):
 def test_robots_that_boards_cannot_move_and_lines_that_are_none(one_board, hosts):
     with pytest.raises(InputError, match="moved by a force"):
         hosts(robot=one_board.emps)
-    with pytest.raises(InputError, match="take one board"):
+    with pytest.raises(InputError, match="need only one board"):
         hosts(robot=one_board.fsm, ports=2)
     with pytest.raises(InputError, match="9600"):
         hosts(baud=19_200)

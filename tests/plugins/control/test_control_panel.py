@@ -212,7 +212,7 @@ def test_the_pages_keep_positions_change_modes_and_arm(qtbot, window, panel):
     assert not panel.hand.over.isEnabled()
     panel.tabs.setCurrentIndex(3)
     page = panel.penetration
-    assert "62 µm are needed" in page.message.text()
+    assert "the run needs 62 µm" in page.message.text()
     panel.rows["zn"].target.setText("64")
     panel.rows["zn"].confirmation.take(64e-6, session.snapshot().command["zn"], -100.0)
     panel.rows["zn"]._go()

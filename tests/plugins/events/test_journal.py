@@ -9,7 +9,7 @@ from rotemina.app.motion.ownership import OPERATOR, PLAYBACK
 from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.motion.stop_request import LOCKED, StopRequest
+from rotemina.app.motion.stop import LOCKED, StopRequest
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.events.journal import Journal, Moment

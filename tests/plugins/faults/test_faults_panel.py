@@ -122,7 +122,7 @@ def test_a_virtual_board_serves_takes_faults_and_ends_with_the_window(qtbot, win
     wait_for(qtbot, panel, "injected", "silence 2.0 s")
     board.inject("nonsense")
     qtbot.waitUntil(lambda: rows(panel)[0][0] == "refused", timeout=LONG_MS)
-    assert "no such command" in rows(panel)[0][1]
+    assert "unknown command" in rows(panel)[0][1]
     assert window.close()
     assert not board.running
 

@@ -484,7 +484,7 @@ def test_a_report_that_nothing_opens_is_told(qtbot, window, answered, tmp_path, 
 
 def test_a_place_that_cannot_be_written_becomes_a_notice(qtbot, window, answered, tmp_path):
     answered.actions_of.save_json(answered.answer, tmp_path)
-    qtbot.waitUntil(lambda: "it is a folder" in newest(window), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "is a folder" in newest(window), timeout=LONG_MS)
 
 
 def test_the_twin_is_a_robot_file_and_the_simulated_machine_stays_what_it_is(

@@ -23,7 +23,7 @@ def measure(bench, stick, calibrating, wanted=("X", "Y"), moves=(), one_sided=()
 
 def hear(bench, calibrating, stick, seconds):
     for heard in bench.run(seconds):
-        calibrating.hear(heard.readings.get(stick.key, ()))
+        calibrating.receive(heard.readings.get(stick.key, ()))
 
 
 def test_rest_and_ends_become_a_draft_that_is_not_yet_used(make_bench, stick):
@@ -63,7 +63,7 @@ def test_what_was_said_before_the_rest_is_passed_over(make_bench, stick):
     calibrating = Calibrating(view)
     calibrating.begin(["X"], (), view.newest, bench.clock())
     for heard in before:  # a screen takes it up late
-        calibrating.hear(heard.readings[stick.key])
+        calibrating.receive(heard.readings[stick.key])
     assert calibrating.ranges["X"] == (0.0, 0.0)
 
 

@@ -7,7 +7,7 @@ from rotemina.plugins.inputs.finding import BUTTON_WAIT_S, Finding
 def look(bench, finding, seconds):
     """Let the loop run, and return what was found."""
     for heard in bench.run(seconds):
-        finding.hear(heard)
+        finding.receive(heard)
     return finding.look(bench.clock())
 
 
@@ -86,6 +86,6 @@ def test_what_was_moved_before_is_passed_over(make_bench, make_stick):
     stick.deflect("X", 0.0)
     finding = Finding(bench.view(stick.key), axis=True)
     for heard in before:  # a screen takes it up late
-        finding.hear(heard)
+        finding.receive(heard)
     stick.deflect("Z", -1.0)
     assert look(bench, finding, 0.1).detected.control == "Z"

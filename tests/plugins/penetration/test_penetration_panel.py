@@ -69,9 +69,9 @@ def panel(window):
 def test_parameters_are_typed_kept_and_read_and_nothing_moves(qtbot, window, panel, tmp_path):
     session, form = window.workbench.session, panel.form
     at = session.snapshot().command
-    qtbot.waitUntil(lambda: "32.5 µm of its range are left" in panel.message.text())
+    qtbot.waitUntil(lambda: "32.5 µm of travel left" in panel.message.text())
     assert not panel.bar.arm.isEnabled()
-    assert "62 µm are needed" in panel.bar.arm.toolTip()
+    assert "the run needs 62 µm" in panel.bar.arm.toolTip()
     assert panel.bar.prepare.isVisibleTo(panel)
     assert not panel.bar.button.isEnabled()
     assert panel.readouts.plan.values["Travel available"].text() == "32.50 µm"

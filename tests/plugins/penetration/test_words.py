@@ -91,9 +91,9 @@ def test_afterwards_the_strip_tells_how_far_it_came():
 
 
 def test_what_is_said_of_each_phase():
-    held = PenetrationStatus(Phase.HELD, "a stop was asked for", run=RUN)
+    held = PenetrationStatus(Phase.HELD, "a stop was requested", run=RUN)
     assert message(held, None) == (
-        "Held: a stop was asked for. The tip stays in place; press Retract to return it, or "
+        "Held: a stop was requested. The tip stays in place; press Retract to return it, or "
         "Free the axes to move it manually."
     )
     assert headline(PenetrationStatus(Phase.ARMED, armed_left_s=41.6)) == "armed, 42 s"
@@ -110,5 +110,5 @@ def test_what_is_said_of_each_phase():
         "Failed: no contact within 10 µm. The tip is retracted. "
         "Cannot be armed now: the machine is moving."
     )
-    late = PenetrationStatus(Phase.DISARMED, "nobody started it in time", run=RUN)
-    assert message(late, None) == "Disarmed: nobody started it in time. Ready to arm."
+    late = PenetrationStatus(Phase.DISARMED, "it was not started in time", run=RUN)
+    assert message(late, None) == "Disarmed: it was not started in time. Ready to arm."

@@ -48,7 +48,7 @@ def told():
 def test_a_key_is_a_full_deflection_until_it_is_let_go_of(told, key, ways):
     told.stick.press(key)
     assert told.now == (ways, set())
-    told.stick.let_go(key)
+    told.stick.release(key)
     assert told.now == ((0, 0, 0), set())
     assert not told.stick.busy
 
@@ -58,7 +58,7 @@ def test_keys_against_each_other_are_none(told):
     told.stick.press(Key.RIGHT)
     told.stick.press(Key.AWAY)
     assert told.now == ((0, 1, 0), set())
-    told.stick.let_go(Key.LEFT)
+    told.stick.release(Key.LEFT)
     assert told.now == ((1, 1, 0), set())
 
 
@@ -67,7 +67,7 @@ def test_the_deflection_is_what_was_chosen_in_spite_of_the_dead_zone(told, most)
     told.stick.most = most
     told.stick.press(Key.RIGHT)
     assert told.now == ((most, 0, 0), set())
-    told.stick.let_go(Key.RIGHT)
+    told.stick.release(Key.RIGHT)
     told.stick.drag(x=-0.5, y=7.0)
     assert told.now == ((-0.5 * most, most, 0), set())
 

@@ -174,7 +174,7 @@ def test_a_tilt_is_told_without_what_rounding_makes():
     begun = replace(STATE, coordinates=(view(LawKind.RATE),))
     assert wording.tilt_shown(replace(begun, tilt=1e-3)) == "206 arcsec (1 mrad)"
     assert wording.tilt_shown(replace(begun, tilt=3e-16)) == "0 arcsec (0 mrad)"
-    assert wording.tilt_shown(begun) == "not by this mode"
+    assert wording.tilt_shown(begun) == "not in this mode"
     assert wording.tilt_shown(STATE) == "–"
 
 

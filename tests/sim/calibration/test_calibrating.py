@@ -150,7 +150,7 @@ def test_what_cannot_be_compared_is_refused(robot, plain):
         compared(plain, "q", robot)
     with pytest.raises(CalibrationError, match="record has zn"):
         compared(plain, "x", robot)
-    with pytest.raises(CalibrationError, match="500 at the least"):
+    with pytest.raises(CalibrationError, match="at least 500"):
         compared(plain.part(slice(0, 400)), "zn", robot)
     seen, read = (3e-5 + 0.05 * plain.signal("zn", tap) for tap in (Tap.REF, Tap.MEAS))
     small = _with(plain, ref=seen, meas=read)
@@ -178,5 +178,5 @@ def test_a_laser_with_a_clock_of_its_own_is_joined(robot, plain):
     other = Record.from_signals(
         own_s, {("zn", Tap.REF): 3e-5 + 1e-5 * np.sin(9.0 * own_s)}, {"zn": "m"}
     )
-    with pytest.raises(CalibrationError, match="not alike"):
+    with pytest.raises(CalibrationError, match="does not match"):
         joined(plain, other, "zn")

@@ -25,6 +25,6 @@ def test_the_recorded_voltage_of_growing_swings_is_reproduced(real_dir):
     for kind, one in left.items():
         print(f"{kind}: {1e6 * one.aligned:.3f} µm, with the offset {1e6 * one.rms:.3f} µm")
     assert found.chosen == "prandtl_ishlinskii"
-    assert "All swings are of one size" in found.why
+    assert "All swings have one size" in found.why
     assert left[found.chosen].aligned <= MOST_M
     assert left["linear"].aligned > 5.0 * left[found.chosen].aligned

@@ -44,7 +44,7 @@ def test_an_unknown_past_counts_until_the_greatest_loop_is_run_through(robot):
         ({"taps": (Tap.CMD,)}, "zn", "needs the columns zn.cmd and zn.meas or zn.ref"),
         ({"mode": "closed_loop"}, "zn", "needs the columns zn.u"),
         ({"command": 1e-2 * SWING}, "zn", "less than 5 % of its range"),
-        ({"time_s": np.arange(ROWS) ** 1.01 * 1e-3}, "zn", "needs even time"),
+        ({"time_s": np.arange(ROWS) ** 1.01 * 1e-3}, "zn", "needs evenly spaced rows"),
     ],
 )
 def test_a_record_that_cannot_be_used_is_refused(made, axis, message, robot):

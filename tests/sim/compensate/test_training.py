@@ -67,7 +67,7 @@ def test_an_anfis_that_does_not_converge_leaves_the_others(robot, bent_run, monk
 
 
 def test_too_few_known_rows_are_refused(robot, bent_run):
-    with pytest.raises(CompensationError, match="less than 500 rows are left to train on"):
+    with pytest.raises(CompensationError, match="fewer than 500 rows are left to train on"):
         train(robot, [replace(bent_run, first=3800)])
 
 
@@ -103,7 +103,7 @@ def test_of_swings_of_one_size_no_rich_kind_is_recommended():
     figures = dict(zip(KINDS, map(left, (1.0, 2.0, 3.0, 9.0)), strict=True))
     kind = recommended(figures, one_size=True)
     assert kind == "prandtl_ishlinskii"
-    assert "All swings are of one size" in reason(figures, kind)
+    assert "All swings have one size" in reason(figures, kind)
 
 
 def test_a_lag_and_creep_are_found(robot, bent_run):

@@ -81,10 +81,13 @@ def test_a_command_that_it_never_asks_for_is_refused(command):
     ("record", "message"),
     [
         (trajectory(PATH + 16e-6), r"lies outside 2 µm to 60 µm, which the inverse was trained"),
-        (trajectory(PATH[:4], np.array([0.0, 1.0, 1.5, 2.5])), "row 2 comes 0.5 s after the one"),
-        (trajectory(PATH[:1]), "it has one row"),
+        (
+            trajectory(PATH[:4], np.array([0.0, 1.0, 1.5, 2.5])),
+            "row 2 comes 0.5 s after the previous",
+        ),
+        (trajectory(PATH[:1]), "it has only one row"),
         (trajectory(PATH, axis="x"), "the trajectory commands x; it must command this piezo axis"),
-        (sent(trajectory()), "went through an inverse before"),
+        (sent(trajectory()), "is already compensated"),
     ],
 )
 def test_what_cannot_be_compensated_is_refused(record, message):

@@ -153,5 +153,5 @@ def test_a_negative_gain_turns_no_range_over():
 
 
 def test_a_formulation_may_need_one_kind_of_axis():
-    with pytest.raises(EffectError, match=r"backlash as 'screw': sits on an axis of kind stepper"):
+    with pytest.raises(EffectError, match=r"backlash as 'screw': acts on axes of kind stepper"):
         Attached.of(load_robot("emps"), AxisEffect(axis="q", id="backlash", formulation="screw"))

@@ -94,8 +94,8 @@ def test_an_effect_that_cannot_be_loaded_is_named_and_left_out(only):
     found, broken = all_effects()
     assert list(found) == ["delay"]
     assert "no_such_package" in broken["gone"]
-    assert "is no Effect" in broken["stage"]
-    assert "calls itself 'delay'" in broken["alias"]
+    assert "is not an Effect" in broken["stage"]
+    assert "has the id 'delay'" in broken["alias"]
 
 
 def test_an_effect_that_ends_the_program_or_has_no_formulation_is_left_out(

@@ -17,7 +17,7 @@ from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot, nominal_robots
-from rotemina.sim.trajectory.violations import TrajectoryError, find_violations
+from rotemina.sim.trajectory.validation import TrajectoryError, find_violations
 
 ROBOTS = {name: load_robot(name) for name in nominal_robots()}
 PERIODIC = (Sine, Triangle, Multisine, Prbs)

@@ -79,7 +79,9 @@ def test_a_loop_that_nothing_answers_is_given_up(worn, way, gains):
     if gains.integral:  # far too much of it: it swings up
         reference[1:, ZN] += 1e-6
     command, reference = np.tile(command, (8, 1)), np.concatenate([reference] * 8)
-    with pytest.raises(LostLoopError, match="axis zn: its loop was given up, as nothing answers"):
+    with pytest.raises(
+        LostLoopError, match="axis zn: its loop was opened because the axis does not respond"
+    ):
         way(plant, state, H, command, reference, {ZN: controller}, None)
 
 

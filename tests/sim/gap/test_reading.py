@@ -65,7 +65,7 @@ def test_unknown_keys_are_left_aside(made_diagnosis):
     [
         ("", "out.json:1: not valid JSON"),
         ('{"a": \n!}', "out.json:2: not valid JSON"),
-        ("[" * 100_000, "nested too deeply"),
+        ("[" * 100_000, "nested more than"),
         ("[]", "the document = []: must be an object"),
         ("{}", "format = None: must be 'rotemina-diagnosis 1'"),
         ('{"format": "rotemina-comparison 1"}', "format = 'rotemina-comparison 1'"),
@@ -82,7 +82,7 @@ def test_what_is_no_diagnosis_is_refused(text, message):
 
 
 def test_files_that_cannot_be_read_are_refused(monkeypatch):
-    with pytest.raises(InputError, match=r"^none\.json: it cannot be read"):
+    with pytest.raises(InputError, match=r"^none\.json cannot be read"):
         read_document("none.json")
     Path("out.json").write_bytes(b"\xff{}")
     with pytest.raises(InputError, match="not UTF-8"):

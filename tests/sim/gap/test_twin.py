@@ -74,7 +74,7 @@ def test_a_file_of_another_robot_is_refused(old, new, message):
 
 def test_a_file_that_is_there_is_not_overwritten():
     Path("twin.toml").write_text("mine", "utf-8")
-    with pytest.raises(InputError, match=r"^twin\.toml: it exists already"):
+    with pytest.raises(InputError, match=r"^twin\.toml already exists"):
         write_twin("new", "twin.toml")
     assert Path("twin.toml").read_text("utf-8") == "mine"
     write_twin("new", "other.toml")

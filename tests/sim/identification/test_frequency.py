@@ -169,7 +169,7 @@ def test_what_cannot_tell_is_refused():
         periodic_response(*levels)
     with pytest.raises(TooShortError, match="use shorter segments or longer records"):
         welch_response(full, segment=4096)
-    with pytest.raises(IdentificationError, match=r"experiment 1: .* all must be alike"):
+    with pytest.raises(IdentificationError, match=r"experiment 1: .* all must be equal"):
         welch_response(full, siso(wave, wave, 100.0), segment=64)
     with pytest.raises(ExcitationError, match="u: constant at 1"):
         welch_response(siso(np.ones(500), np.ones(500), 1.0), segment=64)

@@ -60,7 +60,7 @@ def test_whole_periods_stay_whole():
 
 def test_factors_that_make_no_sense_are_refused():
     wave = siso(np.arange(100.0), np.arange(100.0), 1000.0)
-    for factor, reason in [(0.0, "not in"), (1.5, "not in"), (1 / np.pi, "no fraction")]:
+    for factor, reason in [(0.0, "not in"), (1.5, "not in"), (1 / np.pi, "not a fraction")]:
         with pytest.raises(SettingError, match=reason):
             resample(wave, factor)
     with pytest.raises(TooShortError, match="100 samples leave"):

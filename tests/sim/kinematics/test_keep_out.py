@@ -45,7 +45,7 @@ def test_a_robot_without_bounds_is_not_bounded():
     assert not zone().bounded
     zone().check_sweep(RANGES[:, 0], RANGES[:, 1])
     assert KeepOutZone.of(load_robot("picma")) is None
-    with pytest.raises(ChainError, match="can bound no tip"):
+    with pytest.raises(ChainError, match="needs a tip to limit"):
         KeepOutZone.of(replace(load_robot("picma"), keep_out=KeepOut(floor=0.0)))
 
 
@@ -74,7 +74,7 @@ def test_each_bound_refuses_what_leaves_it_and_allows_the_rest(bounds, axis, to,
             continue
         with pytest.raises(OutOfLimitsError, match=message):
             bound.check_sweep(*sweep)
-        with pytest.raises(OutOfLimitsError, match=rf"{message}|goes down"):
+        with pytest.raises(OutOfLimitsError, match=rf"{message}|descends"):
             bound.check_path(path, time_s)
 
 

@@ -132,5 +132,5 @@ def test_perturbations_that_do_not_fit_are_refused():
         perturbed_state_space(ROBOT, RATE[:5], LEVEL)
     with pytest.raises(StateSpaceError, match="level has shape"):
         perturbed_state_space(ROBOT, RATE, np.full((6, 6), np.nan))
-    with pytest.raises(StateSpaceError, match="ask for velocities"):
+    with pytest.raises(StateSpaceError, match="use velocities"):
         perturbed_state_space(ROBOT, RATE, LEVEL, Output.ACCELERATION)

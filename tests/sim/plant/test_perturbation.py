@@ -213,7 +213,7 @@ def test_a_run_that_is_shaken_does_not_silently_end_to_be():
     _, state = plant.advance(
         plant.at_rest(0.0, command[0]), time_s[:5], command, perturbation=Perturbation(shaken, A, B)
     )
-    with pytest.raises(PlantError, match="none is given, and Q of the row before still acts"):
+    with pytest.raises(PlantError, match="none is given, but Q of the previous row still acts"):
         plant.advance(state, time_s[5:], command)
     shaken[-1] = 0.0
     _, state = plant.advance(

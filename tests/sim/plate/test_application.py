@@ -75,7 +75,7 @@ def test_plate_that_yields_in_its_range_is_refused_with_the_place(solutions):
 
 def test_robots_without_what_the_plate_needs_are_refused(solutions):
     axes = {name: axis for name, axis in ROBOT.axes.items() if name != "thy"}
-    with pytest.raises(PlateError, match="it has no axis thy"):
+    with pytest.raises(PlateError, match="has no axis thy"):
         motion_ranges(replace(ROBOT, axes=axes))
     zn = replace(
         ROBOT.axes["zn"],

@@ -55,7 +55,7 @@ def test_a_comment_counts_from_the_first_piece_wherever_it_stands(tmp_path: Path
     [
         ("0.9005,0.02", ":904:x.u: the row has 2 fields"),
         ("0.9005,,1", ":904:x.cmd: the value is missing"),
-        ("0.9005,0.02,1_0", ":904:x.u: value '1_0' is no plain decimal number"),
+        ("0.9005,0.02,1_0", ":904:x.u: value '1_0' is not a plain decimal number"),
         ("0.9,0.02,1", ":904:t: time 0.9 s does not increase after 0.9 s"),
         ("0.9005,0.02,1\r2", ":904: a carriage return"),
         ("# mode: fast", ":904:mode: value 'fast'"),
@@ -146,7 +146,7 @@ def test_pieces_are_written_as_the_whole_is(tmp_path: Path, name: str, header: b
 
 def others() -> list[tuple[Record, str]]:
     y = Record.from_signals(np.array([9.0]), {("y", Tap.CMD): np.zeros(1)}, {"y": "m"})
-    return [(make_record(), "does not come after"), (y, "has other columns")]
+    return [(make_record(), "does not follow"), (y, "has other columns")]
 
 
 @pytest.mark.parametrize(("second", "message"), others(), ids=["time", "columns"])

@@ -82,5 +82,5 @@ def test_what_cannot_be_shown(write_file: WriteFile, tmp_path: Path) -> None:
         preview(write_file(b"\0\1", "b.csv"))
     with pytest.raises(RecordError, match="longer than 10 bytes"):
         preview(write_file("0,1234567890\n", "c.csv"), limits=Limits(line_bytes=10))
-    with pytest.raises(RecordError, match="no such file"):
+    with pytest.raises(RecordError, match="file not found"):
         preview(tmp_path / "absent.csv")

@@ -32,17 +32,17 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
     "inf": (HEAD + "1,-inf,2\n", ":4:x.cmd", "value '-inf' is not finite"),
     "infinity": (HEAD + "1,Infinity,2\n", ":4:x.cmd", "value 'Infinity' is not finite"),
     "overflow": (HEAD + "1,1e400,2\n", ":4:x.cmd", "value '1e400' exceeds"),
-    "underscore": (HEAD + "1,1_000,2\n", ":4:x.cmd", "value '1_000' is no plain decimal"),
-    "hexadecimal": (HEAD + "1,0x10,2\n", ":4:x.cmd", "value '0x10' is no plain decimal"),
-    "blank in a number": (HEAD + "1,1 234,2\n", ":4:x.cmd", "value '1 234' is no plain"),
-    "no-break space": (HEAD + "1,1\u00a0234,2\n", ":4:x.cmd", "is no plain decimal"),
-    "other digits": (HEAD + "1,\uff11,2\n", ":4:x.cmd", "is no plain decimal"),
-    "quoted number": (HEAD + '1,"2",2\n', ":4:x.cmd", "is no plain decimal"),
-    "Fortran exponent": (HEAD + "1,2d3,2\n", ":4:x.cmd", "value '2d3' is no plain decimal"),
-    "formula": (HEAD + "1,=1+1,2\n", ":4:x.cmd", "value '=1+1' is no plain decimal"),
-    "text": (HEAD + "1,off,2\n", ":4:x.cmd", "value 'off' is no plain decimal"),
+    "underscore": (HEAD + "1,1_000,2\n", ":4:x.cmd", "value '1_000' is not a plain decimal"),
+    "hexadecimal": (HEAD + "1,0x10,2\n", ":4:x.cmd", "value '0x10' is not a plain decimal"),
+    "blank in a number": (HEAD + "1,1 234,2\n", ":4:x.cmd", "value '1 234' is not a plain"),
+    "no-break space": (HEAD + "1,1\u00a0234,2\n", ":4:x.cmd", "is not a plain decimal"),
+    "other digits": (HEAD + "1,\uff11,2\n", ":4:x.cmd", "is not a plain decimal"),
+    "quoted number": (HEAD + '1,"2",2\n', ":4:x.cmd", "is not a plain decimal"),
+    "Fortran exponent": (HEAD + "1,2d3,2\n", ":4:x.cmd", "value '2d3' is not a plain decimal"),
+    "formula": (HEAD + "1,=1+1,2\n", ":4:x.cmd", "value '=1+1' is not a plain decimal"),
+    "text": (HEAD + "1,off,2\n", ":4:x.cmd", "value 'off' is not a plain decimal"),
     "long text": (HEAD + f"1,{'9' * 3000},2\n", ":4:x.cmd", "999…' exceeds"),
-    "comment after numbers": (HEAD + "1,2,2 # why\n", ":4:x.meas", "'2 # why' is no plain"),
+    "comment after numbers": (HEAD + "1,2,2 # why\n", ":4:x.meas", "'2 # why' is not a plain"),
     "row too short": (HEAD + "1,2\n2,3,3\n", ":4:x.meas", "the row has 2 fields where the header"),
     "cut off": (HEAD + "1,2", ":4:x.meas", "was the file cut off?"),
     "row too long": (HEAD + "1,2,3,4,5,6,7,8\n", ":4:4", "the row has 8 fields"),
@@ -55,16 +55,16 @@ REFUSED: dict[str, tuple[str | bytes, str, str]] = {
         "value '1,234' has ',' where the numbers before have '.'",
     ),
     "thousands": ("t [s];x [m]\n0;1.234,5\n", ":2:x.cmd", "value '1.234,5'"),
-    "two commas": ("t [s];x [m]\n0;1,234,5\n", ":2:x.cmd", "value '1,234,5' is no plain"),
+    "two commas": ("t [s];x [m]\n0;1,234,5\n", ":2:x.cmd", "value '1,234,5' is not a plain"),
     "row of tabs": ("t [s]\tx [m]\n0\t1\n\t\n", ":3:t", "value is missing"),
     "stray tab": ("t [s]\tx [m]\n0\t\t1\n", ":2:3", "the row has 3 fields"),
     "no header": ("0,1,2\n", ":1:1", "no header row; name its columns, such as 't [s], x [mm]"),
     "header without time": ("x [m],y [m]\n0,1\n", ":1:1", "the first column, and only it, must"),
     "time again": ("t [s],x [m],t [s]\n0,1,2\n", ":1:3", "the first column, and only it, must"),
     "time alone": ("t [s]\n0\n", ":1", "no column beside time"),
-    "no unit": ("t [s],x\n0,1\n", ":1:2", "heading 'x' is no 'axis.channel [unit]'"),
-    "text after the unit": ("t [s],x [m] y\n0,1\n", ":1:2", "is no 'axis.channel [unit]'"),
-    "quoted header": ('"t [s]","x [m]"\n0,1\n', ":1:1", "is no 'axis.channel [unit]'"),
+    "no unit": ("t [s],x\n0,1\n", ":1:2", "heading 'x' is not 'axis.channel [unit]'"),
+    "text after the unit": ("t [s],x [m] y\n0,1\n", ":1:2", "is not 'axis.channel [unit]'"),
+    "quoted header": ('"t [s]","x [m]"\n0,1\n', ":1:1", "is not 'axis.channel [unit]'"),
     "empty heading": ("t [s],x [m],\n0,1,\n", ":1:3", "heading '' is no"),
     "no axis": ("t [s],.cmd [m]\n0,1\n", ":1:2", "'' cannot name an axis"),
     "axis is a formula": ("t [s],=x [m]\n0,1\n", ":1:2", "'=x' cannot name an axis"),
@@ -193,7 +193,7 @@ def test_the_line_counts_comments_and_empty_lines(write_file: WriteFile, limits:
 
 
 def test_what_is_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(RecordError, match=r"absent.csv: it cannot be read \(there is no such file"):
+    with pytest.raises(RecordError, match=r"absent.csv cannot be read \(file not found"):
         read_record(tmp_path / "absent.csv")
     with pytest.raises(RecordError, match="a folder"):
         read_record(tmp_path)
@@ -208,5 +208,5 @@ def test_what_is_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     path = tmp_path / "locked.csv"
     path.write_text(GOOD)
     monkeypatch.setattr("os.open", refuse)
-    with pytest.raises(RecordError, match=r"locked.csv: it cannot be read \(Permission denied\)"):
+    with pytest.raises(RecordError, match=r"locked.csv cannot be read \(Permission denied\)"):
         read_record(path)

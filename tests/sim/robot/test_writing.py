@@ -143,7 +143,7 @@ def test_a_file_that_is_there_is_kept_unless_asked(tmp_path):
     path = tmp_path / "robot.toml"
     path.write_text("mine")
     robot = replace(load_robot("rotemina"), effects=(WIDE,))
-    with pytest.raises(FileWriteError, match="exists already"):
+    with pytest.raises(FileWriteError, match="already exists"):
         write_robot(robot, path)
     assert path.read_text() == "mine"
     write_robot(robot, path, overwrite=True)

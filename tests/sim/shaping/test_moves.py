@@ -76,7 +76,7 @@ def test_a_table_is_met_row_by_row_and_turns_nowhere_between():
         ([0.0, 1.0], [0.5, 1.0], "row 1"),
         ([0.0, 0.5, 1.0], [0.0, 1.0, 0.0], "row 3: it ends where it began"),
         ([0.0], [0.0], "2 to 1000"),
-        ([0.0, 1.0], [0.0], "as many of each"),
+        ([0.0, 1.0], [0.0], "equally many"),
     ],
 )
 def test_a_bad_table_is_refused_with_its_row(times, places, message):

@@ -9,7 +9,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory.checked import accepted, check
 from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.violations import TrajectoryError
+from rotemina.sim.trajectory.validation import TrajectoryError
 
 ROBOT = load_robot("rotemina")
 EMPS = load_robot("emps")

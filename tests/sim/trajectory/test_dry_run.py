@@ -12,7 +12,7 @@ from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory import prediction
 from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.violations import Quantity
+from rotemina.sim.trajectory.validation import Quantity
 
 ROBOT = load_robot("rotemina")
 

@@ -5,7 +5,7 @@ import pytest
 
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.trajectory.parts import part
-from rotemina.sim.trajectory.violations import TrajectoryError
+from rotemina.sim.trajectory.validation import TrajectoryError
 
 TIME_S = np.array([2.0, 2.1, 2.3, 2.6])  # rows are not even, and do not begin at 0
 LOOP = Record.from_signals(TIME_S, {("x", Tap.CMD): [0.0, 1e-3, 2e-3, 0.0]}, {"x": "m"})

@@ -98,7 +98,7 @@ def test_small_moves_are_refused_for_what_they_cannot_tell():
     small = 0.05 * RING
     noise = 0.3 * np.random.default_rng(4).standard_normal(RING.shape)
     demands = Demands(outliers=0.5)
-    assert "pixel size is known within" in refused(small, small @ MATRIX.T + noise, demands=demands)
+    assert "pixel size is uncertain by" in refused(small, small @ MATRIX.T + noise, demands=demands)
 
 
 def test_many_outliers_are_refused():

@@ -49,7 +49,7 @@ def test_vignetting_and_dust_that_stay_do_not_hold_the_picture(scenery):
 
 
 def test_noise_alone_is_refused(scenery):
-    with pytest.raises(RegistrationError, match="too little common detail"):
+    with pytest.raises(RegistrationError, match="share too little detail"):
         register(scenery.seen(contrast=0.0), scenery.seen(contrast=0.0))
 
 

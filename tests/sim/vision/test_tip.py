@@ -71,7 +71,7 @@ def test_the_tip_is_found_in_a_whole_image_with_its_direction(make_view, turned)
 
 
 def test_an_empty_field_has_no_tip(view):
-    with pytest.raises(VisionError, match="nothing looks like it"):
+    with pytest.raises(VisionError, match="nothing in the picture matches it"):
         find_tip(view.image([5e-3, 0.0, 0.0]), view.pipette)
 
 

@@ -20,7 +20,7 @@ ROBOT = load_robot("rotemina")
 def test_what_speaks_against_arming_is_known_before_and_reserves_nothing(bench):
     bench.ready()
     assert bench.why_not() is None
-    assert "62 µm are needed" in bench.ready(start=32e-6).why_not()
+    assert "the run needs 62 µm" in bench.ready(start=32e-6).why_not()
     assert bench.session.snapshot().owners == {}
     bench.session.go_to({"x": 0.03})
     bench.step()
@@ -50,13 +50,13 @@ def test_a_stop_disarms(bench):
     bench.session.stop()
     bench.step()
     assert bench.phase is Phase.DISARMED
-    assert "a stop was asked for" in bench.penetration.status.reason
+    assert "a stop was requested" in bench.penetration.status.reason
 
 
 def test_a_start_after_a_stop_that_nobody_has_seen_yet_is_refused(bench):
     bench.ready().arm()
     bench.session.stop()
-    with pytest.raises(RefusedError, match="a stop was asked for"):
+    with pytest.raises(RefusedError, match="a stop was requested"):
         bench.press()
 
 
@@ -82,8 +82,8 @@ def test_somebody_else_who_drives_is_not_pushed_aside(bench):
     [
         ({"axis": "q"}, PenetrationError, "has no axis 'q' to penetrate with"),
         ({"axis": "thx"}, PenetrationError, "rotates"),
-        ({"direction": "up"}, PenetrationError, "1 µm of its range are left upwards"),
-        ({"approach_distance": 2e-5}, PenetrationError, "72 µm are needed"),
+        ({"direction": "up"}, PenetrationError, "1 µm of travel left upwards"),
+        ({"approach_distance": 2e-5}, PenetrationError, "the run needs 72 µm"),
         ({"duration_s": 3e-3}, PenetrationError, "input shaping"),
         ({"duration_s": 4e-3, "shaping": "none"}, InputError, "at most 5 mm/s"),
     ],

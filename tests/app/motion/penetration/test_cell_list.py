@@ -81,7 +81,7 @@ def test_what_came_of_it_is_exported_in_si(cells):
 
 
 def test_a_place_that_nobody_knows_and_one_too_many_are_refused(cells, monkeypatch):
-    with pytest.raises(PenetrationError, match="nobody knows where the axes are"):
+    with pytest.raises(PenetrationError, match="the positions of the axes are unknown"):
         cells.add({})
     monkeypatch.setattr(cell_list, "MOST_CELLS", 3)
     with pytest.raises(PenetrationError, match="the list has 3; remove one"):

@@ -58,7 +58,7 @@ def test_what_is_no_run_is_told_with_its_line(tmp_path, line):
     path.write_text(line + "\n", "utf-8")
     runs, problems = RunLog(path).read()
     assert runs == ()
-    assert "line 1: no penetration's run" in problems[0]
+    assert "line 1: not the run of a penetration" in problems[0]
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ def test_what_is_no_run_is_told_with_its_line(tmp_path, line):
     ],
 )
 def test_a_figure_that_is_none_is_told(key, value):
-    with pytest.raises(PenetrationError, match="no penetration's run"):
+    with pytest.raises(PenetrationError, match="not the run of a penetration"):
         PenetrationRun.parsed(json.dumps({**json.loads(RUN.line()), key: value}))
 
 

@@ -54,7 +54,7 @@ def test_the_inverse_commands_something_else_than_is_wanted():
 
 
 def test_a_shaper_that_leaves_no_time_is_refused_with_what_is_needed():
-    with pytest.raises(PenetrationError, match=r"takes 0\.00238 s of it; at least 0\.00317 s"):
+    with pytest.raises(PenetrationError, match=r"takes 0\.00238 s of it; use at least 0\.00317 s"):
         plan_thrust(ROBOT, PenetrationParameters(duration_s=3e-3), 1e-3)
 
 

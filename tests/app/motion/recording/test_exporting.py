@@ -136,8 +136,12 @@ def test_what_cannot_be_played_says_why(moved):
     for begin_s, end_s, words in (
         (middle_s, moved.ended_s, "axis x moves at the start.*choose an earlier start"),
         (moved.began_s, middle_s, "axis x moves at the end.*choose a later end"),
-        (moved.began_s, moved.began_s + 0.1, "no axis was sent anywhere"),
-        (moved.ended_s + 1.0, moved.ended_s + 2.0, "no samples from there to there; it lasts"),
+        (moved.began_s, moved.began_s + 0.1, "no axis was commanded to move"),
+        (
+            moved.ended_s + 1.0,
+            moved.ended_s + 2.0,
+            "no samples in this section; the recording lasts",
+        ),
     ):
         with pytest.raises(RecordingError, match=words):
             trajectory(moved, begin_s, end_s, 1e-3)

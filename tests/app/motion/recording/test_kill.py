@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.app.motion.recording.merging import recover
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import recover
 
 CHILD = Path(__file__).with_name("recorded_child.py")
 MOST_LOST_S = 1.0

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.history import LiveHistory
-from rotemina.app.motion.recording import merging
+from rotemina.app.motion.recording import recovery
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.recording.replay import Replay
 from rotemina.app.motion.state import CommandRefused, Faulted, Phase, StateChanged
@@ -14,7 +14,7 @@ from rotemina.drivers.errors import ConnectionLostError
 @pytest.fixture
 def session(stepped, record, monkeypatch):
     """A move, then a lost link; with the states that the session told on the way."""
-    monkeypatch.setattr(merging, "_ROWS", 100)  # as many batches as a long recording has
+    monkeypatch.setattr(recovery, "_ROWS", 100)  # as many batches as a long recording has
     recorded = record(stepped)
     seen = []
     stepped.session.subscribe(seen.append)

@@ -125,8 +125,11 @@ def test_a_file_that_is_being_written_is_left_alone(path):
     [
         (b"", "before anything was recorded; delete it"),
         (MAGIC[:5], "before anything was recorded; delete it"),
-        (MAGIC[:6] + b"99" + bytes(100), "of version 99; this program reads 01"),
-        (b"PK\x03\x04" + bytes(100), "no recording of this program"),
+        (
+            MAGIC[:6] + b"99" + bytes(100),
+            "version 99, but this program reads version 01",
+        ),
+        (b"PK\x03\x04" + bytes(100), "not an interrupted recording of this program"),
     ],
 )
 def test_other_files_are_refused(path, data, words):
@@ -137,10 +140,10 @@ def test_other_files_are_refused(path, data, words):
 
 
 def test_a_file_that_cannot_be_made_or_read_is_named(tmp_path, path):
-    with pytest.raises(RecordingError, match=r"nowhere/run.part: cannot be made"):
+    with pytest.raises(RecordingError, match=r"nowhere/run.part: cannot be created"):
         SegmentFile(tmp_path / "nowhere" / "run.part")
     with pytest.raises(RecordingError, match="cannot be read"):
         WholeSegments(path)
     write(path, CONTENTS)
-    with pytest.raises(RecordingError, match="there already"):
+    with pytest.raises(RecordingError, match="already exists"):
         SegmentFile(path)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import being_recorded, recover
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import being_recorded, recover
 
 
 def test_everything_comes_back_bit_by_bit(make_writer, feed, check, clock):
@@ -141,7 +141,7 @@ def test_a_disk_that_stays_full_keeps_what_was_recorded(make_writer, feed, check
     feed(writer, 300, 100)
     recording = Recording.open(writer.close())
     check(recording.samples(), 0, 300)
-    assert "its end could not be written" in notices[-1].message
+    assert "the end of the recording could not be written" in notices[-1].message
 
 
 def test_no_room_for_the_merged_file_leaves_what_can_be_recovered(
@@ -156,7 +156,7 @@ def test_no_room_for_the_merged_file_leaves_what_can_be_recovered(
 
         writer.run_once()
         patched.setattr("rotemina.sim.whole_files.os.fsync", full)
-        with pytest.raises(RecordingError, match=r"what was recorded is in .*run.arrows.part"):
+        with pytest.raises(RecordingError, match=r"the recorded data are in .*run.arrows.part"):
             writer.close()
     assert not writer.path.exists()
     assert [each.name for each in writer.path.parent.iterdir()] == ["run.arrows.part"]
@@ -219,7 +219,7 @@ def test_two_recorders_do_not_meet(make_writer, feed, tmp_path):
     writer.close()
     other.close()
     assert not being_recorded(tmp_path / "run.arrows.part")
-    with pytest.raises(RecordingError, match="there already"):
+    with pytest.raises(RecordingError, match="already exists"):
         make_writer()
 
 
@@ -248,7 +248,7 @@ def test_the_thread_writes_by_itself(make_writer, feed, check):
 
 def test_long_runs_grow_neither_in_memory_nor_in_handles(make_writer, feed, monkeypatch):
     """Three hundred segments after a hundred take no byte more, nor does merging hold the file."""
-    monkeypatch.setattr("rotemina.app.motion.recording.merging._ROWS", 4096)
+    monkeypatch.setattr("rotemina.app.motion.recording.recovery._ROWS", 4096)
     writer = make_writer()
 
     def live(segments):

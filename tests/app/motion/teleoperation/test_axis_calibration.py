@@ -194,12 +194,12 @@ def test_bytes_and_folders_in_place_of_a_file_block_nothing(folder):
 
 def test_where_nothing_can_be_written_it_is_said(tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(FileWriteError, match="folder cannot be made"):
+    with pytest.raises(FileWriteError, match="folder cannot be created"):
         CalibrationFolder(tmp_path / "file").save(STICK, Calibration(device=STICK.key))
 
 
 def test_another_devices_calibration_is_not_kept(folder):
-    with pytest.raises(CalibrationError, match="'other' cannot be kept for 'hid:046d"):
+    with pytest.raises(CalibrationError, match="'other' cannot be stored for 'hid:046d"):
         folder.save(STICK, Calibration(device="other"))
 
 

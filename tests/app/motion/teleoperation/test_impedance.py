@@ -90,7 +90,7 @@ def test_nothing_moves_at_the_start_of_a_balanced_stick(kind):
         ((1.0, 1.0, -1.0, 1.0), "stiffness -1"),
         ((1.0, 1.0, 0.0, nan), "force nan"),
         ((inf, 1.0, 0.0, 1.0), "mass inf"),
-        ((1.0, 1.0, 1e-6, 1.0), "use 0 for none"),
+        ((1.0, 1.0, 1e-6, 1.0), "use 0 for no spring"),
         ((1.0, 0.1, 1.0, 1.0), "use a damping of 0.2 or more"),
     ],
 )
@@ -112,7 +112,7 @@ def test_a_mechanism_that_could_be_too_abrupt_is_refused_with_a_mass():
     with pytest.raises(ScalingError, match=r"use a mass of about 10 "):
         Impedance(table, VirtualImpedance(1.0, 1.0, 0.0, 1.0))
     Impedance(table, VirtualImpedance(10.0, 10.0, 0.0, 1.0))
-    with pytest.raises(ScalingError, match=r"the axis allows 0\.2"):
+    with pytest.raises(ScalingError, match=r"the axis permits 0\.2"):
         Impedance(table, VirtualImpedance(10.0, 10.0, 0.0, 1.0), Contact(1.0, 0.0, 0.5))
 
 
@@ -140,7 +140,9 @@ def test_a_gain_that_could_give_energy_is_refused_with_the_greatest():
     table = Bounds(0.0, 0.08, 0.01, 0.2)
     assert Contact(1.0, 0.0, 0.1).greatest_gain(own) == pytest.approx(300.0 / 0.015)
     Impedance(table, own, Contact(2e4, 0.0, 0.1))
-    with pytest.raises(ScalingError, match=r"at most 20000 with a damping of 300 N s/m"):
+    with pytest.raises(
+        ScalingError, match=r"at most 20000 is permitted with a damping of 300 N s/m"
+    ):
         Impedance(table, own, Contact(2.1e4, 0.0, 0.1))
     for bad in ((-1.0, 0.0, 1.0), (1.0, nan, 1.0), (1.0, 0.0, 1.0, 0.0)):
         with pytest.raises(ScalingError, match="contact"):

@@ -85,7 +85,7 @@ def test_unplugged_it_is_lost_once_and_replugged_it_must_be_seen_at_rest(make, c
     run(devices, clock)
     stick.withdraw()
     lost = run(devices, clock, TICK_S).intent
-    assert "taken away" in lost.lost
+    assert "was removed" in lost.lost
     assert lost.deflections == {}
     assert run(devices, clock, TICK_S).intent.lost is None
     stick.offer()
@@ -263,7 +263,7 @@ def test_a_device_that_turns_out_to_stream_is_lost_when_it_falls_silent(make, cl
     run(devices, clock, TICK_S)
     assert devices.plugged[0].streams
     run(devices, clock, 0.5)
-    assert "silent, though it streams" in devices.view.devices[0].problem
+    assert "silent: a streaming device" in devices.view.devices[0].problem
 
 
 def test_nothing_plugged_in_has_no_profile(make, clock):

@@ -194,7 +194,7 @@ def test_a_usage_before_its_page_and_one_with_a_page_of_its_own():
     [
         ("05 01 09 06 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0", "no axis and no button"),
         ("", "no axis and no button"),
-        ("05 01 09 04 A1 01 26 FF", "cut off: byte 6 of 8"),
+        ("05 01 09 04 A1 01 26 FF", "truncated: byte 6 of 8"),
         ("05 01 09 04 B4", "byte 4: Pop without a Push"),
         ("05 01 C0", "byte 2: a collection ends that has not begun"),
         ("85 00", "a report of number 0: must be 1 to 255"),

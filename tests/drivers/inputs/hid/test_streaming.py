@@ -11,7 +11,7 @@ STICK = b"/dev/hidraw0"
 def heard(times, axes=lambda _: (0.0,)):
     streaming = Streaming()
     for time_s in times:
-        streaming.hear(InputReading(time_s, axes(time_s), (False,)))
+        streaming.receive(InputReading(time_s, axes(time_s), (False,)))
     return streaming
 
 
@@ -35,16 +35,16 @@ def test_one_that_repeats_itself_seldom_is_none():
 def test_after_a_silence_it_has_to_be_found_out_anew():
     streaming = heard(steadily(STEADY_S + 0.1))
     again_s = STEADY_S + 0.1 + SILENCE_S + 0.01
-    streaming.hear(InputReading(again_s, (0.0,), (False,)))
+    streaming.receive(InputReading(again_s, (0.0,), (False,)))
     assert not streaming.found
     for late_s in steadily(STEADY_S + 0.1):
-        streaming.hear(InputReading(again_s + late_s, (0.0,), (False,)))
+        streaming.receive(InputReading(again_s + late_s, (0.0,), (False,)))
     assert streaming.found
 
 
 def test_a_short_pause_is_no_silence():
     streaming = heard(steadily(STEADY_S + 0.1))
-    streaming.hear(InputReading(STEADY_S + 0.1 + 0.9 * SILENCE_S, (0.5,), (False,)))
+    streaming.receive(InputReading(STEADY_S + 0.1 + 0.9 * SILENCE_S, (0.5,), (False,)))
     assert streaming.found
 
 

@@ -230,7 +230,7 @@ def test_the_file_is_written_whole_or_not_at_all(tmp_path, healthy, records):
     write_report(healthy, records, tmp_path / "report.html")
     assert (tmp_path / "report.html").read_text("utf-8").endswith("</html>\n")
     (tmp_path / "folder").mkdir()
-    with pytest.raises(FileWriteError, match="it is a folder"):
+    with pytest.raises(FileWriteError, match="is a folder"):
         write_report(healthy, records, tmp_path / "folder")
     assert [path.name for path in sorted(tmp_path.iterdir())] == ["folder", "report.html"]
 

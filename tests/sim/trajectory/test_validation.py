@@ -11,7 +11,7 @@ from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory import kinematics
 from rotemina.sim.trajectory.kinematics import window_rows
 from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.violations import (
+from rotemina.sim.trajectory.validation import (
     Quantity,
     TrajectoryError,
     check_trajectory,

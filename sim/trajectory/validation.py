@@ -66,7 +66,7 @@ class Violation:
 
     @property
     def message(self) -> Message:
-        """What is wrong, where, value, bound and what to do."""
+        """The problem with place, value, bound and remedy."""
         value = exact(self.value, self.unit, size=self.bound)
         bound = exact(self.bound, self.unit)
         what = "position" if self.quantity is Quantity.RANGE else self.quantity
@@ -164,8 +164,8 @@ def commands_of(robot: Robot, trajectory: Record) -> dict[str, FloatArray]:
         raise TrajectoryError(
             message(
                 "engine",
-                "trajectory: it has no set-point column (axis.cmd); a trajectory "
-                "needs one at least",
+                "trajectory: it has no set-point column (axis.cmd); a trajectory needs at "
+                "least one",
             )
         )
     for name in names:

@@ -1,4 +1,4 @@
-"""One file out of the segments of a recording: when it ends, or after a crash."""
+"""Merges the segments of a recording into one file, at its end or after a crash."""
 
 import json
 import os
@@ -38,9 +38,9 @@ def recover(path: Path) -> Path:
     """
     if path.suffix != UNFINISHED:
         raise RecordingError(
-            message("engine", "{path}: a recording that was cut off ends with {unfinished}").fill(
-                path=path, unfinished=UNFINISHED
-            )
+            message(
+                "engine", "{path}: the name of an interrupted recording ends with {unfinished}"
+            ).fill(path=path, unfinished=UNFINISHED)
         )
     return merged(path, path.with_suffix(""))
 
@@ -51,7 +51,7 @@ def unfinished(folder: Path) -> tuple[Path, ...]:
 
 
 def being_recorded(path: Path) -> bool:
-    """Tell whether a program is recording or recovering ``path``."""
+    """Return whether a program is recording or recovering ``path``."""
     try:
         with path.open("r+b") as file:
             return not locked(file)
@@ -81,7 +81,7 @@ def merged(source: Path, target: Path) -> Path:
                         _merge(segments, table, _schema(name, table, metadata), file)
             except FileWriteError as error:
                 raise RecordingError(
-                    message("engine", "{error}; what was recorded is in {source}").fill(
+                    message("engine", "{error}; the recorded data are in {source}").fill(
                         error=str(error), source=source
                     )
                 ) from error
@@ -109,9 +109,9 @@ def _contents(source: Path, segments: WholeSegments) -> tuple[dict[str, str], di
         metadata = _metadata(source, next(found)[1])
     except StopIteration:
         raise RecordingError(
-            message(
-                "engine", "{source}: it was cut off before anything was recorded; delete it"
-            ).fill(source=source)
+            message("engine", "{source}: interrupted before anything was recorded; delete it").fill(
+                source=source
+            )
         ) from None
     tables = {SAMPLES: _Table(samples_schema(json.loads(metadata["units"])))}
     for byte_range, content in found:
@@ -127,8 +127,8 @@ def _metadata(source: Path, content: bytes) -> dict[str, str]:
         raise RecordingError(
             message(
                 "engine",
-                "{source}: of version {get}; this program reads {version}: recover it with the "
-                "program that recorded it",
+                "{source}: version {get}, but this program reads version {version}; recover "
+                "it with the program that recorded it",
             ).fill(source=source, get=str(metadata.get(FORMAT)), version=VERSION)
         )
     return metadata
@@ -145,7 +145,7 @@ def _check_same(source: Path, target: Path, metadata: Mapping[str, str]) -> None
         raise RecordingError(
             message(
                 "engine",
-                "{target}: it is there already and is another recording; rename it, then recover "
+                "{target} already exists and is another recording; rename it, then recover "
                 "{source}",
             ).fill(target=target, source=source)
         )

@@ -1,4 +1,4 @@
-"""G-code words that the emulated controller knows: G0, G1, G20, G21, G53, G90, G91, F, axes."""
+"""G-code words of the emulated controller: G0, G1, G20, G21, G53, G90, G91, F, axes."""
 
 import re
 from collections.abc import Iterator, Sequence

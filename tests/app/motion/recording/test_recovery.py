@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.merging import recover, unfinished
 from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recovery import recover, unfinished
 from rotemina.app.motion.recording.segments import SegmentFile
 
 DOCUMENT = Path(__file__).parents[4] / "docs" / "recording.md"
@@ -76,7 +76,7 @@ def test_what_holds_nothing_or_is_of_another_version_stays(tmp_path):
     file = SegmentFile(path)
     file.append(b'{"rotemina-recording": "7"}')
     file.close()
-    with pytest.raises(RecordingError, match="of version 7; this program reads 1"):
+    with pytest.raises(RecordingError, match="version 7, but this program reads version 1"):
         recover(path)
     assert path.exists()
     with pytest.raises(RecordingError, match=r"ends with \.part"):
@@ -132,9 +132,9 @@ def test_polars_reads_the_samples_in_one_line(crashed):
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        (b"", "no recording"),
-        (b"t [s],x [m]\n0,1\n" * 10, "no recording of this program, or a damaged one"),
-        (bytes(200), "no recording"),
+        (b"", "not a recording"),
+        (b"t [s],x [m]\n0,1\n" * 10, "not a recording of this program, or damaged"),
+        (bytes(200), "not a recording"),
     ],
 )
 def test_other_files_are_refused(tmp_path, data, words):
@@ -152,7 +152,7 @@ def test_a_finished_recording_that_is_cut_or_of_another_version_is_refused(crash
         with pytest.raises(RecordingError, match=re.escape(str(path))):
             Recording.open(path)
     path.write_bytes(data.replace(b"rotemina-recording", b"rotemina-recordinh"))
-    with pytest.raises(RecordingError, match="no recording of this program"):
+    with pytest.raises(RecordingError, match="not a recording of this program"):
         Recording.open(path)
     with pytest.raises(RecordingError, match="cannot be read"):
         Recording.open(tmp_path / "none.arrows")
