@@ -47,11 +47,13 @@ class LatePanels(QObject):
         self._next.start()
 
     def make_seen(self) -> None:
-        """Make those whose docks are in sight."""
+        """Make those whose docks are in sight; the others wait until these are painted."""
         for name in self._panels.waiting:
             dock = self._docks.get(name)
             if dock is not None and dock.isVisible() and not dock.visibleRegion().isEmpty():
                 self._panels.make(name)
+        if self._next.isActive():
+            self._next.start()
 
     def _make_next(self) -> None:
         waiting = self._panels.waiting
