@@ -35,6 +35,7 @@ from rotemina.app.shell.background import Background
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.help_topics import Explained, page_for, page_of, remedy_of
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.penetration_records import PenetrationRecords
 from rotemina.app.shell.plan import Plan
 from rotemina.app.shell.played_records import PlayedRecords
 from rotemina.app.shell.progress import Progress
@@ -158,6 +159,8 @@ class Workbench(Requests):
             told=self._told.emit,
             settings=settings,
         )
+        self._penetrated = PenetrationRecords(self.operation, self._told.emit)
+        self._penetrated.stored.connect(lambda _: self.library.refresh())
         self.replaying = Replaying(session, self.operation.penetration)
         self._happened.connect(self._on_event)
         self.refused.connect(lambda reason: self.notify(Level.ERROR, reason, about=page_of(reason)))
@@ -180,6 +183,7 @@ class Workbench(Requests):
         self.closing.emit()
         self._unsubscribe()
         self._played.close()
+        self._penetrated.close()
         self.microscope.close()
         self.operation.close()
         self.playback.close()
@@ -446,6 +450,7 @@ class Workbench(Requests):
         state = self.session.snapshot()
         self._check_plan(state)
         self._played.look()
+        self._penetrated.look()
         self.refreshed.emit(state)
         self._at_rest.look(state)
         self.replaying.step()

@@ -21,6 +21,7 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.reports import ask_run_report, recording_of
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.scroll import scrolled
 from rotemina.plugins.penetration.cell_list_view import CellListView
@@ -104,6 +105,7 @@ class PenetrationPanel(Panel):
         self.bar.arm_asked.connect(self.arm)
         self.bar.prepare_asked.connect(self.prepare)
         self.cells.penetrate_asked.connect(self.arm_for_cell)
+        self.log.report_asked.connect(self._report)
         self.form.changed.connect(self._change)
         self.form.load.clicked.connect(lambda _: self._ask_load())
         self.form.save.clicked.connect(lambda _: self._ask_save())
@@ -284,6 +286,14 @@ class PenetrationPanel(Panel):
             self.plan_preview.plan,
             status.trace if _by(status.run, self.plan_preview.parameters) else None,
         )
+
+    def _report(self, run: PenetrationRun) -> None:
+        entry = recording_of(self.workbench.library.entries, run)
+        if entry is None:
+            text = translate("penetration", "The library has no recording of this run.")
+            self.workbench.notify(Level.WARNING, text, about=self)
+        else:
+            ask_run_report(self, self.workbench, entry)
 
     def _read_log(self) -> None:
         log = self._operation.penetration_log

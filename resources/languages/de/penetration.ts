@@ -259,6 +259,10 @@
         <translation>Bewegung gesperrt: {locked}</translation>
     </message>
     <message>
+        <source>The library has no recording of this run.</source>
+        <translation>Die Bibliothek hat keine Aufzeichnung dieses Laufs.</translation>
+    </message>
+    <message>
         <source>Reading the log …</source>
         <translation>Protokoll wird gelesen …</translation>
     </message>
@@ -778,6 +782,10 @@
     <message>
         <source>{count} runs, {ours} since the program start. Log file: {path}</source>
         <translation>{count} Läufe, {ours} seit dem Programmstart. Protokolldatei: {path}</translation>
+    </message>
+    <message>
+        <source>select a run</source>
+        <translation>Lauf auswählen</translation>
     </message>
     <message>
         <source>a penetration is armed or running</source>
