@@ -13,6 +13,7 @@ from rotemina.app.motion.deviation import Excess
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.ownership import OPERATOR
+from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.playback import Playback, PlaybackPhase
 from rotemina.app.motion.recording.replay import Replay
 from rotemina.app.motion.run import Run, compared, compared_again
@@ -155,7 +156,7 @@ class Workbench(Requests):
             session,
             settings.folder,
             recorder=lambda: self.operation.recording,
-            penetration=lambda: self.operation.penetration.status.phase,
+            penetration=lambda: self.penetration,
             told=self._told.emit,
             settings=settings,
         )
@@ -197,6 +198,11 @@ class Workbench(Requests):
         """What is shown; ``replaying.changed`` tells when it is another."""
         paced = self.replaying.paced
         return self.session if paced is None else paced.replay
+
+    @property
+    def penetration(self) -> PenetrationPhase:
+        """How far the automatic penetration is."""
+        return self.operation.penetration.status.phase
 
     @property
     def untold(self) -> bool:
