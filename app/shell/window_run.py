@@ -154,16 +154,29 @@ def _run(
     window.loop_watch.start()
     beat = QTimer(application, interval=round(1e3 * PERIOD_S))
     beat.timeout.connect(session.screen.beat)
-    beat.start()
-    session.screen.beat()
     watched = Watched(
         session, user_data_path("rotemina", appauthor=False) / "watchdog.log", screen=True
     )
     window.workbench.closing.connect(beat.stop)
     window.workbench.closing.connect(session.screen.end)  # what closing waits for is no hang
-    watched.start()
-    window.late_panels.done.connect(window.loop_watch.restart)  # what it measures is use, no start
-    QTimer.singleShot(FRAME_MS, window.workbench.start)  # what is seen is painted first
+    watched.starting = True
+
+    def begin_use() -> None:
+        watched.starting = False
+        window.loop_watch.restart()
+
+    window.late_panels.done.connect(begin_use)
+
+    def connect() -> None:
+        session.screen.beat()
+        beat.start()
+        watched.start()
+        window.workbench.start()
+
+    painted = QTimer(application, interval=FRAME_MS, singleShot=True)
+    painted.timeout.connect(connect)  # what is seen is painted by then
+    window.workbench.closing.connect(painted.stop)
+    painted.start()
     # Python handles signals only between its own instructions: this wakes it now and then.
     wake = QTimer(application, interval=200)
     wake.timeout.connect(lambda: None)
