@@ -60,6 +60,23 @@ def test_silence_is_told_once_until_it_ends(watchdog, log, capsys, line, silence
     assert log.read_text(encoding="utf-8").count(said) == 2
 
 
+def test_a_simulator_that_hangs_needs_no_look_at_a_machine_and_no_window(log, monkeypatch):
+    windows = []
+    monkeypatch.setattr(process.subprocess, "Popen", lambda *words, **_: windows.append(words))
+    watchdog = process.Watchdog(log, shown=True)
+    slow = {"ages": {"window": 1.2}, "moves": False, "ports": []}
+    watchdog.take(json.dumps({**slow, "simulated": True}))
+    watchdog.look(0.0)
+    assert log.read_text(encoding="utf-8").endswith("of RoTeMiNa does not answer.\n")
+    assert windows == []
+    watchdog.take(beat(window=0.0))
+    watchdog.look(0.0)
+    watchdog.take(json.dumps(slow))
+    watchdog.look(0.0)
+    assert log.read_text(encoding="utf-8").endswith("Look at the machine.\n")
+    assert len(windows) == 1
+
+
 def test_a_line_that_is_cut_off_changes_nothing(watchdog, log):
     watchdog.take(beat(window=0.0))
     assert watchdog.take('{"ages": {"win')
