@@ -235,8 +235,16 @@ class Moves:
             targets = {axis: self._target_of(axis) + way for axis, way in distances.items()}
             self._send(targets, owner, speeds, permit, confirmed=confirmed)
 
-    def play(self, trajectory: Record | CheckedTrajectory, *, permit: Permit | None = None) -> None:
+    def play(
+        self,
+        trajectory: Record | CheckedTrajectory,
+        *,
+        permit: Permit | None = None,
+        shown: bool = True,
+    ) -> None:
         """Play a trajectory; events report its end, with the record.
+
+        Without ``shown`` it is a way to somewhere, and no run to keep and compare.
 
         A bare record is checked on the caller's thread, which takes half a second for a million
         rows; a trajectory from a dry run (``dry_run(…).require()``) is not checked again. The tip's
@@ -267,7 +275,7 @@ class Moves:
                     )
                 )
             loops = {axis: one.name for axis, one in self._loops.applied.items()}
-            play = Play(checked, sent, compensations, loops)
+            play = Play(checked, sent, compensations, loops, shown)
             self._admission.queue_move(play, permit, self._link.driver.axes, PLAYBACK)
 
     def check_play(self, trajectory: Record | CheckedTrajectory) -> None:

@@ -263,7 +263,7 @@ class Operation:
                     raise RefusedError(
                         message("engine", "the machine has moved in the meantime; try again")
                     )
-                self.session.play(way.trajectory, permit=permit)
+                self.session.play(way.trajectory, permit=permit, shown=False)
             except InputError as error:
                 self._told(message("engine", "{what}: {error}").fill(what=what, error=str(error)))
 

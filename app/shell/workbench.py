@@ -526,7 +526,7 @@ class Workbench(Requests):
         elif isinstance(event, Stopped):
             logger.info("%s", event.request)
             self.stopped.emit()
-        elif isinstance(event, PlaybackFinished):
+        elif isinstance(event, PlaybackFinished) and event.shown:
             self._take_played(event)
         elif isinstance(event, ModelChanged):
             self._take_model(event)

@@ -23,7 +23,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.reports import ask_run_report, recording_of
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.scroll import scrolled
+from rotemina.app.widgets.scroll import least_width, scrolled
 from rotemina.plugins.penetration.cell_list_view import CellListView
 from rotemina.plugins.penetration.cell_view import CellView
 from rotemina.plugins.penetration.form import ParameterForm
@@ -222,11 +222,15 @@ class PenetrationPanel(Panel):
             status.phase not in FIXED and self.plan_preview.lacks_room(self.workbench.robot, state),
             state,
         )
+        self.cell.refresh(state, self.plan_preview.parameters)
         text = message(status, self._why_not)
+        if self.cell.missing and self._why_not is None and status.phase not in FIXED:
+            text += translate(
+                "penetration", " The simulator has no cell: place one in Simulated cell."
+            )
         if self.message.text() != text:
             self.message.setText(text)
         self.readouts.refresh(status, state, self.plan_preview.parameters)
-        self.cell.refresh(state, self.plan_preview.parameters)
         self.cells.refresh(state, status, self._why_not)
         self._draw(status)
         fixed = None
@@ -323,5 +327,5 @@ def _by(run: PenetrationRun | None, parameters: PenetrationParameters) -> bool:
 
 def _scrolled(widget: QWidget) -> QScrollArea:
     scroll = scrolled(widget)
-    scroll.setFixedWidth(widget.minimumSizeHint().width() + 12)
+    scroll.setFixedWidth(least_width(scroll))
     return scroll

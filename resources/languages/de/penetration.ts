@@ -251,6 +251,10 @@
         <translation>Parameter speichern</translation>
     </message>
     <message>
+        <source> The simulator has no cell: place one in Simulated cell.</source>
+        <translation> Der Simulator hat keine Zelle: unter Simulierte Zelle eine setzen.</translation>
+    </message>
+    <message>
         <source>The run was not logged: {problem}</source>
         <translation>Der Lauf wurde nicht protokolliert: {problem}</translation>
     </message>
@@ -1018,6 +1022,7 @@
     </message>
     <message>
         <source>Distance from the present position of the axis, above 0 µm</source>
+        <extracomment>Whether the simulator has no cell that could be penetrated.</extracomment>
         <translation>Abstand von der jetzigen Position der Achse, über 0 µm</translation>
     </message>
     <message>

@@ -118,6 +118,10 @@ def test_parameters_are_typed_kept_and_read_and_nothing_moves(qtbot, window, pan
     press(qtbot, panel.bar.prepare)
     qtbot.waitUntil(panel.bar.arm.isEnabled, timeout=LONG_MS)
     assert session.snapshot().command["zn"] > 62e-6
+    assert panel.message.text() == (
+        "Ready to arm. The simulator has no cell: place one in Simulated cell."
+    )
+    assert window.workbench.run is None  # a way is no run
     window.workbench.close()  # what was typed last is kept then
     assert PenetrationParameters.load(kept) == form.parameters
 
