@@ -107,20 +107,21 @@ class GapStrip(QWidget):
     def _draw_curve(self, painter: QPainter, track: QRectF) -> None:
         """Draw the curve from each bound to the next in a colour of its own, and the bounds."""
         pieces = self._pieces(track)
-        below, role = track.bottom(), "text"
+        below, role, above = track.bottom(), "text", 0.0
+        peak = float(np.nanmax(self._values, initial=0.0))
         for next_role, size in (*self.bounds.items(), ("", np.inf)):
             at = self.height_of(size)
             colour = QColor(getattr(self._theme, "quiet" if self._stale else role))
             painter.setClipRect(QRectF(QPointF(track.left(), at), QPointF(track.right(), below)))
             painter.setPen(QPen(colour, 1 if role == "text" else 2))
-            for piece in pieces:
+            for piece in pieces if peak >= above else ():  # dense lines are slow to draw
                 painter.drawPolyline(piece)
             painter.setClipping(False)
             if size >= self.top:
                 return
             painter.setPen(QPen(QColor(getattr(self._theme, next_role)), 1, Qt.PenStyle.DotLine))
             painter.drawLine(QPointF(track.left(), at), QPointF(track.right(), at))
-            below, role = at, next_role
+            below, role, above = at, next_role, size
 
     def _pieces(self, track: QRectF) -> list[QPolygonF]:
         """Return the curve, torn where nothing counted."""
