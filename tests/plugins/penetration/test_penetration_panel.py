@@ -54,6 +54,7 @@ def above_a_cell(qtbot, panel, **parameters):
     session.go_to({"zn": 64e-6})
     qtbot.waitUntil(lambda: session.snapshot().command["zn"] == 64e-6, timeout=LONG_MS)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: abs(session.snapshot().measured["zn"] - 64e-6) < 1e-7, timeout=LONG_MS)
     panel.tabs.setCurrentIndex(2)
     panel.cell.ahead.setText("2")
     press(qtbot, panel.cell.put)
