@@ -6,7 +6,6 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
-    QScrollArea,
     QStackedWidget,
     QTabBar,
     QVBoxLayout,
@@ -77,7 +76,8 @@ class PenetrationPanel(Panel):
         row = QHBoxLayout(thrust)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(12)
-        row.addWidget(_scrolled(self.readouts))
+        self._beside = scrolled(self.readouts)
+        row.addWidget(self._beside)
         row.addWidget(self.preview, 1)
         row.addWidget(self.form)
         self.tabs, self.views = QTabBar(), QStackedWidget()
@@ -231,6 +231,8 @@ class PenetrationPanel(Panel):
         if self.message.text() != text:
             self.message.setText(text)
         self.readouts.refresh(status, state, self.plan_preview.parameters)
+        if (width := least_width(self._beside)) != self._beside.maximumWidth():
+            self._beside.setFixedWidth(width)  # the size of text is known once it is seen
         self.cells.refresh(state, status, self._why_not)
         self._draw(status)
         fixed = None
@@ -323,9 +325,3 @@ class PenetrationPanel(Panel):
 
 def _by(run: PenetrationRun | None, parameters: PenetrationParameters) -> bool:
     return run is not None and run.parameters == as_table(parameters)
-
-
-def _scrolled(widget: QWidget) -> QScrollArea:
-    scroll = scrolled(widget)
-    scroll.setFixedWidth(least_width(scroll))
-    return scroll
