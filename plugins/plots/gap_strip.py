@@ -142,11 +142,15 @@ class GapStrip(QWidget):
         painter.setPen(QColor(self._theme.quiet))
         room = QRectF(0, track.top(), AXIS_WIDTH - 5, track.height())
         side = Qt.AlignmentFlag
-        ends = [(self.top, side.AlignTop)]
+        ends = [(gap_text(self.top, self._unit), side.AlignTop)]
         if track.height() >= 2 * painter.fontMetrics().height():
-            ends.append((self._floor, side.AlignBottom))
-        for size, end in ends:
-            painter.drawText(room, int(side.AlignRight | end), gap_text(size, self._unit))
+            ends.append((gap_text(self._floor, self._unit), side.AlignBottom))
+        widest = max(painter.fontMetrics().horizontalAdvance(text) for text, _ in ends)
+        if widest > room.width():  # the axes' width is fixed, however large text is
+            font.setPixelSize(max(int(font.pixelSize() * room.width() / widest), 8))
+            painter.setFont(font)
+        for text, end in ends:
+            painter.drawText(room, int(side.AlignRight | end), text)
 
     def _explained(self, noise: float, bound: float) -> list[str]:
         floor, noise_text, bound_text = (
