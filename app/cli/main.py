@@ -9,28 +9,10 @@ import os
 import sys
 from collections.abc import Sequence
 from functools import partial
+from importlib import import_module
 from importlib.metadata import version
 
-from rotemina.app.cli import (
-    board,
-    calibrate,
-    compare,
-    compensate,
-    convert,
-    doctor,
-    driver,
-    effect,
-    excite,
-    gap,
-    plate,
-    play,
-    plugin,
-    recording,
-    simulate,
-    stage,
-    tune,
-    window,
-)
+from rotemina.app.cli import window
 from rotemina.app.cli.language import wording
 from rotemina.app.cli.translated_help import (
     CONTEXT,
@@ -41,13 +23,19 @@ from rotemina.app.cli.translated_help import (
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import Wording, message
 
+#: Each is a module of this package with a function ``add_parser``.
+SUBCOMMANDS = (
+    "play", "simulate", "compare", "gap", "compensate", "convert", "excite", "effect", "driver",
+    "board", "stage", "recording", "plate", "plugin", "calibrate", "tune", "doctor",
+)  # fmt: skip
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
     spoken = wording(language_asked(arguments))
     text = partial(spoken.text, CONTEXT)
     translate_argparse(text)
-    parser = build_parser()
+    parser = build_parser(_needed(sys.argv[1:] if arguments is None else arguments))
     translate_parser(parser, text)
     options = parser.parse_args(arguments)
     # The window translates its messages itself.
@@ -76,8 +64,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 130
 
 
-def build_parser() -> argparse.ArgumentParser:
-    """Return the parser of the whole command line; without a subcommand the window opens."""
+def _needed(arguments: Sequence[str]) -> Sequence[str]:
+    """Return the subcommands that the arguments name, all where one may want a list of them.
+
+    To load the modules of all takes longer than the window needs to open.
+    """
+    named = [one for one in SUBCOMMANDS if one in arguments]
+    if named:
+        return named
+    of_window = argparse.ArgumentParser(add_help=False, exit_on_error=False)
+    window.add_options(of_window)
+    try:
+        return SUBCOMMANDS if of_window.parse_known_args(arguments)[1] else ()
+    except argparse.ArgumentError:  # the whole parser says what is wrong
+        return SUBCOMMANDS
+
+
+def build_parser(subcommands: Sequence[str] = SUBCOMMANDS) -> argparse.ArgumentParser:
+    """Return the parser of the command line; without a subcommand the window opens."""
     parser = argparse.ArgumentParser(
         prog="rotemina",
         description="Control, simulation and sim-to-real diagnosis of the RoTeMiNa robot. Without"
@@ -85,12 +89,10 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"rotemina {version('rotemina')}")
     window.add_options(parser)
-    commands = parser.add_subparsers(title="subcommands", metavar="")
-    for module in (
-        play, simulate, compare, gap, compensate, convert, excite, effect, driver, board, stage,
-        recording, plate, plugin, calibrate, tune, doctor,
-    ):  # fmt: skip
-        module.add_parser(commands)
+    if subcommands:
+        commands = parser.add_subparsers(title="subcommands", metavar="")
+        for name in subcommands:
+            import_module(f"rotemina.app.cli.{name}").add_parser(commands)
     return parser
 
 

@@ -2,6 +2,7 @@
 
 import threading
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 
@@ -129,12 +130,21 @@ class LiveHistory:
 
     def _skipped(self, first: int, count: int, seconds: float | None, since_s: float | None) -> int:
         """Return how many of the oldest samples are too old."""
-        time_s = self._ordered(self._time_s, first)
-        oldest = float("-inf") if since_s is None else since_s
-        skipped = int(np.searchsorted(time_s, oldest, side="right"))
+        begin, end = first % self.capacity, self._written % self.capacity
+        older, newer = (
+            (self._time_s[begin:end], self._time_s[:0])
+            if begin < end
+            else (self._time_s[begin:], self._time_s[:end])
+        )
+
+        def place(at_s: float, side: Literal["left", "right"]) -> int:
+            in_older = int(older.searchsorted(at_s, side))
+            return in_older + (int(newer.searchsorted(at_s, side)) if in_older == len(older) else 0)
+
+        skipped = 0 if since_s is None else place(since_s, "right")
         if seconds is not None:
-            begin = float(time_s[-1]) - seconds
-            skipped = max(skipped, int(np.searchsorted(time_s, begin, side="left")))
+            newest_s = float(self._time_s[(self._written - 1) % self.capacity])
+            skipped = max(skipped, place(newest_s - seconds, "left"))
         return min(skipped, count)
 
     def _ordered(self, ring: FloatArray, first: int) -> FloatArray:

@@ -74,12 +74,16 @@ class Ask:
 
 @dataclass(frozen=True, slots=True)
 class Play:
-    """Play a trajectory; ``sent`` is the version for the device, if that differs."""
+    """Play a trajectory; ``sent`` is the version for the device, if that differs.
+
+    Without ``shown`` it is a way to somewhere, whose record nobody wants.
+    """
 
     trajectory: CheckedTrajectory
     sent: CheckedTrajectory | None = None
     compensations: Mapping[str, str] = field(default_factory=dict)
     loops: Mapping[str, str] = field(default_factory=dict)
+    shown: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -206,16 +206,45 @@ class Moves:
         OutOfLimitsError, RefusedError
             As :meth:`go_to`.
         """
+        self.move_by({axis: distance}, owner, speeds, confirmed=confirmed, permit=permit)
+
+    def move_by(
+        self,
+        distances: Mapping[str, float],
+        owner: str = OPERATOR,
+        speeds: Mapping[str, float] = MappingProxyType({}),
+        *,
+        confirmed: bool = False,
+        permit: Permit | None = None,
+    ) -> None:
+        """Move axes by distances (m or rad), each from where it was last sent; all of them or none.
+
+        ``speeds`` and ``confirmed`` as in :meth:`go_to`.
+
+        Raises
+        ------
+        OutOfLimitsError, RefusedError
+            As :meth:`go_to`.
+        """
         permit = self._admission.drawn(permit)
-        if axis not in self._link.robot.axes:
-            check_target(self._link.robot, axis, 0.0)
+        for axis in distances:
+            if axis not in self._link.robot.axes:
+                check_target(self._link.robot, axis, 0.0)
         with self._admission.lock:
             self._admission.refuse_if_locked()
-            target = self._target_of(axis) + distance
-            self._send({axis: target}, owner, speeds, permit, confirmed=confirmed)
+            targets = {axis: self._target_of(axis) + way for axis, way in distances.items()}
+            self._send(targets, owner, speeds, permit, confirmed=confirmed)
 
-    def play(self, trajectory: Record | CheckedTrajectory, *, permit: Permit | None = None) -> None:
+    def play(
+        self,
+        trajectory: Record | CheckedTrajectory,
+        *,
+        permit: Permit | None = None,
+        shown: bool = True,
+    ) -> None:
         """Play a trajectory; events report its end, with the record.
+
+        Without ``shown`` it is a way to somewhere, and no run to keep and compare.
 
         A bare record is checked on the caller's thread, which takes half a second for a million
         rows; a trajectory from a dry run (``dry_run(…).require()``) is not checked again. The tip's
@@ -246,7 +275,7 @@ class Moves:
                     )
                 )
             loops = {axis: one.name for axis, one in self._loops.applied.items()}
-            play = Play(checked, sent, compensations, loops)
+            play = Play(checked, sent, compensations, loops, shown)
             self._admission.queue_move(play, permit, self._link.driver.axes, PLAYBACK)
 
     def check_play(self, trajectory: Record | CheckedTrajectory) -> None:

@@ -263,7 +263,7 @@ class Operation:
                     raise RefusedError(
                         message("engine", "the machine has moved in the meantime; try again")
                     )
-                self.session.play(way.trajectory, permit=permit)
+                self.session.play(way.trajectory, permit=permit, shown=False)
             except InputError as error:
                 self._told(message("engine", "{what}: {error}").fill(what=what, error=str(error)))
 
@@ -295,8 +295,12 @@ class Operation:
         """The folder of recordings."""
         return self.data / "recordings"
 
-    def start_recording(self, settings: Mapping[str, object] = MappingProxyType({})) -> Path:
+    def start_recording(
+        self, settings: Mapping[str, object] = MappingProxyType({}), *, name: str = ""
+    ) -> Path:
         """Record everything from now on, and return into which file.
+
+        ``name`` is what the library calls it, its time where that is empty.
 
         Raises
         ------
@@ -312,7 +316,8 @@ class Operation:
                 raise RefusedError(message("engine", "a recording is running; end it first"))
             prepare()  # it takes a while the first time, in which nothing is recorded yet
             began = datetime.now().astimezone()
-            path = self.recordings / f"{began:%Y-%m-%d_%H-%M-%S-%f}.arrows"
+            stem = "_".join(filter(None, (f"{began:%Y-%m-%d_%H-%M-%S-%f}", name)))
+            path = self.recordings / f"{stem}.arrows"
             try:
                 self.recordings.mkdir(parents=True, exist_ok=True)
             except OSError as error:

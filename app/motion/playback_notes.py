@@ -17,10 +17,12 @@ class PlaybackNotes:
         #: What the operator says of all that is played; replaced as a whole by any thread.
         self.labels = RunLabels()
         self._noted: list[str] = []
+        self._shown = True
 
-    def begin(self) -> None:
-        """Forget what was noted before a playback."""
+    def begin(self, *, shown: bool) -> None:
+        """Forget what was noted before a playback, which is ``shown`` or a way to somewhere."""
         self._noted.clear()
+        self._shown = shown
 
     def add(self, *what: str) -> None:
         """Note faults or contacts: what is learned from this motion may come from them."""
@@ -45,4 +47,4 @@ class PlaybackNotes:
             recorder.say(NOTED, "; ".join(dict.fromkeys(self._noted)))
         record = recorder.finish()
         whole = completed and recorder.complete and record is not None
-        return PlaybackFinished(record, whole, model, recorder.answers)
+        return PlaybackFinished(record, whole, model, recorder.answers, self._shown)

@@ -53,8 +53,8 @@ class MotionSession:
 
     The session connects, stops and reports; its parts do the rest. The frequently used ones of
     :class:`Moves` and :class:`Subscribers` are the session's own methods: ``go_to``, ``jog``,
-    ``move_velocity``, ``go_safely``, ``home``, ``undo``, ``play``, ``check_play``, ``tip_path``,
-    ``set_voltage``, ``subscribe`` and ``tap``.
+    ``move_by``, ``move_velocity``, ``go_safely``, ``home``, ``undo``, ``play``, ``check_play``,
+    ``tip_path``, ``set_voltage``, ``subscribe`` and ``tap``.
 
     Parameters
     ----------
@@ -132,7 +132,8 @@ class MotionSession:
         self.backlash = Backlash(link, admission, self.ranges)
         routing = Routing(link, admission, guard, self.backlash)
         moves = Moves(link, admission, guard, self.inverses, self.loops, routing)
-        self.go_to, self.jog, self.move_velocity = moves.go_to, moves.jog, moves.move_velocity
+        self.go_to, self.jog, self.move_by = moves.go_to, moves.jog, moves.move_by
+        self.move_velocity = moves.move_velocity
         self.go_safely, self.home, self.undo = moves.go_safely, moves.home, moves.undo
         self.play, self.set_voltage = moves.play, moves.set_voltage
         self.check_play, self.tip_path = moves.check_play, moves.tip_path

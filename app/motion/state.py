@@ -183,13 +183,14 @@ class PlaybackFinished:
     """A playback ended; ``record`` is what was played, None if that never began.
 
     ``model`` is the one that was in use, and ``answers`` what it and the nominal one said of each
-    row of the record.
+    row of the record. Without ``shown`` it was a way to somewhere, whose record nobody wants.
     """
 
     record: Record | None
     completed: bool
     model: ModelInUse | None = None
     answers: RunAnswers | None = None
+    shown: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,6 +19,7 @@ class StopTracking:
         self._clock = clock
         # Set by other threads, each in one assignment.
         self._asked_s: float | None = None
+        self._rested_s: float | None = None  # the stop that found the machine at rest
         self._unconfirmed_s: float | None = None
         self._failure: Exception | None = None
         self._to_tell: deque[StopRequest] = deque(maxlen=_MOST_STOPS)
@@ -40,6 +41,15 @@ class StopTracking:
         failure, self._failure = self._failure, None
         return failure
 
+    @property
+    def asked_s(self) -> float | None:
+        """When the latest stop was asked for, until the machine has come to rest."""
+        return self._asked_s
+
+    def over(self, asked_s: float | None) -> None:
+        """Note that all rested when a motion began that was requested after this stop."""
+        self._rested_s = asked_s
+
     def confirmed(
         self, state: SessionState, now_s: float, pending: Callable[[], bool]
     ) -> SessionState:
@@ -55,6 +65,9 @@ class StopTracking:
         asked_s = self._asked_s
         if asked_s is None:
             return state
+        if asked_s == self._rested_s:
+            self._asked_s = None
+            return replace(state, standstill_s=0.0, stopping=False)
         if activity not in (DeviceState.IDLE, DeviceState.FAULT):
             return replace(state, standstill_s=None, stopping=True)
         self._asked_s = None

@@ -257,9 +257,12 @@ class Worker:
         while (posted := self._mailbox.take()) is not None:
             self._stirred |= isinstance(posted.command, _STIRRING)
             if isinstance(posted.command, Play):
-                self.notes.begin()
+                self.notes.begin(shown=posted.command.shown)
+            rests, stop_s = self._next.activity is DeviceState.IDLE, self._stops.asked_s
             try:
                 self._executor.do(posted.command, posted.permit)
+                if rests and isinstance(posted.command, _STIRRING) and posted.permit.valid:
+                    self._stops.over(stop_s)
                 if isinstance(posted.command, ClearFault) and posted.permit.valid:
                     self.models.restart()
                     self._next = replace(self._next, fault=None)

@@ -186,7 +186,7 @@ class RunReport:
         entry : Entry, optional
             Of the library.
         penetrations : sequence of PenetrationRun
-            Any; those that were started meanwhile are told of.
+            Any; those that were under way meanwhile are told of.
 
         Raises
         ------
@@ -373,13 +373,6 @@ def _in_floors(one: AxisTraces) -> float:
 def _meanwhile(
     runs: Sequence[PenetrationRun], began: str, duration_s: float
 ) -> tuple[PenetrationRun, ...]:
-    """Return the penetrations that were started within a recording."""
+    """Return the penetrations that were under way during a recording."""
     first = moment(began)
-    if first is None:
-        return ()
-    after_s = [
-        (one, (at - first).total_seconds())
-        for one in runs
-        if (at := moment(one.started)) is not None
-    ]
-    return tuple(one for one, s in after_s if -1.0 <= s <= duration_s)
+    return () if first is None else tuple(one for one in runs if one.during(first, duration_s))

@@ -2,13 +2,15 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 from PySide6.QtWidgets import QDockWidget
 
+from rotemina.app.motion.state import Connection
 from rotemina.app.shell.host import Panels
 from rotemina.app.shell.workbench import Workbench
 
 _BETWEEN_MS = 30  # for what the operator does meanwhile
+_CONNECTING_MS = 1500  # for which they leave the processor to a machine that is being connected
 
 
 class LatePanels(QObject):
@@ -29,7 +31,8 @@ class LatePanels(QObject):
         self, panels: Panels, docks: Mapping[str, QDockWidget], workbench: Workbench
     ) -> None:
         super().__init__(workbench)
-        self._panels, self._docks = panels, docks
+        self._panels, self._docks, self._session = panels, docks, workbench.session
+        self._since = QElapsedTimer()
         self._look = QTimer(self, singleShot=True, interval=0)
         self._look.timeout.connect(self.make_seen)
         self._next = QTimer(self, interval=_BETWEEN_MS)
@@ -44,16 +47,22 @@ class LatePanels(QObject):
 
     def start(self) -> None:
         """Begin to make those that are not seen."""
+        self._since.start()
         self._next.start()
 
     def make_seen(self) -> None:
-        """Make those whose docks are in sight."""
+        """Make those whose docks are in sight; the others wait until these are painted."""
         for name in self._panels.waiting:
             dock = self._docks.get(name)
             if dock is not None and dock.isVisible() and not dock.visibleRegion().isEmpty():
                 self._panels.make(name)
+        if self._next.isActive():
+            self._next.start()
 
     def _make_next(self) -> None:
+        connecting = self._session.snapshot().connection is Connection.CONNECTING
+        if connecting and self._since.elapsed() < _CONNECTING_MS:
+            return
         waiting = self._panels.waiting
         if waiting:
             self._panels.make(waiting[0])

@@ -96,7 +96,7 @@ class PlayedRecords(QObject):
             self.compared.emit(*held)
 
     def _count(self, event: Event) -> None:
-        if isinstance(event, PlaybackFinished):
+        if isinstance(event, PlaybackFinished) and event.shown:
             self._ended += 1
 
     def _store(self, record: Record, name: str) -> Path:

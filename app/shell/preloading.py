@@ -6,6 +6,8 @@ import logging
 import threading
 from collections.abc import Iterable
 
+from rotemina.app.motion.recording.tables import prepare
+
 logger = logging.getLogger(__name__)
 
 #: Each takes tenths of a second to load, for which whoever first chose its view would wait.
@@ -24,6 +26,7 @@ def preload(names: Iterable[str] = LATE) -> threading.Thread:
                 importlib.import_module(name)
             except Exception as error:  # a broken library breaks at import as it likes
                 logger.info("%s cannot be loaded before it is needed: %s", name, error)
+        prepare()  # a recording begins at once from then on
         gc.freeze()  # what was loaded stays: no look for garbage need go through it
 
     thread = threading.Thread(target=load, name="preloading", daemon=True)

@@ -1,6 +1,6 @@
 """Reports as files: where to, written in the background, opened when done."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from PySide6.QtCore import QUrl
@@ -8,10 +8,11 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.files import write_text
+from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.motion.run import compared
-from rotemina.app.records.entry import Entry
+from rotemina.app.records.entry import Entry, Kind
 from rotemina.app.records.library import read
 from rotemina.app.shell.engine_words import WindowWording
 from rotemina.app.shell.file_dialog import ask_where
@@ -24,6 +25,15 @@ RUN_REPORT_TIP = marked(
     "shell",
     "Write a page with date, machine, model, plots, gap, events and note of the run, and open it",
 )
+
+
+def recording_of(entries: Iterable[Entry], run: PenetrationRun) -> Entry | None:
+    """Return the recording of a penetration, None where there is none."""
+    recordings = (one for one in entries if one.kind is Kind.RECORDING and not one.missing)
+    for one in recordings:
+        if one.began is not None and run.during(one.began, one.duration_s or 0.0):
+            return one
+    return None
 
 
 def save_report(bench: Workbench, path: Path, write: Callable[[], None], about: QWidget) -> None:

@@ -1,5 +1,6 @@
 """Starting the window: what the machine lacks is said in one line before Qt would abort."""
 
+import gc
 import logging
 import os
 import sys
@@ -61,6 +62,7 @@ def start(
 
     qt_messages.log_qt_messages()
     if not reason:
+        gc.disable()  # what is loaded stays: looks through it take a tenth of a start
         from rotemina.app.shell.application import show_splash
 
         splash = show_splash()

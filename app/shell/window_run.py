@@ -25,7 +25,7 @@ from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.panel_watch import PanelWatch
 from rotemina.app.shell.preloading import preload
-from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.shell.workbench import FRAME_MS, Level, Workbench
 from rotemina.app.watchdog.watched import Watched
 from rotemina.sim.errors import InputError
 
@@ -148,23 +148,35 @@ def _run(
         window.first_steps.offer()
     # A look through all that was imported takes tenths of a second, for which every thread waits:
     # longer than the boards' set-points last. What is here stays as long as the program.
-    gc.collect()
     gc.freeze()
-    window.late_panels.done.connect(gc.freeze)  # no look before: the machine is connected by then
+    window.late_panels.done.connect(gc.freeze)
     window.late_panels.done.connect(lambda: preload())
     window.loop_watch.start()
     beat = QTimer(application, interval=round(1e3 * PERIOD_S))
     beat.timeout.connect(session.screen.beat)
-    beat.start()
-    session.screen.beat()
     watched = Watched(
         session, user_data_path("rotemina", appauthor=False) / "watchdog.log", screen=True
     )
     window.workbench.closing.connect(beat.stop)
     window.workbench.closing.connect(session.screen.end)  # what closing waits for is no hang
-    watched.start()
-    window.late_panels.done.connect(window.loop_watch.restart)  # what it measures is use, no start
-    window.workbench.start()
+    watched.starting = True
+
+    def begin_use() -> None:
+        watched.starting = False
+        window.loop_watch.restart()
+
+    window.late_panels.done.connect(begin_use)
+
+    def connect() -> None:
+        session.screen.beat()
+        beat.start()
+        watched.start()
+        window.workbench.start()
+
+    painted = QTimer(application, interval=FRAME_MS, singleShot=True)
+    painted.timeout.connect(connect)  # what is seen is painted by then
+    window.workbench.closing.connect(painted.stop)
+    painted.start()
     # Python handles signals only between its own instructions: this wakes it now and then.
     wake = QTimer(application, interval=200)
     wake.timeout.connect(lambda: None)

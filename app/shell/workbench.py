@@ -13,6 +13,7 @@ from rotemina.app.motion.deviation import Excess
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.ownership import OPERATOR
+from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.playback import Playback, PlaybackPhase
 from rotemina.app.motion.recording.replay import Replay
 from rotemina.app.motion.run import Run, compared, compared_again
@@ -35,6 +36,7 @@ from rotemina.app.shell.background import Background
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.help_topics import Explained, page_for, page_of, remedy_of
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.penetration_records import PenetrationRecords
 from rotemina.app.shell.plan import Plan
 from rotemina.app.shell.played_records import PlayedRecords
 from rotemina.app.shell.progress import Progress
@@ -154,10 +156,12 @@ class Workbench(Requests):
             session,
             settings.folder,
             recorder=lambda: self.operation.recording,
-            penetration=lambda: self.operation.penetration.status.phase,
+            penetration=lambda: self.penetration,
             told=self._told.emit,
             settings=settings,
         )
+        self._penetrated = PenetrationRecords(self.operation, self._told.emit)
+        self._penetrated.stored.connect(lambda _: self.library.refresh())
         self.replaying = Replaying(session, self.operation.penetration)
         self._happened.connect(self._on_event)
         self.refused.connect(lambda reason: self.notify(Level.ERROR, reason, about=page_of(reason)))
@@ -180,6 +184,7 @@ class Workbench(Requests):
         self.closing.emit()
         self._unsubscribe()
         self._played.close()
+        self._penetrated.close()
         self.microscope.close()
         self.operation.close()
         self.playback.close()
@@ -193,6 +198,11 @@ class Workbench(Requests):
         """What is shown; ``replaying.changed`` tells when it is another."""
         paced = self.replaying.paced
         return self.session if paced is None else paced.replay
+
+    @property
+    def penetration(self) -> PenetrationPhase:
+        """How far the automatic penetration is."""
+        return self.operation.penetration.status.phase
 
     @property
     def untold(self) -> bool:
@@ -446,6 +456,7 @@ class Workbench(Requests):
         state = self.session.snapshot()
         self._check_plan(state)
         self._played.look()
+        self._penetrated.look()
         self.refreshed.emit(state)
         self._at_rest.look(state)
         self.replaying.step()
@@ -515,7 +526,7 @@ class Workbench(Requests):
         elif isinstance(event, Stopped):
             logger.info("%s", event.request)
             self.stopped.emit()
-        elif isinstance(event, PlaybackFinished):
+        elif isinstance(event, PlaybackFinished) and event.shown:
             self._take_played(event)
         elif isinstance(event, ModelChanged):
             self._take_model(event)

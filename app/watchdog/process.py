@@ -84,7 +84,10 @@ class Watchdog:
         ages = {name: float(age) for name, age in self._ages().items()}
         wrong = verdict(self._beat, ages, silence_s)
         if wrong and not self._told:
-            self.tell(f"{wrong} The boards stop by their own watchdog. Look at the machine.")
+            if self._beat.get("simulated"):
+                self.tell(wrong, window=False)
+            else:
+                self.tell(f"{wrong} The boards stop by their own watchdog. Look at the machine.")
         self._told = wrong
 
     def died(self) -> None:
@@ -93,15 +96,18 @@ class Watchdog:
         sent = stop_boards([str(port) for port in ports] if isinstance(ports, list) else [])
         self.tell("\n".join(["RoTeMiNa has ended without letting go of the machine.", *sent]))
 
-    def tell(self, text: str) -> None:
-        """Say something on the terminal, in the log and on the screen, wherever that can be."""
+    def tell(self, text: str, *, window: bool = True) -> None:
+        """Say something on the terminal, in the log and on the screen, wherever that can be.
+
+        Without ``window`` it is not on the screen: of a simulator that stands in a window's way.
+        """
         line = f"{datetime.now():%Y-%m-%d %H:%M:%S}  watchdog: {text}\n"
         with contextlib.suppress(OSError, ValueError):
             sys.stderr.write(line)
             sys.stderr.flush()
         with contextlib.suppress(OSError), self._log.open("a", encoding="utf-8") as log:
             log.write(line)
-        if self._shown and (self._window is None or self._window.poll() is not None):
+        if self._shown and window and (self._window is None or self._window.poll() is not None):
             with contextlib.suppress(OSError):
                 self._window = subprocess.Popen(
                     [sys.executable, "-c", _WINDOW, text], stderr=subprocess.DEVNULL

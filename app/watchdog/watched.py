@@ -11,6 +11,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection
 from rotemina.app.motion.ticker import Ticker
 from rotemina.app.watchdog import process
+from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.drivers.samples import DeviceState
 
 _LOG = logging.getLogger(__name__)
@@ -33,6 +34,8 @@ class Watched:
         self._session = session
         self._arguments = [str(log), *(["screen"] if screen else [])]
         self._process: subprocess.Popen[str] | None = None
+        #: Whether the window is still being made: it may take its time while nothing moves.
+        self.starting = False
         self._ticker = Ticker("watchdog", PERIOD_S, self.beat)
 
     @property
@@ -60,15 +63,17 @@ class Watched:
         session = self._session
         state, settings = session.snapshot(), session.driver.settings
         connected = state.connection is Connection.CONNECTED  # opening a device may take long
+        moves = state.activity not in _AT_REST
         ages = {
-            "window": session.screen.age_s,
+            "window": session.screen.age_s if moves or not self.starting else None,
             "worker": session.pulse.age_s if connected else None,
         }
         ports = [str(port) for name, port in settings.items() if "port" in name and port]
         self._say(
             {
                 "ages": {name: age_s for name, age_s in ages.items() if age_s is not None},
-                "moves": state.activity not in _AT_REST,
+                "moves": moves,
+                "simulated": isinstance(session.driver, EffectCarrier),
                 "ports": ports if state.activity is not DeviceState.CLOSED else [],
             }
         )

@@ -7,7 +7,7 @@ pass no row (Fritsch and Butland, SIAM Journal on Scientific and Statistical Com
 """
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.record import Record, Tap
@@ -38,7 +38,9 @@ class SmoothRows:
         self._last = rows[-1]
         self._path = None
         if len(time_s) > 1:
-            self._path = PchipInterpolator(time_s, np.insert(rows, place, rows[held], axis=0))
+            self._path = scipy.interpolate.PchipInterpolator(
+                time_s, np.insert(rows, place, rows[held], axis=0)
+            )
             self._slope = self._path.derivative()
 
     def commands(self, time_s: FloatArray, command: FloatArray) -> FloatArray:

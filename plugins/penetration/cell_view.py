@@ -119,6 +119,8 @@ class CellView(QWidget):
         self._workbench = workbench
         self._parameters = PenetrationParameters()
         self._known: object = ()
+        #: Whether the simulator has no cell that could be penetrated.
+        self.missing = False
         self.where, self.about = plain_text(wrap=True), plain_text(wrap=True)
         self.where.setProperty("quiet", False)
         about = translate(
@@ -179,6 +181,7 @@ class CellView(QWidget):
             ),
         )
         has = effects is not None and without_cell(effects, axis) != effects
+        self.missing = effects is not None and not has
         allow(
             self.take,
             None if has else translate("penetration", "there is no cell"),

@@ -3,12 +3,13 @@
 from collections.abc import Iterable
 from datetime import datetime
 
-from PySide6.QtCore import QSignalBlocker, Qt
-from PySide6.QtWidgets import QPlainTextEdit, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QSplitter, QVBoxLayout, QWidget
 
 from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.shell.language import translate
-from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.shell.reports import RUN_REPORT, RUN_REPORT_TIP
+from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.penetration.runs import COLUMN_TIPS, COLUMNS, RunList, in_full, row
@@ -17,7 +18,14 @@ _NUMBERS = range(2, 7)
 
 
 class LogView(QWidget):
-    """A table beside the text of one run."""
+    """A table beside the text of one run.
+
+    Signals
+    -------
+    report_asked(PenetrationRun) : the report of the selected run is wanted.
+    """
+
+    report_asked = Signal(object)
 
     def __init__(self, path: str) -> None:
         super().__init__()
@@ -52,8 +60,12 @@ class LogView(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(3)
+        self.report = button(translate("shell", RUN_REPORT), self._ask_report)
+        below = QHBoxLayout()
+        below.addWidget(self.file, 1)
+        below.addWidget(self.report)
         column.addWidget(split, 1)
-        column.addWidget(self.file)
+        column.addLayout(below)
         self._fill()
 
     def take_file(self, runs: Iterable[PenetrationRun]) -> None:
@@ -72,6 +84,7 @@ class LogView(QWidget):
             self.table.clearSelection()
         self.table.show_rows([row(run, now) for run in self.list.runs], numbers=_NUMBERS, tips=True)
         self.text.clear()
+        self._allow_report()
         count, ours = len(self.list.runs), self.list.of_this_start
         self.file.show_text(
             translate(
@@ -80,5 +93,19 @@ class LogView(QWidget):
         )
 
     def _show_chosen(self) -> None:
-        chosen = self.table.selectionModel().selectedRows()
-        self.text.setPlainText(in_full(self.list.runs[chosen[0].row()]) if chosen else "")
+        chosen = self._chosen
+        self.text.setPlainText("" if chosen is None else in_full(chosen))
+        self._allow_report()
+
+    def _allow_report(self) -> None:
+        none = translate("penetration", "select a run") if self._chosen is None else None
+        allow(self.report, none, translate("shell", RUN_REPORT_TIP))
+
+    def _ask_report(self) -> None:
+        if (chosen := self._chosen) is not None:
+            self.report_asked.emit(chosen)
+
+    @property
+    def _chosen(self) -> PenetrationRun | None:
+        rows = self.table.selectionModel().selectedRows()
+        return self.list.runs[rows[0].row()] if rows else None

@@ -6,7 +6,6 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
-    QScrollArea,
     QStackedWidget,
     QTabBar,
     QVBoxLayout,
@@ -21,8 +20,9 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.reports import ask_run_report, recording_of
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.scroll import scrolled
+from rotemina.app.widgets.scroll import least_width, scrolled
 from rotemina.plugins.penetration.cell_list_view import CellListView
 from rotemina.plugins.penetration.cell_view import CellView
 from rotemina.plugins.penetration.form import ParameterForm
@@ -76,7 +76,8 @@ class PenetrationPanel(Panel):
         row = QHBoxLayout(thrust)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(12)
-        row.addWidget(_scrolled(self.readouts))
+        self._beside = scrolled(self.readouts)
+        row.addWidget(self._beside)
         row.addWidget(self.preview, 1)
         row.addWidget(self.form)
         self.tabs, self.views = QTabBar(), QStackedWidget()
@@ -104,6 +105,7 @@ class PenetrationPanel(Panel):
         self.bar.arm_asked.connect(self.arm)
         self.bar.prepare_asked.connect(self.prepare)
         self.cells.penetrate_asked.connect(self.arm_for_cell)
+        self.log.report_asked.connect(self._report)
         self.form.changed.connect(self._change)
         self.form.load.clicked.connect(lambda _: self._ask_load())
         self.form.save.clicked.connect(lambda _: self._ask_save())
@@ -220,11 +222,17 @@ class PenetrationPanel(Panel):
             status.phase not in FIXED and self.plan_preview.lacks_room(self.workbench.robot, state),
             state,
         )
+        self.cell.refresh(state, self.plan_preview.parameters)
         text = message(status, self._why_not)
+        if self.cell.missing and self._why_not is None and status.phase not in FIXED:
+            text += translate(
+                "penetration", " The simulator has no cell: place one in Simulated cell."
+            )
         if self.message.text() != text:
             self.message.setText(text)
         self.readouts.refresh(status, state, self.plan_preview.parameters)
-        self.cell.refresh(state, self.plan_preview.parameters)
+        if (width := least_width(self._beside)) != self._beside.maximumWidth():
+            self._beside.setFixedWidth(width)  # the size of text is known once it is seen
         self.cells.refresh(state, status, self._why_not)
         self._draw(status)
         fixed = None
@@ -285,6 +293,14 @@ class PenetrationPanel(Panel):
             status.trace if _by(status.run, self.plan_preview.parameters) else None,
         )
 
+    def _report(self, run: PenetrationRun) -> None:
+        entry = recording_of(self.workbench.library.entries, run)
+        if entry is None:
+            text = translate("penetration", "The library has no recording of this run.")
+            self.workbench.notify(Level.WARNING, text, about=self)
+        else:
+            ask_run_report(self, self.workbench, entry)
+
     def _read_log(self) -> None:
         log = self._operation.penetration_log
         if not Path(log.path).exists():
@@ -309,9 +325,3 @@ class PenetrationPanel(Panel):
 
 def _by(run: PenetrationRun | None, parameters: PenetrationParameters) -> bool:
     return run is not None and run.parameters == as_table(parameters)
-
-
-def _scrolled(widget: QWidget) -> QScrollArea:
-    scroll = scrolled(widget)
-    scroll.setFixedWidth(widget.minimumSizeHint().width() + 12)
-    return scroll

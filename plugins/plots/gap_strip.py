@@ -107,20 +107,21 @@ class GapStrip(QWidget):
     def _draw_curve(self, painter: QPainter, track: QRectF) -> None:
         """Draw the curve from each bound to the next in a colour of its own, and the bounds."""
         pieces = self._pieces(track)
-        below, role = track.bottom(), "text"
+        below, role, above = track.bottom(), "text", 0.0
+        peak = float(np.nanmax(self._values, initial=0.0))
         for next_role, size in (*self.bounds.items(), ("", np.inf)):
             at = self.height_of(size)
             colour = QColor(getattr(self._theme, "quiet" if self._stale else role))
             painter.setClipRect(QRectF(QPointF(track.left(), at), QPointF(track.right(), below)))
             painter.setPen(QPen(colour, 1 if role == "text" else 2))
-            for piece in pieces:
+            for piece in pieces if peak >= above else ():  # dense lines are slow to draw
                 painter.drawPolyline(piece)
             painter.setClipping(False)
             if size >= self.top:
                 return
             painter.setPen(QPen(QColor(getattr(self._theme, next_role)), 1, Qt.PenStyle.DotLine))
             painter.drawLine(QPointF(track.left(), at), QPointF(track.right(), at))
-            below, role = at, next_role
+            below, role, above = at, next_role, size
 
     def _pieces(self, track: QRectF) -> list[QPolygonF]:
         """Return the curve, torn where nothing counted."""
@@ -141,11 +142,15 @@ class GapStrip(QWidget):
         painter.setPen(QColor(self._theme.quiet))
         room = QRectF(0, track.top(), AXIS_WIDTH - 5, track.height())
         side = Qt.AlignmentFlag
-        ends = [(self.top, side.AlignTop)]
+        ends = [(gap_text(self.top, self._unit), side.AlignTop)]
         if track.height() >= 2 * painter.fontMetrics().height():
-            ends.append((self._floor, side.AlignBottom))
-        for size, end in ends:
-            painter.drawText(room, int(side.AlignRight | end), gap_text(size, self._unit))
+            ends.append((gap_text(self._floor, self._unit), side.AlignBottom))
+        widest = max(painter.fontMetrics().horizontalAdvance(text) for text, _ in ends)
+        if widest > room.width():  # the axes' width is fixed, however large text is
+            font.setPixelSize(max(int(font.pixelSize() * room.width() / widest), 8))
+            painter.setFont(font)
+        for text, end in ends:
+            painter.drawText(room, int(side.AlignRight | end), text)
 
     def _explained(self, noise: float, bound: float) -> list[str]:
         floor, noise_text, bound_text = (

@@ -297,7 +297,8 @@ class PlotsPanel(Panel):
             self._read_cursors()
 
     def _draw_again(self) -> None:
-        self._draw(latest(self._whole(), float(self.span.currentData())))
+        held = self._held  # all of the history is tens of megabytes to copy
+        self._draw(self._newest() if held is None else latest(held, float(self.span.currentData())))
 
     def _draw_other(self) -> None:
         self._draw_again()

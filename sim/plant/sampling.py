@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.linalg import matrix_balance
+import scipy
 
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.messages import message
@@ -175,7 +175,7 @@ def _exponential(numbers: bytes, size: int, length_s: float) -> FloatArray:
     plant over and over.
     """
     generator = np.frombuffer(numbers).reshape(size, size)
-    balanced, (scale, _) = matrix_balance(generator, permute=False, separate=True)
+    balanced, (scale, _) = scipy.linalg.matrix_balance(generator, permute=False, separate=True)
     doublings = max(int(np.ceil(np.log2(2.0 * length_s * np.linalg.norm(balanced, 1) + 1e-300))), 0)
     exact = _series(np.asarray(balanced, dtype=np.float64), np.array([length_s * 0.5**doublings]))[
         0
@@ -194,7 +194,7 @@ def _many_steps(numbers: bytes, lengths: bytes, size: int, states: int) -> Float
     is: a fit goes over the same uneven record again and again.
     """
     generator, lengths_s = np.frombuffer(numbers).reshape(size, size), np.frombuffer(lengths)
-    balanced, _ = matrix_balance(generator, permute=False)
+    balanced, _ = scipy.linalg.matrix_balance(generator, permute=False)
     # A static axis without states has a rate of zero: one step serves all its lengths.
     pitch = 1.0 / max(float(np.linalg.norm(balanced, 1)), np.finfo(np.float64).tiny)
     bucket = np.rint(lengths_s / pitch).astype(np.int64)

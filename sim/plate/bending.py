@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import SuperLU, splu
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 
@@ -45,8 +44,8 @@ class Bending:
 
     basis: "Basis"
     length: float
-    stiffness: sparse.csr_matrix
-    mass: sparse.csr_matrix
+    stiffness: "scipy.sparse.csr_matrix"
+    mass: "scipy.sparse.csr_matrix"
     normals: FloatArray
 
     @property
@@ -129,10 +128,10 @@ def _normals(mesh: "MeshTri") -> FloatArray:
     return np.asarray(normals)
 
 
-def factorized(matrix: sparse.spmatrix) -> SuperLU:
+def factorized(matrix: "scipy.sparse.spmatrix") -> "scipy.sparse.linalg.SuperLU":
     """Factorize a symmetric positive definite matrix; its pivots need no search."""
-    return splu(
-        sparse.csc_matrix(matrix),
+    return scipy.sparse.linalg.splu(
+        scipy.sparse.csc_matrix(matrix),
         permc_spec="MMD_AT_PLUS_A",
         diag_pivot_thresh=0.0,
         options={"SymmetricMode": True},

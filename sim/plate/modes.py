@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, eigsh
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
@@ -51,11 +50,15 @@ def eigenmodes(held: HeldPlate, pin_length_m: float, count: int = 10) -> Modes:
     stiffness = reduced(held, held.bending.stiffness)
     mass = reduced(held, held.bending.mass)
     size = stiffness.shape[0]
-    rigid = sparse.block_diag([inertia, sparse.csr_matrix((size - 3, size - 3))], format="csc")
+    rigid = scipy.sparse.block_diag(
+        [inertia, scipy.sparse.csr_matrix((size - 3, size - 3))], format="csc"
+    )
     factors = factorized(stiffness)
-    inverse = LinearOperator((size, size), matvec=factors.solve, dtype=np.float64)
+    inverse = scipy.sparse.linalg.LinearOperator(
+        (size, size), matvec=factors.solve, dtype=np.float64
+    )
     start = np.random.default_rng(0).standard_normal(size)  # the same answer every time
-    squares, vectors = eigsh(
+    squares, vectors = scipy.sparse.linalg.eigsh(
         stiffness, count, M=mass + rigid, sigma=0.0, OPinv=inverse, v0=start, which="LM"
     )
     order = np.argsort(squares)

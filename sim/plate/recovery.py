@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 
@@ -28,14 +28,14 @@ def at_points(mesh: "MeshTri", values: FloatArray) -> FloatArray:
     (k, points) array
     """
     elements = mesh.t.shape[1]
-    near = sparse.csr_matrix(
+    near = scipy.sparse.csr_matrix(
         (np.ones(3 * elements), (mesh.t.ravel(), np.tile(np.arange(elements), 3))),
         shape=(mesh.p.shape[1], elements),
     )
     border = np.zeros(mesh.p.shape[1])
     border[mesh.boundary_nodes()] = 1.0
-    wide = sparse.diags(border) @ near @ near.T @ near
-    patches = sparse.csr_matrix(sparse.diags(1.0 - border) @ near + (wide > 0))
+    wide = scipy.sparse.diags(border) @ near @ near.T @ near
+    patches = scipy.sparse.csr_matrix(scipy.sparse.diags(1.0 - border) @ near + (wide > 0))
     x, y = mesh.p[:, mesh.t].mean(axis=1)
     sums = patches @ np.stack([np.ones(elements), x, y, x * x, x * y, y * y], axis=1)
     n, sx, sy, sxx, sxy, syy = sums.T

@@ -9,7 +9,7 @@ linear: stretching would add about (w/h)²/2 to the stiffness, 1 % at the shippe
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.bending import Bending, assemble, factorized
@@ -165,13 +165,13 @@ def hub_inertia(plate: Plate, pin_length_m: float) -> FloatArray:
     )
 
 
-def reduced(held: HeldPlate, matrix: sparse.csr_matrix) -> sparse.csc_matrix:
+def reduced(held: HeldPlate, matrix: "scipy.sparse.csr_matrix") -> "scipy.sparse.csc_matrix":
     """Return a matrix in the unknowns (zn, R thx, R thy, free ones), all of them lengths."""
     length = held.bending.length
-    scaled = sparse.csr_matrix(held.hub_motion / np.array([1.0, length, length]))
+    scaled = scipy.sparse.csr_matrix(held.hub_motion / np.array([1.0, length, length]))
     count = held.free.size
-    chosen = sparse.csr_matrix(
+    chosen = scipy.sparse.csr_matrix(
         (np.ones(count), (held.free, np.arange(count))), shape=(matrix.shape[0], count)
     )
-    both = sparse.hstack([scaled, chosen], format="csr")
-    return sparse.csc_matrix(both.T @ matrix @ both)
+    both = scipy.sparse.hstack([scaled, chosen], format="csr")
+    return scipy.sparse.csc_matrix(both.T @ matrix @ both)

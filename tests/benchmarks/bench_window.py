@@ -1,7 +1,7 @@
 """The window: how long until all in sight is painted, and what six scrolling plots cost.
 
-Limits: first paint within 3 s when warm; six plots of 10 s at 1 kHz at 30 frames a second or
-more with at most 60 % of one core.
+Limits: painted and the machine ready within 2 s when warm; six plots of 10 s at 1 kHz at 30
+frames a second or more with at most 60 % of one core.
 """
 
 import os
@@ -13,44 +13,51 @@ from statistics import median
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 QUICK = {"FRAMES": 5, "ROWS": 1000}
 
+# The command itself, which takes the offscreen platform for a display.
 START = """
-import os, sys, time, tempfile
-os.environ["QT_QPA_PLATFORM"] = "offscreen"
-from pathlib import Path
-from PySide6.QtCore import QEvent, QObject, QTimer
-from rotemina.app.motion.session import MotionSession
-from rotemina.app.settings import Settings
-from rotemina.app.shell.layouts import OPERATE
-from rotemina.app.shell.application import make_application
-from rotemina.app.shell.window_run import make_window
-from rotemina.drivers.simulator.driver import Simulator
-from rotemina.sim.robot.file import load_robot
+import os, time
+from rotemina.app.cli.main import main
+from rotemina.app.motion.state import Phase
+from rotemina.app.shell import start
 
-class FirstPaint(QObject):
-    def eventFilter(self, watched, event):
-        if event.type() == QEvent.Type.Paint:
-            print("painted", flush=True)
-            os._exit(0)
-        return False
+def no_fault():  # Qt is loaded next
+    from PySide6.QtCore import QEvent, QObject, QTimer
+    from PySide6.QtWidgets import QApplication
+    from rotemina.app.shell import application
 
-application = make_application()
-session = MotionSession(Simulator(load_robot("rotemina")))
-folder = Path(tempfile.mkdtemp())
-window = make_window(session, Settings(folder / "settings.json"), folder)
-watcher, timer = FirstPaint(), QTimer(interval=1)
+    class Watcher(QObject):
+        painted = field = None
 
-def watch():  # a panel is made when its dock comes into sight
-    if "control" in window.panels.made and "trajectory" in window.panels.made:
-        window.panels["control"].rows["x"].target.installEventFilter(watcher)
-        window.panels["control"].rows["x"].target.update()
-        timer.stop()
+        def eventFilter(self, watched, event):
+            if event.type() == QEvent.Type.Paint and self.painted is None:
+                self.painted = time.time()
+            return False
 
-timer.timeout.connect(watch)
-timer.start()
-window.show()
-window.arrangement.arrange(OPERATE)
-window.workbench.start()
-application.exec()
+    watcher, timer, show_splash = Watcher(), QTimer(interval=1), application.show_splash
+
+    def watch():  # a panel is made when its dock comes into sight
+        for window in QApplication.topLevelWidgets():
+            if not hasattr(window, "panels"):
+                continue
+            made = window.panels.made
+            if watcher.field is None and "control" in made and "trajectory" in made:
+                watcher.field = made["control"].rows["x"].target
+                watcher.field.installEventFilter(watcher)
+                watcher.field.update()
+            if watcher.painted and window.workbench.session.snapshot().phase is Phase.READY:
+                print(watcher.painted, time.time(), time.process_time(), flush=True)
+                os._exit(0)
+
+    def show_and_watch():
+        splash = show_splash()
+        timer.timeout.connect(watch)
+        timer.start()
+        return splash
+
+    application.show_splash = show_and_watch
+
+start.display_fault = no_fault
+main([])
 """
 
 FRAMES = 300
@@ -59,20 +66,31 @@ ROWS, RATE_HZ = 10_000, 1000.0
 
 def test_time_to_first_paint(tmp_path):
     # Warm: with compiled modules, as an installed program has them from its second start on.
-    environment = {**os.environ, "PYTHONPYCACHEPREFIX": str(tmp_path)}
+    environment = {**os.environ, "PYTHONPYCACHEPREFIX": str(tmp_path / "compiled")}
+    environment |= {f"XDG_{kind}_HOME": str(tmp_path) for kind in ("DATA", "CONFIG", "CACHE")}
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
-    seconds = []
+    runs = []
     for _ in range(6):
-        begin = time.perf_counter()
-        subprocess.run(
-            [sys.executable, "-c", START], check=True, capture_output=True, env=environment
+        begin = time.time()
+        done = subprocess.run(
+            [sys.executable, "-c", START],
+            check=True,
+            capture_output=True,
+            env=environment,
+            timeout=60,
         )
-        seconds.append(time.perf_counter() - begin)
-    warm = seconds[1:]
-    print(
-        f"\nstart to first paint, s: median {median(warm):.2f} "
-        f"({min(warm):.2f} to {max(warm):.2f}, {len(warm)} warm runs); limit 3"
-    )
+        painted, ready, busy_s = map(float, done.stdout.split())
+        runs.append((painted - begin, ready - begin, busy_s))
+    warm = runs[1:]
+    for what, seconds in zip(
+        ("first paint", "ready machine", "ready machine, processor time"),
+        zip(*warm, strict=True),
+        strict=True,
+    ):
+        print(
+            f"\nstart of the command to {what}, s: median {median(seconds):.2f} "
+            f"({min(seconds):.2f} to {max(seconds):.2f}, {len(warm)} warm runs); limit 2"
+        )
 
 
 def test_six_scrolling_plots(tmp_path):

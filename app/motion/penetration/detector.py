@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from math import exp, pi, sqrt
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.sim.arrays import FloatArray
@@ -119,7 +119,7 @@ def threshold_for(samples: float) -> float:
     """Return the threshold h with so many samples between false alarms, on average."""
     if samples <= samples_between_alarms(0.0):
         return 0.0
-    return float(brentq(lambda h: samples_between_alarms(h) - samples, 0.0, 500.0))
+    return float(scipy.optimize.brentq(lambda h: samples_between_alarms(h) - samples, 0.0, 500.0))
 
 
 class ContactDetector:

@@ -3,6 +3,7 @@
 import json
 import os
 from dataclasses import asdict, dataclass, fields
+from datetime import datetime
 from enum import StrEnum
 from os import PathLike, fspath
 from pathlib import Path
@@ -89,6 +90,15 @@ class PenetrationRun:
     def line(self) -> str:
         """Return the run as one line of JSON."""
         return json.dumps(asdict(self), allow_nan=False, ensure_ascii=False)
+
+    def during(self, began: datetime, duration_s: float) -> bool:
+        """Return whether it was under way while something was recorded, begun at a whole second."""
+        try:
+            after_s = (datetime.fromisoformat(self.started) - began).total_seconds()
+        except (ValueError, TypeError):  # it names no moment, or no zone
+            return False
+        lasted_s = self.phases[-1][1] if self.phases else 0.0
+        return -lasted_s - 1.0 <= after_s <= duration_s
 
     @classmethod
     def parsed(cls, line: str) -> Self:

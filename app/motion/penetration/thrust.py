@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import (
@@ -202,7 +202,7 @@ def thrust_response(
     coarse = np.linspace(0.0, _MOST_DELAY_S, 101)
     near_s = float(coarse[np.argmin([squares(one) for one in coarse])])
     bounds = (near_s - coarse[1], near_s + coarse[1])
-    delay_s = float(minimize_scalar(squares, bounds=bounds, method="bounded").x)
+    delay_s = float(scipy.optimize.minimize_scalar(squares, bounds=bounds, method="bounded").x)
     error = np.abs(way - wanted.position(time_s - begin_s - delay_s)).max()
     after = way[time_s > begin_s + delay_s + wanted.duration_s]
     if not len(after):

@@ -15,7 +15,7 @@ from math import copysign, cos, sqrt
 from typing import Self
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from rotemina.app.motion.teleoperation.frames import Coordinate, Values
 from rotemina.app.motion.teleoperation.reference import Bounds
@@ -67,7 +67,7 @@ class Saturation:
             return away
         if abs(away) >= self._half:
             return copysign(self.end, away)
-        root = brentq(
+        root = scipy.optimize.brentq(
             lambda u: self.place(u) - self._middle - abs(away), self._inner, self.end, xtol=1e-16
         )
         return copysign(float(root), away)
@@ -142,7 +142,11 @@ class HybridFrame(ChainFrame):
                 taken = self._saturation.place(self._begin + way / self._rise) - zn
                 return copysign(1.0, farthest) * (z + way - taken * self._rise - end) - _ATOM
 
-            ends.append(farthest if beyond(farthest) <= 0.0 else brentq(beyond, 0.0, farthest))
+            ends.append(
+                farthest
+                if beyond(farthest) <= 0.0
+                else scipy.optimize.brentq(beyond, 0.0, farthest)
+            )
         acceleration = 0.5 * min(table.max_acceleration, piezo.max_acceleration)
         # The other half is for what the bend of S adds to the table's.
         speed = min(table.max_speed, piezo.max_speed, sqrt(acceleration / self._saturation.bend))

@@ -251,12 +251,20 @@
         <translation>Parameter speichern</translation>
     </message>
     <message>
+        <source> The simulator has no cell: place one in Simulated cell.</source>
+        <translation> Der Simulator hat keine Zelle: unter Simulierte Zelle eine setzen.</translation>
+    </message>
+    <message>
         <source>The run was not logged: {problem}</source>
         <translation>Der Lauf wurde nicht protokolliert: {problem}</translation>
     </message>
     <message>
         <source>motion is locked: {locked}</source>
         <translation>Bewegung gesperrt: {locked}</translation>
+    </message>
+    <message>
+        <source>The library has no recording of this run.</source>
+        <translation>Die Bibliothek hat keine Aufzeichnung dieses Laufs.</translation>
     </message>
     <message>
         <source>Reading the log …</source>
@@ -780,6 +788,10 @@
         <translation>{count} Läufe, {ours} seit dem Programmstart. Protokolldatei: {path}</translation>
     </message>
     <message>
+        <source>select a run</source>
+        <translation>Lauf auswählen</translation>
+    </message>
+    <message>
         <source>a penetration is armed or running</source>
         <translation>eine Penetration ist scharf oder läuft</translation>
     </message>
@@ -1010,6 +1022,7 @@
     </message>
     <message>
         <source>Distance from the present position of the axis, above 0 µm</source>
+        <extracomment>Whether the simulator has no cell that could be penetrated.</extracomment>
         <translation>Abstand von der jetzigen Position der Achse, über 0 µm</translation>
     </message>
     <message>

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.app.cli.main import main
+from rotemina.app.cli.main import SUBCOMMANDS, _needed, main
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
@@ -260,3 +260,21 @@ def test_the_installed_command_answers():
     command = Path(sys.executable).with_name("rotemina")
     done = subprocess.run([command, "--version"], capture_output=True, text=True, check=True)
     assert done.stdout.startswith("rotemina ")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "needed"),
+    [
+        ([], ()),
+        (["--robot", "rotemina", "--set", "port=/dev/ttyUSB0", "--offscreen"], ()),
+        (["gap", "diagnose", "run.csv"], ["gap"]),
+        (["--language", "de", "play", "--help"], ["play"]),
+        (["--help"], SUBCOMMANDS),
+        (["--version"], SUBCOMMANDS),
+        (["plya"], SUBCOMMANDS),  # the complaint lists them all
+        (["--robot"], SUBCOMMANDS),
+        (["--language", "xx"], SUBCOMMANDS),
+    ],
+)
+def test_only_the_subcommands_that_are_named_are_loaded(arguments, needed):
+    assert _needed(arguments) == needed

@@ -22,6 +22,7 @@ PATH = Record.from_signals(
 REQUESTS = {
     "go_to": lambda session: session.go_to({"x": TARGET}),
     "jog": lambda session: session.jog("x", 0.01),
+    "move_by": lambda session: session.move_by({"x": 0.01, "zn": 1e-6}),
     "move_velocity": lambda session: session.move_velocity({"x": 0.01}, 0.15),
     "play": lambda session: session.play(PATH),
     "go_safely": lambda session: session.go_safely({"x": TARGET}),

@@ -23,6 +23,7 @@ DOWN = Profile("zn", (ProfileSegment(0.02, 0.0, -60e-6, 40e-6),))
 REFUSED = {
     "go_to": lambda session: session.go_to({"x": 0.03}),
     "jog": lambda session: session.jog("x", 1e-3),
+    "move_by": lambda session: session.move_by({"x": 1e-3}),
     "move_velocity": lambda session: session.move_velocity({"x": 1e-3}),
     "go_safely": lambda session: session.go_safely({"x": 0.03}),
     "undo": lambda session: session.undo(),

@@ -12,6 +12,7 @@ from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.recording.reading import Recording
 from rotemina.app.motion.recording.recovery import unfinished
 from rotemina.app.motion.session import MotionSession
+from rotemina.app.motion.state import PlaybackFinished
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.scales import Scale, Scales
 from rotemina.drivers.clock import VirtualClock
@@ -129,12 +130,15 @@ def test_preparing_makes_room_for_a_penetration_and_the_tip_stays(bench):
     with pytest.raises(PenetrationError, match=r"32.5 µm of travel left"):
         bench.operation.arm_penetration(parameters)
     bench.run(0.1)
+    ends = []
+    bench.session.subscribe(lambda one: isinstance(one, PlaybackFinished) and ends.append(one))
     bench.operation.prepare_penetration(parameters)
     bench.operation._planning.join()
     assert bench.told == []
     state = bench.run(4.0)
     assert state.command["zn"] > 62e-6
     assert state.tip[2] == pytest.approx(tip[2], abs=2e-7)
+    assert [one.shown for one in ends] == [False]  # it is no run to compare
     bench.operation.arm_penetration(parameters)
     with pytest.raises(PenetrationError, match="the whole range is 65 µm"):
         bench.operation.prepare_penetration(replace(parameters, depth=7e-5))

@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QLabel
 
+from rotemina.app.motion.state import Phase
 from rotemina.app.panel import Panel
 from rotemina.app.plugin_kit.panel_bench import panel_bench
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.trajectory.limits import OutOfLimitsError
 
 pytestmark = pytest.mark.usefixtures("qapp")
 
@@ -55,3 +57,27 @@ def test_a_record_is_handed_over_with_its_gap():
         run = bench.hand_record(swing(signals=(Tap.CMD, Tap.MEAS)), "tuesday")
         assert bench.workbench.run is run
         assert bench.panel.text.text() == "tuesday: 251 rows"
+
+
+def test_a_panel_hears_of_a_stop_and_moves_axes_together():
+    with panel_bench(Panel) as bench:
+        session, stops = bench.workbench.session, []
+        bench.workbench.stopped.connect(lambda: stops.append(session.snapshot().stop.why))
+        before = session.snapshot().command
+        session.stop("enough")
+        bench.advance(0.1)
+        assert stops == ["enough"]
+        assert bench.workbench.penetration == "disarmed"
+        session.stop()
+        session.move_by({"x": 1e-4, "zn": 1e-6}, owner="test")
+        bench.advance(0.02)
+        assert session.snapshot().phase is Phase.MOVING  # what rests when it is stopped has stopped
+        bench.advance(3.0)
+        after = session.snapshot().command
+        assert {axis: after[axis] - before[axis] for axis in after} == pytest.approx(
+            {"x": 1e-4, "y": 0.0, "z": 0.0, "thx": 0.0, "thy": 0.0, "zn": 1e-6}, abs=1e-12
+        )
+        with pytest.raises(OutOfLimitsError):
+            session.move_by({"x": 1e-4, "zn": 1.0})
+        bench.advance(1.0)
+        assert session.snapshot().command == after

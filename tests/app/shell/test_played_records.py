@@ -66,6 +66,11 @@ def test_a_playback_is_stored_before_it_is_compared(bench):
     assert bench.told == []
 
 
+def test_a_way_to_somewhere_is_no_run(bench):
+    bench.emit(PlaybackFinished(RECORD, True, shown=False))
+    assert not bench.records.untold
+
+
 def test_a_pause_is_stored_and_taken_in_hand_when_the_playback_ends_there(bench):
     bench.phase = PlaybackPhase.PAUSED
     bench.end(completed=False)

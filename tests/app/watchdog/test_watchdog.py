@@ -6,6 +6,7 @@ import pty
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ import pytest
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.watchdog import process
 from rotemina.app.watchdog.watched import Watched, _command
+from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
 
@@ -58,6 +60,23 @@ def test_silence_is_told_once_until_it_ends(watchdog, log, capsys, line, silence
     assert log.read_text(encoding="utf-8").count(said) == 2
 
 
+def test_a_simulator_that_hangs_needs_no_look_at_a_machine_and_no_window(log, monkeypatch):
+    windows = []
+    monkeypatch.setattr(process.subprocess, "Popen", lambda *words, **_: windows.append(words))
+    watchdog = process.Watchdog(log, shown=True)
+    slow = {"ages": {"window": 1.2}, "moves": False, "ports": []}
+    watchdog.take(json.dumps({**slow, "simulated": True}))
+    watchdog.look(0.0)
+    assert log.read_text(encoding="utf-8").endswith("of RoTeMiNa does not answer.\n")
+    assert windows == []
+    watchdog.take(beat(window=0.0))
+    watchdog.look(0.0)
+    watchdog.take(json.dumps(slow))
+    watchdog.look(0.0)
+    assert log.read_text(encoding="utf-8").endswith("Look at the machine.\n")
+    assert len(windows) == 1
+
+
 def test_a_line_that_is_cut_off_changes_nothing(watchdog, log):
     watchdog.take(beat(window=0.0))
     assert watchdog.take('{"ages": {"win')
@@ -91,6 +110,22 @@ def test_the_session_tells_who_is_alive_and_a_farewell_ends_it(log):
     watched.close()
     assert watched.number is None
     assert not log.exists()  # a farewell is no alarm
+
+
+def test_a_window_that_is_still_made_may_take_its_time_until_something_moves(log, monkeypatch):
+    session, said = MotionSession(Simulator(load_robot("rotemina"))), []
+    watched = Watched(session, log, screen=False)
+    monkeypatch.setattr(watched, "_say", said.append)
+    session.screen.beat()
+    watched.starting = True
+    watched.beat()
+    resting = session.snapshot()
+    monkeypatch.setattr(session, "snapshot", lambda: replace(resting, activity=DeviceState.MOVING))
+    watched.beat()
+    watched.starting = False
+    monkeypatch.setattr(session, "snapshot", lambda: resting)
+    watched.beat()
+    assert ["window" in one["ages"] for one in said] == [False, True, True]
 
 
 def test_a_bundle_starts_its_watchdog_too(log, monkeypatch):

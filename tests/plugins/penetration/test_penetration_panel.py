@@ -7,11 +7,15 @@ from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import QFileDialog
 
 from rotemina.app.motion.operation import PENETRATION
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import RunLog, Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
+from rotemina.app.motion.recording.tables import prepare
+from rotemina.app.shell.reports import recording_of
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.penetration.cell_view import REAL_MACHINE
 from rotemina.sim.robot.model import AxisEffect
@@ -50,6 +54,7 @@ def above_a_cell(qtbot, panel, **parameters):
     session.go_to({"zn": 64e-6})
     qtbot.waitUntil(lambda: session.snapshot().command["zn"] == 64e-6, timeout=LONG_MS)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: abs(session.snapshot().measured["zn"] - 64e-6) < 1e-7, timeout=LONG_MS)
     panel.tabs.setCurrentIndex(2)
     panel.cell.ahead.setText("2")
     press(qtbot, panel.cell.put)
@@ -114,12 +119,17 @@ def test_parameters_are_typed_kept_and_read_and_nothing_moves(qtbot, window, pan
     press(qtbot, panel.bar.prepare)
     qtbot.waitUntil(panel.bar.arm.isEnabled, timeout=LONG_MS)
     assert session.snapshot().command["zn"] > 62e-6
+    assert panel.message.text() == (
+        "Ready to arm. The simulator has no cell: place one in Simulated cell."
+    )
+    assert window.workbench.run is None  # a way is no run
     window.workbench.close()  # what was typed last is kept then
     assert PenetrationParameters.load(kept) == form.parameters
 
 
-def test_armed_aborted_in_hold_and_logged(qtbot, window, panel):
+def test_armed_aborted_in_hold_logged_and_reported(qtbot, window, panel, tmp_path, monkeypatch):
     session = window.workbench.session
+    prepare()  # a recording begins at once then
     above_a_cell(qtbot, panel, hold_s=30.0)
     assert session.service.effects[0] == CREEP
     # Before where the tip is measured, noise included.
@@ -154,10 +164,22 @@ def test_armed_aborted_in_hold_and_logged(qtbot, window, panel):
     panel.log.table.selectRow(0)
     assert "aborted: stopped by the button in hold" in panel.log.text.toPlainText()
     assert window.workbench.operation.penetration_log.path in panel.log.file.text()
+    library = window.workbench.library
+    run = panel.log.list.runs[0]
+    qtbot.waitUntil(lambda: recording_of(library.entries, run) is not None, timeout=LONG_MS)
+    assert recording_of(library.entries, run).name == "penetration"
+    assert window.workbench.operation.recording is None
+    page, opened = tmp_path / "run.html", []
+    monkeypatch.setattr(QFileDialog, "show", lambda dialog: dialog.fileSelected.emit(str(page)))
+    monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: opened.append(url) or True)
+    panel.log.table.selectRow(0)
+    press(qtbot, panel.log.report)
+    qtbot.waitUntil(lambda: bool(opened), timeout=LONG_MS)
+    assert "stopped by the button in hold" in page.read_text("utf-8")
     panel.tabs.setCurrentIndex(2)
     press(qtbot, panel.cell.take)
     qtbot.waitUntil(lambda: session.service.effects == (CREEP,), timeout=LONG_MS)
-    assert notices(window) == []
+    assert notices(window) == [f"Saved {page}"]
 
 
 @pytest.mark.slow

@@ -144,6 +144,20 @@ def test_new_samples_reach_all_plots_a_few_at_a_time(qtbot, window, panel, monke
     assert len(order) == 14
 
 
+@pytest.mark.parametrize("pixels", [13, 26])
+def test_the_scale_of_the_strip_fits_beside_it_however_large_text_is(qtbot, pixels):
+    axis = load_robot("rotemina").axes["thx"]
+    strip = GapStrip(DARK, "thx", axis, axis.sensor.noise_floor)
+    qtbot.addWidget(strip)
+    font = strip.font()
+    font.setPixelSize(pixels)
+    strip.setFont(font)
+    strip.resize(300, 50)
+    picture = strip.grab().toImage()
+    edge = {picture.pixelColor(0, y).name() for y in range(50)}
+    assert edge == {DARK.surface}  # no letter is cut
+
+
 def test_the_strip_of_the_gap_stands_against_floor_and_bounds(qtbot):
     axis = load_robot("rotemina").axes["zn"]
     floor = axis.sensor.noise_floor
