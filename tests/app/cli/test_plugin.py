@@ -24,7 +24,7 @@ def test_new_writes_a_package_and_says_what_comes_next(tmp_path, capsys):
         (["new", "panel", "Glass"], "'Glass' cannot be the name of a plugin"),
         (
             ["new", "effect", "delay"],
-            "the effect 'delay' is there already (of the package rotemina)",
+            "the effect 'delay' already exists (of the package rotemina)",
         ),
         (["check", "no_such"], "there is no plugin 'no_such'"),
         (["check", "delay", "--kind", "camera"], "there is no camera 'delay'"),

@@ -70,7 +70,7 @@ def test_rows_far_apart_stay_places():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"speed": 0.0}, "speed of 0"),
+        ({"speed": 0.0}, "speed 0 must"),
         ({"speed": float("nan")}, "0.01 to 10"),
         ({"speed": 11.0}, "0.01 to 10"),
         ({"row": 801}, "rows 0 to 800"),

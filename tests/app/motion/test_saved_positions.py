@@ -58,7 +58,7 @@ def test_what_is_no_position_of_the_robot_is_not_kept(positions, name, place, wr
         (lambda text: text.replace("0.01\n", "0.06\n"), "position 'b': .*x"),
         (lambda text: text.replace("0.01\n", '"0.01"\n'), r"positions\.b\.x.*number"),
         (lambda text: text.replace("zn =", "zm ="), "axis zn is missing"),
-        (lambda text: text.replace('"rotemina"', '"other"'), "of robot 'other'"),
+        (lambda text: text.replace('"rotemina"', '"other"'), "to robot 'other'"),
         (lambda text: text.replace("robot =", "robots ="), "did you mean 'robot'"),
         (lambda text: text[:-5] + "[", "not valid TOML"),
     ],

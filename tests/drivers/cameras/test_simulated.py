@@ -126,7 +126,7 @@ def test_only_a_simulated_machine_can_be_seen(clock):
     bench.camera.close()
     bench.driver = type("R", (), {"name": "real"})()
     assert bench.source.devices() == ()
-    assert "real: only a simulated machine" in bench.source.problem
+    assert "real shows only a simulated machine" in bench.source.problem
     with pytest.raises(CameraLostError, match="connect the simulator"):
         bench.camera.open()
 

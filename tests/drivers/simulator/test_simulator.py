@@ -176,7 +176,7 @@ def test_an_hour_later_it_still_samples_evenly():
 def test_a_trajectory_sampled_too_densely_is_refused():
     dense = np.arange(100) / 25_000.0
     driver, _ = opened()
-    with pytest.raises(LimitError, match="25000 Hz"):
+    with pytest.raises(LimitError, match="25000 rows per second"):
         driver.play(_hold(dense))
 
 

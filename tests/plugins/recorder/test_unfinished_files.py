@@ -25,7 +25,7 @@ def test_left_ones_are_told_from_those_that_are_recorded_now(folder, make_record
     done, refused = recovered((spoilt, crashed))
     assert done == (folder / "crashed.arrows",)
     assert len(refused) == 1
-    assert "spoilt.arrows.part: no recording" in refused[0]
+    assert "spoilt.arrows.part: not an interrupted recording" in refused[0]
     assert [one.path for one in look(folder, NONE)] == [busy, own, spoilt]
 
 

@@ -165,4 +165,4 @@ def test_nothing_is_served_unasked_and_the_browser_gets_the_address(
 def test_a_robot_without_the_chain_gets_a_reason():
     scene, reason = scene_of(load_robot("emps"), DARK)
     assert scene is None
-    assert "missing" in reason
+    assert "has no axis" in reason

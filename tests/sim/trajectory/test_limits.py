@@ -48,7 +48,7 @@ def test_a_target_that_needs_too_much_voltage_is_refused():
 
 @pytest.mark.parametrize("speed", ["0.01", None, 0.0, -1.0, float("nan"), float("inf"), 1j])
 def test_a_speed_that_is_none_is_refused(speed):
-    with pytest.raises(OutOfLimitsError, match=r"axis x: a speed of .*: must be a finite number"):
+    with pytest.raises(OutOfLimitsError, match=r"axis x: speed .*: must be a finite number"):
         check_speeds({"x": 0.0}, {"x": speed})
 
 
