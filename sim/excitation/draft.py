@@ -216,7 +216,7 @@ class Draft:
 
         The shape is held before its first row and after its last, as the judge of limits does.
         """
-        allowed = {}
+        allowed: dict[str, float] = {}
         steps = np.diff(np.pad(shape, 1, mode="edge")) * self.rate_hz
         if self.speed < inf:
             peak = float(np.abs(steps).max())
