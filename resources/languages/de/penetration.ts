@@ -380,7 +380,7 @@
     </message>
     <message>
         <source>Return speed</source>
-        <translation>Rückfahrgeschwindigkeit</translation>
+        <translation>Rückzugtempo</translation>
     </message>
     <message>
         <source>Speed of the retraction</source>
