@@ -165,7 +165,8 @@ def test_out_of_reach_names_the_axis(split, target, axis):
 
 
 def test_a_tilt_out_of_range_is_refused():
-    with pytest.raises(OutOfLimitsError, match="axis thy: position 2 mrad is outside its bounds, 0 mrad to"):
+    told = "axis thy: position 2 mrad is outside its bounds, 0 mrad to"
+    with pytest.raises(OutOfLimitsError, match=told):
         solve_tip(CHAIN, HERE, START, tilt=np.array([0.0, 2e-3]))
 
 
