@@ -64,8 +64,10 @@ class PenetrationRecords(QObject):
             now_s = self._clock()
             self._ended_s = now_s if self._ended_s is None else self._ended_s
             if now_s - self._ended_s >= _AFTER_S:
-                self._own, self._phase = None, Phase.DISARMED  # the next one may begin meanwhile
-                self._background.run("end", partial(self._end, self._ran), self._kept, self._told)
+                own, self._own = self._own, None
+                self._phase = Phase.DISARMED  # the next one may begin meanwhile
+                end = partial(self._end, own, self._ran)
+                self._background.run("end", end, self._kept, self._told)
 
     def close(self) -> None:
         """Wait for what is being written."""
@@ -78,7 +80,9 @@ class PenetrationRecords(QObject):
     def _begun(self, recorder: SessionRecorder | None) -> None:
         self._own = recorder
 
-    def _end(self, ran: bool) -> Path | None:
+    def _end(self, own: SessionRecorder, ran: bool) -> Path | None:
+        if self._operation.recording is not own:
+            return None  # the operator has ended it since, and may record something else
         path = self._operation.stop_recording()
         if not ran:
             path.unlink(missing_ok=True)

@@ -89,3 +89,20 @@ def test_one_that_the_operator_ended_is_not_ended_again(bench):
     bench.look(Phase.DONE, 9.0)
     assert bench.look(Phase.DONE, 9.0) == ["penetration"]
     assert bench.operation.recording is theirs
+
+
+def test_what_the_operator_records_since_is_not_ended_and_not_deleted(bench):
+    """The operator ends the recording and begins another between the look and the end of it."""
+    bench.look(Phase.ARMED)
+    bench.look(Phase.DISARMED)
+    run = bench.records._background.run
+
+    def late(*given):
+        bench.operation.recording = another
+        run(*given)
+
+    another = object()
+    bench.records._background.run = late
+    assert bench.look(Phase.DISARMED, 0.6) == ["penetration"]
+    assert bench.operation.recording is another
+    assert bench.stored == []
