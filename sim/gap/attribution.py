@@ -7,7 +7,7 @@ from rotemina.sim.effects.kinship import Family
 from rotemina.sim.gap.baseline import baseline, is_whole_own
 from rotemina.sim.gap.catalogue import brought_along, is_of
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.explanations import Explanation, closing, explanation, mean_squares
+from rotemina.sim.gap.explanations import Explanation, explanation, mean_squares
 from rotemina.sim.gap.fit import fit
 from rotemina.sim.gap.selection import LEAST_POWER, LEAST_SHARE
 from rotemina.sim.records.record import Tap
@@ -46,6 +46,20 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
         most = max(own, key=lambda one: without[one.id].score)
         found.append(_fitted(explained, most.id))
     return replace(explained, causes=tuple(found))
+
+
+def closing(evidence: Evidence, before: Explanation, after: Explanation) -> dict[Tap, float]:
+    """Return the power over the floor that ``after`` closes more than ``before`` on unseen data.
+
+    Only taps count where seen data show any of it. Where few rows show a parameter, a fit without
+    them may go astray; what that loses on these rows tells nothing of a cause.
+    """
+    seen, still = (mean_squares(evidence, one.fit.residual) for one in (before, after))
+    return {
+        tap: before.by_tap[tap] - left
+        for tap, left in after.by_tap.items()
+        if seen[tap] - still[tap] >= LEAST_POWER
+    }
 
 
 def without_own(

@@ -9,7 +9,7 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Late, Stage, Trait
 from rotemina.sim.effects.kinship import Family
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.attribution import attributed, without_own
+from rotemina.sim.gap.attribution import attributed, closing, without_own
 from rotemina.sim.gap.baseline import is_own, is_whole_own
 from rotemina.sim.gap.catalogue import catalogue, is_of, kinship_of, with_parameter
 from rotemina.sim.gap.closing import closed
@@ -21,7 +21,6 @@ from rotemina.sim.gap.explanations import (
     MOST_STEPS,
     Explanation,
     beside,
-    closing,
     explain,
     explanation,
 )

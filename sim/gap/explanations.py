@@ -98,19 +98,6 @@ def mean_squares(evidence: Evidence, left: FloatArray) -> dict[Tap, float]:
     }
 
 
-def closing(evidence: Evidence, before: Explanation, after: Explanation) -> dict[Tap, float]:
-    """Return the power over the floor that ``after`` closes more than ``before``, tap by tap.
-
-    It counts as far as unseen and seen data both show it. Where few rows show a parameter, a fit
-    without them may go astray; what that loses on these rows tells nothing of a cause.
-    """
-    seen, still = (mean_squares(evidence, one.fit.residual) for one in (before, after))
-    return {
-        tap: min(before.by_tap[tap] - left, seen[tap] - still[tap])
-        for tap, left in after.by_tap.items()
-    }
-
-
 def beside(
     evidence: Evidence, causes: Sequence[AxisEffect], begun: Explanation | None = None
 ) -> list[AxisEffect]:
