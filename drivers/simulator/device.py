@@ -11,7 +11,7 @@ from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.playing import Chunk, Playing, selected
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.drivers.simulator.regulating import Regulating
-from rotemina.drivers.simulator.setpoints import SetpointGenerator
+from rotemina.drivers.simulator.setpoint_generator import SetpointGenerator
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance

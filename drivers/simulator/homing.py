@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from rotemina.drivers.simulator.setpoints import SetpointGenerator
+from rotemina.drivers.simulator.setpoint_generator import SetpointGenerator
 
 # So fast an axis goes towards its switch, of its greatest speed.
 SEARCH_SPEED = 0.5

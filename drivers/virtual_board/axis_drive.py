@@ -4,7 +4,7 @@ from copy import deepcopy
 
 import numpy as np
 
-from rotemina.drivers.simulator.setpoints import SetpointGenerator
+from rotemina.drivers.simulator.setpoint_generator import SetpointGenerator
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 

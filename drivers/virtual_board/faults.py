@@ -25,8 +25,8 @@ import numpy as np
 
 from rotemina.drivers.mc68hc11.codes import Fault
 from rotemina.drivers.virtual_board.boards import VirtualBoards
-from rotemina.drivers.virtual_board.cable import Channel, Damage
 from rotemina.drivers.virtual_board.line import SerialLine
+from rotemina.drivers.virtual_board.line_faults import Channel, Damage
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 

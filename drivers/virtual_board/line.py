@@ -12,8 +12,8 @@ from typing import NamedTuple
 from rotemina.drivers.mc68hc11.budget import Line as Speed
 from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
 from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.virtual_board.cable import Channel
 from rotemina.drivers.virtual_board.firmware import Firmware
+from rotemina.drivers.virtual_board.line_faults import Channel
 from rotemina.drivers.virtual_board.messages import answer
 
 _SLOT = 3  # bytes of silence after a frame on a shared bus

@@ -9,7 +9,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.application import agreement
 from rotemina.sim.plate.report import TOLERANCE, mode_name
 from rotemina.sim.plate.stress import Safety, StressPoint, safety
-from rotemina.sim.quantities import fixed
+from rotemina.sim.quantities import fixed, percent
 from rotemina.sim.robot.plate import Plate
 
 MESHES = (
@@ -78,12 +78,12 @@ def plate_text(solved: Solved) -> str:
     agrees = translate(
         "plate",
         "{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they agree with the "
-        "shipped robot within {tolerance:.0%}",
+        "shipped robot within {tolerance}",
     )
     differs = translate(
         "plate",
         "{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they do not agree "
-        "with the shipped robot within {tolerance:.0%}",
+        "with the shipped robot within {tolerance}",
     )
     stiff = agrees if far <= TOLERANCE else differs
     whole = translate("plate", "Whole range: {safety}, at {pose}")
@@ -93,7 +93,7 @@ def plate_text(solved: Solved) -> str:
     )
     return "\n".join(
         [
-            stiff.format(axial=1e-6 * axial, x=tilt_x, y=tilt_y, tolerance=TOLERANCE),
+            stiff.format(axial=1e-6 * axial, x=tilt_x, y=tilt_y, tolerance=percent(TOLERANCE)),
             whole.format(
                 safety=safety_text(solved.least, solutions.held.plate),
                 pose=pose,

@@ -23,9 +23,9 @@ from rotemina.sim.plant.group import asked_position
 from rotemina.sim.plant.machine import Machine
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.randomness import Chance
-from rotemina.sim.plant.sampling import cut
 from rotemina.sim.plant.state import Behind, PlantState
 from rotemina.sim.plant.steps import steps_through
+from rotemina.sim.plant.zero_order_hold import cut
 from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
 
 FASTEST_HZ = 1e6  # rate of a loop: beyond that nobody closes one about a motor or a piezo

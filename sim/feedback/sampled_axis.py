@@ -1,7 +1,7 @@
 """An axis as a sampled linear system, for the analysis of its loop.
 
-Held commands and exact steps (:mod:`rotemina.sim.plant.sampling`), with the linear states that
-effects bring, so that the analysis and the simulation are of the same axis::
+Held commands and exact steps (:mod:`rotemina.sim.plant.zero_order_hold`), with the linear states
+that effects bring, so that the analysis and the simulation are of the same axis::
 
     x_{k+1} = A x_k + b u_{k−d},   y_k = c x_k + g u_{k−d−1}
 
@@ -18,7 +18,7 @@ from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.messages import message
 from rotemina.sim.plant.group import asked_position
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.sampling import step_matrices
+from rotemina.sim.plant.zero_order_hold import step_matrices
 from rotemina.sim.quantities import rounded
 
 _WHOLE = 1e-6  # of an interval: how near to whole ones a delay must be

@@ -31,6 +31,7 @@ from rotemina.sim.gap.selection import NOTICED
 from rotemina.sim.gap.shrinkage import LeftBy, at_tap, closing, rms, shrinkage
 from rotemina.sim.gap.wording import group
 from rotemina.sim.messages import Listed, Message, message
+from rotemina.sim.quantities import percent
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
@@ -313,7 +314,7 @@ def _remarks(examination: Examination) -> tuple[Message, ...]:
     share = message("gap", "{group} ({percent})")
     groups = Listed(
         tuple(
-            share.fill(group=group(name), percent=f"{part:.0%}")
+            share.fill(group=group(name), percent=percent(part, 2))
             for name, part in probe.depends_on[:_MOST_GROUPS]
         )
     )

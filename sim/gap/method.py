@@ -4,7 +4,7 @@ Where the gap lies (:mod:`~rotemina.sim.gap.location`), which effects may cause 
 (:mod:`~rotemina.sim.gap.candidates`, :mod:`~rotemina.sim.gap.screening`), how well they do on data
 that their fit did not see (:mod:`~rotemina.sim.gap.fit`, :mod:`~rotemina.sim.gap.selection`), what
 can be told apart (:mod:`~rotemina.sim.gap.rivals`, :mod:`~rotemina.sim.gap.contest`), by which
-further experiment (:mod:`~rotemina.sim.gap.experiment`), and what can be said
+further experiment (:mod:`~rotemina.sim.gap.next_experiment`), and what can be said
 (:mod:`~rotemina.sim.gap.compare.verdict`), axis by axis: what one axis does may show on another
 (:mod:`~rotemina.sim.gap.order`).
 """
@@ -23,10 +23,10 @@ from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Offset, Verdict
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination, examine
-from rotemina.sim.gap.experiment import experiments
 from rotemina.sim.gap.fit import NUMERICAL
 from rotemina.sim.gap.intake import check
 from rotemina.sim.gap.location import LocatedGap, locate
+from rotemina.sim.gap.next_experiment import experiments
 from rotemina.sim.gap.offsets import offsets
 from rotemina.sim.gap.order import examination_order
 from rotemina.sim.gap.progress import Account, Listener, Progress, unheard

@@ -28,7 +28,7 @@ _STILL_STEPS = 64  # for so long: more than a period, in which something may tur
 
 
 class Steps(NamedTuple):
-    """Segments (:class:`rotemina.sim.plant.sampling.Segments`) and the steps through them.
+    """Segments (:class:`rotemina.sim.plant.zero_order_hold.Segments`) and the steps through them.
 
     Each of the k lengths is done in ``parts`` (k,) steps of ``length_s`` (k,). The matrices of
     group g begin at ``state_at[g]`` and ``input_at[g]`` of the flat arrays, k of them in a row.

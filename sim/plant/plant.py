@@ -19,10 +19,10 @@ from rotemina.sim.plant.group import Group
 from rotemina.sim.plant.machine import Machine, phase_of, states_of
 from rotemina.sim.plant.perturbation import Perturbation
 from rotemina.sim.plant.randomness import Chance
-from rotemina.sim.plant.sampling import Segments, cut
 from rotemina.sim.plant.settling import lead_of
 from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
 from rotemina.sim.plant.steps import steps_through
+from rotemina.sim.plant.zero_order_hold import Segments, cut
 from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
 

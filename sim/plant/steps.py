@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.plant.group import Group
 from rotemina.sim.plant.kernel import Steps
-from rotemina.sim.plant.sampling import Segments, step_matrices
+from rotemina.sim.plant.zero_order_hold import Segments, step_matrices
 
 _ROUNDING = 1e-6  # share of an inner step by which a length may exceed a whole number of them
 _RUNG_OUT = 1e-6  # of a vibration, that is left when inner steps begin to grow

@@ -11,6 +11,7 @@ from rotemina.sim.plate.modes import Modes
 from rotemina.sim.plate.ramp import Ramp
 from rotemina.sim.plate.statics import UnitSolutions
 from rotemina.sim.plate.stress import Safety, place_text, principal, safety, surface_stress
+from rotemina.sim.quantities import percent
 from rotemina.sim.robot.plate import Plate
 
 TOLERANCE = 0.05  # within which a plate is said to agree with the shipped robot
@@ -47,7 +48,7 @@ def plate_lines(solutions: UnitSolutions) -> Iterator[str]:
         yield f"{entry_text(entry)} (shipped robot: {entry.before:.6g})"
     agrees = all(abs(entry.difference) <= TOLERANCE for entry in entries)
     word = "agree" if agrees else "DO NOT agree"
-    yield f"tilt and axial stiffness {word} with the shipped robot within {TOLERANCE:.0%}"
+    yield f"tilt and axial stiffness {word} with the shipped robot within {percent(TOLERANCE)}"
 
 
 def range_lines(least: Safety, plate: Plate) -> Iterator[str]:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
-from rotemina.sim.plant.sampling import TICK_S
+from rotemina.sim.plant.zero_order_hold import TICK_S
 from rotemina.sim.records.record import Record, Tap
 
 ON_TIME = 1e-6  # of a tick: what is late by less is on time

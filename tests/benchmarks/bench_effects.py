@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 from statistics import median
 
@@ -33,7 +34,8 @@ RATE_HZ, INNER_HZ, SECONDS, ROWS, TURNS = 2000.0, 20_000.0, 20.0, 20_000, 7
 FOUR = ("hysteresis", "creep", "friction", "flexible_mode")
 ROBOT = load_robot("rotemina")
 AXES = tuple(ROBOT.axes)
-QUICK = {"SECONDS": 0.5, "TURNS": 1, "ROWS": 2000}
+MOST_TIMES_C = 2.0
+QUICK = {"SECONDS": 0.5, "TURNS": 1, "ROWS": 2000, "MOST_TIMES_C": inf}
 
 
 @pytest.fixture
@@ -80,9 +82,9 @@ def test_six_axes_beside_c_and_real_time(whole_plant, tmp_path):
         f"\nsix axes, four effects each, {SECONDS:g} s at 2 kHz / 20 kHz: "
         f"{median(faster):.0f} times real time ({min(faster):.0f} to {max(faster):.0f}); "
         f"limit 50\nbeside C at -O3: {median(ratios):.2f} times its time "
-        f"({min(ratios):.2f} to {max(ratios):.2f}, {TURNS} pairs); limit 2"
+        f"({min(ratios):.2f} to {max(ratios):.2f}, {TURNS} pairs); limit {MOST_TIMES_C:g}"
     )
-    assert median(ratios) <= 2.0
+    assert median(ratios) <= MOST_TIMES_C
 
 
 def c_reference(plant, start, time_s, command, folder):

@@ -6,6 +6,7 @@ window's and has no limit.
 
 import time
 from datetime import UTC, datetime, timedelta
+from math import inf
 from pathlib import Path
 from statistics import median
 
@@ -22,7 +23,7 @@ from rotemina.app.shell.record_table import RecordTable
 ENTRIES, TURNS = 10_000, 9
 MOST_MS = 100.0
 WORDS = ("", "o", "müller", "series 7 oocyte", "nothing that is there")
-QUICK = {"ENTRIES": 200, "TURNS": 1}
+QUICK = {"ENTRIES": 200, "TURNS": 1, "MOST_MS": inf}
 
 
 class Bench(QObject):

@@ -9,6 +9,7 @@ import os
 import resource
 import time
 from collections.abc import Callable
+from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ AXES = 6  # of four channels each
 PORTION_S = 0.016
 SECONDS, LONG_S = 15.0, 600.0
 MOST_LOAD = 0.10
-QUICK = {"SECONDS": 1.0, "LONG_S": 6.0}
+QUICK = {"SECONDS": 1.0, "LONG_S": 6.0, "MOST_LOAD": inf}
 
 
 def made(first: int) -> tuple[Samples, np.ndarray]:

@@ -11,6 +11,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from importlib import resources
+from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,7 @@ RATE_HZ = 1000
 DURATIONS_S = (600, 3600)
 LIMIT_MB = 500.0
 MOST_GROWTH = 1.1  # of the peak, from the shortest to the longest
-QUICK = {"DURATIONS_S": (2, 4)}
+QUICK = {"DURATIONS_S": (2, 4), "LIMIT_MB": inf, "MOST_GROWTH": inf}
 
 EFFECTS = """
 [[axis.thx.effect]]

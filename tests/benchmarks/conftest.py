@@ -1,8 +1,8 @@
 """Benchmarks in a short form, and the page of what they measured.
 
 ``--quick`` runs each on so little that it says nothing of speed, to see that it still runs: names
-in a module's ``QUICK`` take those values, and limits are not held against it. ``--page FILE``
-writes what was printed, with the machine, the date and the commit.
+in a module's ``QUICK`` take those values, which leave limits of time and memory open.
+``--page FILE`` writes what was printed, with the machine, the date and the commit.
 """
 
 import os
@@ -51,11 +51,7 @@ def pytest_collection_modifyitems(config, items):
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
-    """Hold no limit against a short run."""
     report = yield
-    failed = call.excinfo is not None and call.excinfo.errisinstance(AssertionError)
-    if failed and item.config.getoption("quick"):
-        report.outcome = "passed"
     if call.when == "call":
         told = item.config.printed.setdefault(item.module, [])
         told.append(report.capstdout.strip("\n"))

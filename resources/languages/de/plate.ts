@@ -215,12 +215,12 @@
         <translation>am Rand, r {radius:.2f} mm, {degrees:.0f}°</translation>
     </message>
     <message>
-        <source>{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they agree with the shipped robot within {tolerance:.0%}</source>
-        <translation>{axial:.3f} N/µm längs der Nadel; {x:.4g} und {y:.4g} N m/rad beim Kippen: stimmen mit dem mitgelieferten Roboter auf {tolerance:.0%} überein</translation>
+        <source>{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they agree with the shipped robot within {tolerance}</source>
+        <translation>{axial:.3f} N/µm längs der Nadel; {x:.4g} und {y:.4g} N m/rad beim Kippen: stimmen mit dem mitgelieferten Roboter auf {tolerance} überein</translation>
     </message>
     <message>
-        <source>{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they do not agree with the shipped robot within {tolerance:.0%}</source>
-        <translation>{axial:.3f} N/µm längs der Nadel; {x:.4g} und {y:.4g} N m/rad beim Kippen: stimmen mit dem mitgelieferten Roboter nicht auf {tolerance:.0%} überein</translation>
+        <source>{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they do not agree with the shipped robot within {tolerance}</source>
+        <translation>{axial:.3f} N/µm längs der Nadel; {x:.4g} und {y:.4g} N m/rad beim Kippen: stimmen mit dem mitgelieferten Roboter nicht auf {tolerance} überein</translation>
     </message>
     <message>
         <source>Whole range: {safety}, at {pose}</source>

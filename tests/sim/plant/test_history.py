@@ -8,7 +8,7 @@ import pytest
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
-from rotemina.sim.plant.sampling import step_matrices
+from rotemina.sim.plant.zero_order_hold import step_matrices
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot, parse_robot
 from rotemina.sim.robot.model import AxisEffect, CascadeController

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotemina.drivers.simulator import setpoints
-from rotemina.drivers.simulator.setpoints import SetpointGenerator
+from rotemina.drivers.simulator import setpoint_generator
+from rotemina.drivers.simulator.setpoint_generator import SetpointGenerator
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
@@ -117,7 +117,7 @@ def test_an_axis_without_bounds_crosses_its_range_in_a_second():
     assert limits.acceleration[0] == pytest.approx(2.7)
 
 
-@pytest.mark.parametrize("kernel", [setpoints._fill, setpoints._braking_speed])
+@pytest.mark.parametrize("kernel", [setpoint_generator._fill, setpoint_generator._braking_speed])
 def test_other_threads_run_while_set_points_are_computed(kernel):
     assert kernel.targetoptions["nogil"]
 
