@@ -7,7 +7,7 @@ import sys
 import serial
 
 from rotemina.app.machine_check import Finding, State
-from rotemina.drivers.mc68hc11.budget import BAUDS
+from rotemina.drivers.mc68hc11.line_budget import BAUDS
 
 _TOLERANCE = 0.02  # both ends together may be off by some 4 %
 _TCGETS2 = 0x802C542A

@@ -11,7 +11,7 @@ from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.gate import Permit, Purpose
-from rotemina.drivers.link import LinkQuality
+from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState
@@ -19,9 +19,9 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.messages import AxisName, marked, message
 from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record
-from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
+from rotemina.sim.trajectory.axis_limits import is_finite
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory, accepted
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
-from rotemina.sim.trajectory.limits import is_finite
 
 LONGEST_LEASE_S = 1.0
 DISPLAY_ROWS, DISPLAY_COLUMNS = 2, 20

@@ -5,7 +5,7 @@ from enum import StrEnum
 from typing import Self
 
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import resolution_of
+from rotemina.sim.trajectory.axis_limits import resolution_of
 
 
 class Role(StrEnum):

@@ -25,7 +25,7 @@ from rotemina.sim.messages import message
 from rotemina.sim.plugin_points import API_VERSIONS
 from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import check_speeds, check_target
+from rotemina.sim.trajectory.axis_limits import check_speeds, check_target
 
 _CLOSED = DeviceStatus(DeviceState.CLOSED)
 

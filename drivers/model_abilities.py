@@ -17,7 +17,7 @@ from rotemina.sim.robot.model import AxisEffect
 
 if TYPE_CHECKING:  # a board's commands need none of it
     from rotemina.sim.compensate.inverse import Exceedance
-    from rotemina.sim.compensate.model import InverseModel
+    from rotemina.sim.compensate.inverse_parameters import InverseModel
     from rotemina.sim.feedback.regulation import Regulation
 
 

@@ -10,7 +10,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import check_target
+from rotemina.sim.trajectory.axis_limits import check_target
 
 MOST_SEGMENTS = 16
 _SLACK = 1.0 + 1e-9

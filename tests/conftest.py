@@ -70,16 +70,16 @@ def panels_made(request, monkeypatch):
         wanted = {*(wanted or ()), request.path.parent.name, *request.path.stem.split("_")}
     if wanted is None or request.node.get_closest_marker("every_panel") is not None:
         return
-    from rotemina.app.shell import host
+    from rotemina.app.shell import panel_host
 
-    discover = host.discover
+    discover = panel_host.discover
 
     def some(group, base):
         found = discover(group, base)
         kept = {name: one for name, one in found.found.items() if name in {*USUAL, *wanted}}
         return replace(found, found=kept)
 
-    monkeypatch.setattr(host, "discover", some)
+    monkeypatch.setattr(panel_host, "discover", some)
 
 
 @pytest.fixture

@@ -15,11 +15,19 @@ RETIRED = {
     "looked_at", "sight_of", "told_of",
 }  # fmt: skip
 MODULES = {
-    "acting", "ahead", "chance", "connected", "course", "far", "fast", "finely", "ground",
-    "hand", "hands", "joined", "kept", "known", "leaps", "left", "listing", "look",
-    "operator_desk", "prospect", "rail", "searching", "sight", "sight_of", "stages", "standing",
-    "stepping", "teeth", "telling", "told", "unchecked", "uploading", "using", "visits", "way",
-    "where", "which", "whiteness",
+    "acting", "actuation", "ahead", "asking", "attempts", "bars", "beside", "calibrating",
+    "caution", "chance", "closing", "compensating", "connected", "contest", "copies", "course",
+    "demonstration", "draft", "edits", "excursions", "exits", "extras", "far", "fast",
+    "finding", "finely", "fitted", "fuzzy", "ground", "hand", "hands", "headline", "held",
+    "holding", "host", "joined", "joining", "kept", "known", "lateness", "lead", "leaps",
+    "learning", "leaving", "left", "levels", "listing", "live", "look", "meanings", "measuring",
+    "naive", "operator_desk", "orders", "overlay", "pending", "pieces", "proof", "prospect",
+    "question", "rail", "reasons", "regulating", "repeats", "reserve", "richness", "searching",
+    "serving", "sight", "sight_of", "solved", "solving", "spread", "stages", "standing",
+    "steady", "stepped", "stepping", "stuck", "subject", "swings", "teeth", "teleoperator",
+    "telling", "told", "tones", "transport", "trials", "twin", "unchecked", "unfinished",
+    "uploading", "using", "visits", "voltage", "wander", "watched", "way", "where", "which",
+    "whiteness",
 }  # fmt: skip
 
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from rotemina.sim.errors import InputError
 from rotemina.sim.input_files import parse_toml, read_text
+from rotemina.sim.records.file_blocks import LIMITS, open_blocks
 from rotemina.sim.records.metadata import parse_comment
 from rotemina.sim.records.record import Tap
-from rotemina.sim.records.source import LIMITS, open_blocks
 
 _ROBOT = "robot.toml"
 _MOST_BYTES = 1_000_000

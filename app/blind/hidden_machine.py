@@ -6,7 +6,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from rotemina.app.blind.stepped import STEPPED, SteppedPlant, can_go_on
+from rotemina.app.blind.stepped_machine import STEPPED, SteppedPlant, can_go_on
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.simulator.device import SimulatedDevice

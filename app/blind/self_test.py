@@ -9,14 +9,14 @@ from typing import Any
 
 from rotemina.app.blind.cases import BlindError, Cases, FolderCases, GeneratedCases, check_robot
 from rotemina.app.blind.classifier import classifier_for
-from rotemina.app.blind.naive import CONTESTANTS, contest
-from rotemina.app.blind.process import diagnose
-from rotemina.app.blind.run import BlindRun, Contest
+from rotemina.app.blind.diagnosis_process import diagnose
+from rotemina.app.blind.naive_methods import CONTESTANTS, contest
+from rotemina.app.blind.resumable_run import BlindRun, Contest
 from rotemina.app.files import json_text
+from rotemina.sim.blind.figures_table import HALVES, page, plain_table
 from rotemina.sim.blind.intervals import Figure
 from rotemina.sim.blind.picture import draw_confusion
 from rotemina.sim.blind.scoring import Outcome, calibration_curve, confusion, halves, score
-from rotemina.sim.blind.table import HALVES, page, plain_table
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.whole_files import replaced

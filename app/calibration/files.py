@@ -10,11 +10,11 @@ from pydantic.dataclasses import dataclass
 
 from rotemina.app.motion.sensor_corrections import AppliedCalibration
 from rotemina.app.toml_file import STRICT, Format, Text
-from rotemina.sim.calibration.calibrating import Calibration
 from rotemina.sim.calibration.errors import CalibrationError
 from rotemina.sim.calibration.iso230 import Positioning
-from rotemina.sim.calibration.lag import MOST_S, Lag
 from rotemina.sim.calibration.sensor import BENDS, SHARES, SensorModel
+from rotemina.sim.calibration.sensor_calibration import Calibration
+from rotemina.sim.calibration.sensor_lag import MOST_S, Lag
 from rotemina.sim.records.record import Record
 
 VERSION = 1

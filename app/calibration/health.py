@@ -11,14 +11,14 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.approaches import find_holds
-from rotemina.sim.calibration.calibrating import Figure
+from rotemina.sim.calibration.sensor_calibration import Figure
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import IdentificationError
-from rotemina.sim.identification.loop import loops
+from rotemina.sim.identification.experiment_signals import signals_of
+from rotemina.sim.identification.loop_figures import loops
 from rotemina.sim.identification.model import Orders
 from rotemina.sim.identification.natural_modes import natural_modes
 from rotemina.sim.identification.output_error import identify_oe
-from rotemina.sim.identification.signals import signals_of
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record, Tap

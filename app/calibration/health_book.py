@@ -7,7 +7,7 @@ from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
 
-from rotemina.sim.calibration.calibrating import Figure
+from rotemina.sim.calibration.sensor_calibration import Figure
 from rotemina.sim.errors import InputError
 from rotemina.sim.input_files import parse_json, read_bytes
 from rotemina.sim.messages import message

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from rotemina.sim.calibration.calibrating import Calibration, Figure
 from rotemina.sim.calibration.iso230 import Positioning
+from rotemina.sim.calibration.sensor_calibration import Calibration, Figure
 from rotemina.sim.messages import Wording, marked, message
 from rotemina.sim.quantities import NOTHING, Number, amount, exact, rounded
 

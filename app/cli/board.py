@@ -18,9 +18,9 @@ from rotemina.app.cli.board_ports import HostPort, PseudoTerminal, Socket
 from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.app.cli.termination import termination_requested
 from rotemina.drivers.mc68hc11.axes import board_axes
-from rotemina.drivers.mc68hc11.budget import BAUDS
+from rotemina.drivers.mc68hc11.line_budget import BAUDS
 from rotemina.drivers.virtual_board.boards import VirtualBoards
-from rotemina.drivers.virtual_board.faults import FaultCommandError, RandomFaults, inject
+from rotemina.drivers.virtual_board.fault_injection import FaultCommandError, RandomFaults, inject
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot

@@ -20,11 +20,11 @@ from rotemina.app.calibration.words import (
 from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
 from rotemina.app.files import json_text
 from rotemina.app.motion.player import play_offline
-from rotemina.sim.calibration.calibrating import Calibration, Figure, calibrated
+from rotemina.sim.calibration.comparable_parts import compared
 from rotemina.sim.calibration.errors import CalibrationError
-from rotemina.sim.calibration.joining import joined
-from rotemina.sim.calibration.parts import compared
+from rotemina.sim.calibration.laser_join import joined
 from rotemina.sim.calibration.plan import RATE_HZ, RUNS, TARGETS, calibration_motion
+from rotemina.sim.calibration.sensor_calibration import Calibration, Figure, calibrated
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact
 from rotemina.sim.records.reading import read_record

@@ -8,8 +8,8 @@ from typing import Any
 from rotemina.app.cli.options import add_columns, add_robot, robot_of
 from rotemina.app.files import json_text
 from rotemina.sim.comparison.comparison import Comparison, compare
-from rotemina.sim.comparison.figure import draw_figure, format_of
-from rotemina.sim.comparison.runs import compare_runs
+from rotemina.sim.comparison.comparison_picture import draw_figure, format_of
+from rotemina.sim.comparison.run_comparison import compare_runs
 from rotemina.sim.comparison.table import runs_table, table
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message

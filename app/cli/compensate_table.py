@@ -8,8 +8,8 @@ from rotemina.sim.quantities import exact, percent, rounded
 from rotemina.sim.tables import aligned
 
 if TYPE_CHECKING:
+    from rotemina.sim.compensate.inverse_parameters import InverseModel, Kind
     from rotemina.sim.compensate.judgement import Residual
-    from rotemina.sim.compensate.model import InverseModel, Kind
     from rotemina.sim.compensate.training import Trained
 
 _MICRO = 1e6

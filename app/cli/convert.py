@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell, tell_written
-from rotemina.app.display import speed_changes
+from rotemina.app.display_units import speed_changes
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import Number

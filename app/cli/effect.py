@@ -12,7 +12,7 @@ from rotemina.sim.effects.registry import all_effects, effect_ids, effect_named
 from rotemina.sim.messages import Message, Wording, message
 from rotemina.sim.quantities import amount
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.simulation.check import Check, Report
+from rotemina.sim.simulation.check_result import Check, Report
 from rotemina.sim.simulation.effect_check import check_effect
 
 _FAILED = 1

@@ -47,7 +47,7 @@ def _seconds(text: str) -> float:
 
 def run(options: argparse.Namespace) -> int:
     """Diagnose machine by machine."""
-    from rotemina.app.bench.run import run_bench  # takes its time to import
+    from rotemina.app.bench.bench_run import run_bench  # takes its time to import
 
     run_bench(options)
     return 0

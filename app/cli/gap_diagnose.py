@@ -12,11 +12,11 @@ from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.cli.workers import add_workers, workers
 from rotemina.app.files import json_text
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.caution import Caution
+from rotemina.sim.gap.cautions import Caution
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.document import as_json
+from rotemina.sim.gap.experiment_files import Suggestion, may_be_suggested, suggestion
 from rotemina.sim.gap.intake import check
-from rotemina.sim.gap.suggestion import Suggestion, may_be_suggested, suggestion
 from rotemina.sim.gap.summary import summary
 from rotemina.sim.messages import Wording, message
 from rotemina.sim.records.reading import read_record
@@ -182,9 +182,9 @@ def diagnose(
     cautions: Sequence[Caution],
 ) -> Diagnosis:
     """Run the diagnosis."""
-    from rotemina.sim.gap import method  # takes its time to import
+    from rotemina.sim.gap import diagnosis_pipeline  # takes its time to import
 
-    return method.diagnose(
+    return diagnosis_pipeline.diagnose(
         robot, records, seed=seed, jobs=jobs, listener=listener, cautions=cautions
     )
 

@@ -8,20 +8,20 @@ import numpy as np
 from rotemina.app.cli.options import add_robot, robot_of
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
-from rotemina.sim.plate.application import applied
 from rotemina.sim.plate.errors import PlateError
 from rotemina.sim.plate.export import write_vtu
 from rotemina.sim.plate.mesh import DIVISIONS
 from rotemina.sim.plate.modes import eigenmodes
 from rotemina.sim.plate.pin import pin_length
-from rotemina.sim.plate.ramp import DURATION_S, STEPS, Ramp, move_bottom, ramp_path
-from rotemina.sim.plate.report import (
+from rotemina.sim.plate.plate_report import (
     entry_text,
     mode_lines,
     plate_lines,
     ramp_lines,
     range_lines,
 )
+from rotemina.sim.plate.quasi_static_ramp import DURATION_S, STEPS, Ramp, move_bottom, ramp_path
+from rotemina.sim.plate.robot_entries import applied
 from rotemina.sim.plate.statics import UnitSolutions, hold, solve
 from rotemina.sim.plate.stress import least_safety, motion_ranges
 from rotemina.sim.robot.model import Robot

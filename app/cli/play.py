@@ -99,7 +99,7 @@ def run(options: argparse.Namespace) -> int:
 def _loop(path: Path, robot: Robot) -> "NamedRegulation":
     """Return the loop that a file has chosen, if it is stable on this robot."""
     from rotemina.app.motion.regulation import regulation_of
-    from rotemina.sim.tuning.result import load_tuning
+    from rotemina.sim.tuning.tuning_result import load_tuning
 
     return regulation_of(robot, load_tuning(path), path.name)
 

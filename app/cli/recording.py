@@ -75,7 +75,9 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 def info(options: argparse.Namespace) -> int:
     """Print what a recording holds."""
-    from rotemina.app.motion.recording.reading import Recording  # Arrow takes its time to import
+    from rotemina.app.motion.recording.recording_reader import (
+        Recording,  # Arrow takes its time to import
+    )
 
     recording = Recording.open(options.recording)
     about = recording.metadata
@@ -127,7 +129,7 @@ def recover(options: argparse.Namespace) -> int:
 def export(options: argparse.Namespace) -> int:
     """Write a stretch of a recording."""
     from rotemina.app.motion.recording import exporting
-    from rotemina.app.motion.recording.reading import Recording
+    from rotemina.app.motion.recording.recording_reader import Recording
 
     if not 0.0 <= options.begin < options.end:
         raise InputError(
@@ -165,11 +167,11 @@ def report(options: argparse.Namespace) -> int:
     """Write the run report of a recording, or of another record beside the nominal model."""
     from platformdirs import user_data_path
 
+    from rotemina.app.motion.compared_run import Run
     from rotemina.app.motion.penetration.run_log import RunLog
     from rotemina.app.motion.recording.recovery import SUFFIX
-    from rotemina.app.motion.run import Run
+    from rotemina.app.records.database import RecordStore
     from rotemina.app.records.run_report import RunReport, report_text
-    from rotemina.app.records.store import RecordStore
     from rotemina.sim.comparison.comparison import compare
     from rotemina.sim.records.reading import read_record
 

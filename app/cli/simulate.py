@@ -14,11 +14,11 @@ from rotemina.app.cli.options import add_columns, add_robot, robot_with_effects,
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import Field, Message, Wording, message
 from rotemina.sim.plant.assembly import assemble
-from rotemina.sim.plant.loads import RunningLoads
+from rotemina.sim.plant.joint_loads import RunningLoads
 from rotemina.sim.quantities import Number, fixed, rounded, scale_in
-from rotemina.sim.records.pieces import read_pieces
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.record_pieces import read_pieces
 from rotemina.sim.records.writing import write_pieces
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.simulation.loads_table import LoadsTable, loads_table

@@ -14,7 +14,7 @@ from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.axis_loop import AxisLoop
 from rotemina.sim.feedback.stability import check_stability
-from rotemina.sim.gap.progress import Progress
+from rotemina.sim.gap.diagnosis_progress import Progress
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, fixed, rounded
 from rotemina.sim.tables import aligned
@@ -108,9 +108,9 @@ def _search(options: argparse.Namespace) -> int:
         raise InputError(message("cli", "tune: name the axis by --axis, or a point by --choose"))
     _check(options)
     # These take their time to import, which only a search needs.
-    from rotemina.sim.tuning.problem import TuningProblem
-    from rotemina.sim.tuning.result import save_tuning, tuning_of
     from rotemina.sim.tuning.search import Generation, SearchSettings, generations
+    from rotemina.sim.tuning.search_problem import TuningProblem
+    from rotemina.sim.tuning.tuning_result import save_tuning, tuning_of
 
     settings = SearchSettings(
         generations=options.generations,
@@ -159,7 +159,7 @@ def _search(options: argparse.Namespace) -> int:
 
 
 def _choose(options: argparse.Namespace) -> int:
-    from rotemina.sim.tuning.result import load_tuning, save_tuning
+    from rotemina.sim.tuning.tuning_result import load_tuning, save_tuning
 
     tuning = load_tuning(options.output).choosing(options.choose)
     robot = robot_with_effects(options)
@@ -222,7 +222,7 @@ def _inverse(options: argparse.Namespace) -> Any:
 
 
 def _tell(tuning: Any, options: argparse.Namespace) -> None:
-    from rotemina.sim.tuning.result import document_of
+    from rotemina.sim.tuning.tuning_result import document_of
 
     text = json_text(_finite(document_of(tuning)))
     if options.json == "-":

@@ -25,7 +25,7 @@ from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.inverse import solve_nano
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import fixed, rounded
-from rotemina.sim.trajectory.limits import check_target
+from rotemina.sim.trajectory.axis_limits import check_target
 from rotemina.sim.vision.calibration import Demands, StageFit, fit_stage
 from rotemina.sim.vision.image import Image
 from rotemina.sim.vision.pipette import Pipette

@@ -20,7 +20,7 @@ from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.inverse import solve_nano
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, fixed
-from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError, check_target
 
 OWNER = "click"
 CONFIRM_M = 100e-6  # moves of the tip beyond this are confirmed first

@@ -9,8 +9,8 @@ from rotemina.app.microscope.status import DriftSeen
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
+from rotemina.sim.vision.background_drift import background_drift
 from rotemina.sim.vision.cell import CellOutline, find_cell
-from rotemina.sim.vision.drift import background_drift
 from rotemina.sim.vision.image import Image, grey
 
 DRIFT_S = 2.0

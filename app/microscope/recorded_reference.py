@@ -5,7 +5,7 @@ import numpy as np
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.measurements import CHANNEL, axis_reference, with_reference
 from rotemina.app.motion.recording.exporting import record_of
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.sim.kinematics.chain import JOINTS, Chain
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record

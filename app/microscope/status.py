@@ -13,8 +13,8 @@ from rotemina.app.microscope.stack_run import StackStatus
 from rotemina.app.microscope.targets import Target
 from rotemina.drivers.cameras.camera import CameraIdentity
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.vision.background_drift import Drift
 from rotemina.sim.vision.cell import CellOutline, MembraneAhead
-from rotemina.sim.vision.drift import Drift
 from rotemina.sim.vision.tip_fit import Depth
 
 

@@ -17,7 +17,7 @@ from rotemina.sim.effects.backlash import BACKLASH
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
-from rotemina.sim.trajectory.limits import RANGE_SLACK, OutOfLimitsError, resolution_of
+from rotemina.sim.trajectory.axis_limits import RANGE_SLACK, OutOfLimitsError, resolution_of
 
 MOST_SHARE = 0.01  # of an axis' range, that a width may be
 OVER_PLAY = 1.5  # of a play that was measured: the width that surely takes it up

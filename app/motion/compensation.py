@@ -18,14 +18,14 @@ from rotemina.drivers.gate import Permit
 from rotemina.drivers.model_abilities import Compensator
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.compensate.trajectory import compensated, on_ticks
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import PiezoAxis, Robot
-from rotemina.sim.trajectory.checked import CheckedTrajectory, accepted
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory, accepted
 
 
 @dataclass(frozen=True, slots=True, eq=False)

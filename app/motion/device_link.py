@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.lock_reasons import NOT_CONNECTED
 from rotemina.app.motion.mailbox import Ask, ConnectionRequest, Mailbox, RefusedError
+from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.motion.stop import StopRequest, stop_devices
 from rotemina.app.motion.subscribers import Subscribers

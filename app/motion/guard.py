@@ -22,9 +22,9 @@ from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.checked import CheckedTrajectory
-from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
-from rotemina.sim.trajectory.validation import commands_of
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError, check_target
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
+from rotemina.sim.trajectory.trajectory_excesses import commands_of
 
 MOST_THRUST = 1e-4  # m: beyond a piezo's way it is no thrust into a cell
 RETURN_SPEED = SLOW_SPEED  # m/s of the tip on its way back into its bounds

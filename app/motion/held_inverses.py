@@ -17,9 +17,9 @@ from rotemina.drivers.errors import StateError
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.compensate.held import HeldInverse
+from rotemina.sim.compensate.held_setpoint_inverse import HeldInverse
 from rotemina.sim.compensate.inverse import Exceedance
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot

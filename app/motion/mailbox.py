@@ -10,12 +10,12 @@ from rotemina.app.motion.guard import PathSegment
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import GateError, Permit
 from rotemina.drivers.profile import Profile
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 
 
 class RefusedError(InputError):

@@ -8,7 +8,7 @@ from rotemina.app.motion.guard import Guard
 from rotemina.app.motion.ranges import Range, Ranges, narrower, outside
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 
 class NarrowedRanges:

@@ -20,9 +20,9 @@ from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.run_log import RunLog
+from rotemina.app.motion.recording.arrow_tables import prepare
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
-from rotemina.app.motion.recording.tables import prepare
 from rotemina.app.motion.recording.writer import RecorderNotice
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.teleoperation.input_devices import InputDevices, InputSnapshot
@@ -34,7 +34,7 @@ from rotemina.app.motion.teleoperation.recentring import (
 )
 from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scales import Scales
-from rotemina.app.motion.teleoperation.teleoperator import Teleoperator
+from rotemina.app.motion.teleoperation.teleoperation_loop import Teleoperator
 from rotemina.app.motion.ticker import Ticker
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.inputs.board import BoardInputs

@@ -8,9 +8,9 @@ from types import MappingProxyType
 
 import numpy as np
 
-from rotemina.app.motion.deviation import DeviationWatch, Excess, Gap
 from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.model_deviation import DeviationWatch, Excess, Gap
 from rotemina.app.motion.retiming import Piece, check_speed, piece
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged
@@ -19,7 +19,7 @@ from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 
 _ROUNDING_S = 1e-6  # of times that came from a device
 

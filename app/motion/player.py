@@ -16,7 +16,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 
 _STEP_S = 0.5  # device time between two looks at the progress
 

@@ -10,8 +10,8 @@ from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import RANGE_SLACK, OutOfLimitsError, check_target
-from rotemina.sim.trajectory.validation import commands_of
+from rotemina.sim.trajectory.axis_limits import RANGE_SLACK, OutOfLimitsError, check_target
+from rotemina.sim.trajectory.trajectory_excesses import commands_of
 
 Range = tuple[float, float]
 Ranges = Mapping[str, Range]

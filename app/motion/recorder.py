@@ -12,7 +12,7 @@ from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Channel, Record, RecordError, Tap
 from rotemina.sim.robot.model import Robot, StepperAxis
-from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 from rotemina.sim.trajectory.dry_run import mode_of
 
 # Samples are kept in blocks so large that allocators give each back to the system at once.

@@ -21,7 +21,7 @@ from rotemina.sim.messages import AxisName, message
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
 if TYPE_CHECKING:  # a search and what it needs take their time to import
-    from rotemina.sim.tuning.result import Tuning
+    from rotemina.sim.tuning.tuning_result import Tuning
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -17,7 +17,8 @@ class Reservations:
         """Keep every axis for an owner, at rest too, until it sets them free.
 
         Nobody else moves the machine meanwhile, unless by taking over. Who has reserved every axis
-        may thrust through the slow zone (:meth:`~rotemina.app.motion.profiles.Profiles.upload`).
+        may thrust through the slow zone
+        (:meth:`~rotemina.app.motion.profile_execution.Profiles.upload`).
 
         Raises
         ------

@@ -10,7 +10,7 @@ from rotemina.app.motion.mailbox import Move
 from rotemina.app.motion.ownership import PLAYBACK
 from rotemina.drivers.gate import Permit
 from rotemina.sim.messages import message
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 Ways = Sequence[Mapping[str, float]]
 

@@ -13,7 +13,7 @@ from rotemina.app.toml_file import STRICT, Format, Text
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError, check_target
 
 FOLDER = "positions"
 MOST, LONGEST_NAME = 200, 40

@@ -12,21 +12,21 @@ from rotemina.app.motion.captures import Captures
 from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.compensation import Inverses
 from rotemina.app.motion.device_link import DeviceLink
+from rotemina.app.motion.device_service import Service
 from rotemina.app.motion.guard import Guard
 from rotemina.app.motion.heartbeat import Heartbeat
-from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_models import PreparedModel
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.model_in_use import ModelInUse
-from rotemina.app.motion.moves import Moves
+from rotemina.app.motion.motion_requests import Moves
 from rotemina.app.motion.narrowed_ranges import NarrowedRanges
-from rotemina.app.motion.profiles import Profiles
+from rotemina.app.motion.profile_execution import Profiles
+from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.regulation import Loops
 from rotemina.app.motion.reservations import Reservations
 from rotemina.app.motion.routing import Routing
 from rotemina.app.motion.run_labels import RunLabels
 from rotemina.app.motion.sensor_corrections import SensorCorrections
-from rotemina.app.motion.service import Service
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.motion.stop import LOCKED, PROGRAM, StopRequest
 from rotemina.app.motion.subscribers import Subscribers

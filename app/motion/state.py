@@ -8,8 +8,8 @@ from types import MappingProxyType
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.recorder import RunAnswers
 from rotemina.app.motion.stop import StopRequest
-from rotemina.app.motion.stop_latency import Latency
-from rotemina.drivers.link import LinkQuality
+from rotemina.app.motion.stop_send_latency import Latency
+from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record
 

@@ -9,7 +9,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.sim.kinematics.keep_out import KeepOutZone
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 
 class TipBounds:

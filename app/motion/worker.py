@@ -10,8 +10,8 @@ from dataclasses import replace
 
 from rotemina.app.motion.device_report import with_samples, with_status
 from rotemina.app.motion.executor import Executor
+from rotemina.app.motion.following_error import ReadingDeviation
 from rotemina.app.motion.held_inverses import HeldInverses
-from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.live_models import LiveModels, ModelOutputs, PreparedModel
 from rotemina.app.motion.lock_reasons import NOT_CONNECTED, lock_reason
 from rotemina.app.motion.mailbox import (
@@ -29,7 +29,7 @@ from rotemina.app.motion.model_in_use import Machine, ModelInUse
 from rotemina.app.motion.ownership import Ownership
 from rotemina.app.motion.playback_notes import PlaybackNotes
 from rotemina.app.motion.position_trust import LOST, PositionTrust
-from rotemina.app.motion.reading_deviation import ReadingDeviation
+from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.sample_portions import SamplePortions
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
@@ -44,14 +44,14 @@ from rotemina.app.motion.state import (
     Stopped,
 )
 from rotemina.app.motion.stop import StopRequest
-from rotemina.app.motion.stop_latency import StopLatency
-from rotemina.app.motion.stop_tracking import StopTracking
+from rotemina.app.motion.stop_progress import StopTracking
+from rotemina.app.motion.stop_send_latency import StopLatency
 from rotemina.drivers.abilities import Homer, Linked
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import DriverError, StateError
 from rotemina.drivers.gate import Gate
-from rotemina.drivers.link import LinkQuality
+from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message

@@ -11,14 +11,14 @@ from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop
 from PySide6.QtWidgets import QApplication
 from shiboken6 import isValid
 
-from rotemina.app.display import axis_scale
+from rotemina.app.display_units import axis_scale
+from rotemina.app.motion.compared_run import Run, compared
 from rotemina.app.motion.playback import PlaybackPhase
-from rotemina.app.motion.run import Run, compared
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.panel import Panel
 from rotemina.app.settings import Settings
 from rotemina.app.shell import theme as themes
-from rotemina.app.shell.plan import Plan
+from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.simulator.driver import Simulator

@@ -11,14 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
+from rotemina.app.motion.compared_run import Run, worst
 from rotemina.app.motion.recording.exporting import record_of, trajectory
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.recovery import SUFFIX
-from rotemina.app.motion.run import Run, worst
+from rotemina.app.records.database import RecordStore
 from rotemina.app.records.entry import Entry, Kind, WorstGap
 from rotemina.app.records.errors import DamagedLibraryError, LibraryError
-from rotemina.app.records.facts import digest, of_record, with_facts
-from rotemina.app.records.store import RecordStore
+from rotemina.app.records.file_facts import digest, of_record, with_facts
 from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record

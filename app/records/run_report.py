@@ -12,13 +12,13 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rotemina.app.display import duration_text
+from rotemina.app.display_units import duration_text
+from rotemina.app.motion.compared_run import Run
 from rotemina.app.motion.penetration.run_log import PenetrationRun
-from rotemina.app.motion.recording.reading import Recording
-from rotemina.app.motion.run import Run
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.recorded_events import Severity, TimelineEvent, timeline_events
 from rotemina.app.records.entry import Entry
-from rotemina.app.records.facts import moment
+from rotemina.app.records.file_facts import moment
 from rotemina.app.records.library import require_length
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.gap import GapFigure, gap_figure, gap_text, moving

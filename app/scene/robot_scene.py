@@ -6,9 +6,9 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.scene import parts
+from rotemina.app.scene import robot_parts
 from rotemina.app.scene.frames import LINKS, exaggerated, frames
-from rotemina.app.scene.notes import Old, Words, note
+from rotemina.app.scene.scale_notes import Old, Words, note
 from rotemina.app.scene.scene import Command, Scene, set_property, set_transform
 from rotemina.app.scene.solids import Look, Solid, set_object
 from rotemina.app.scene.views import View, look
@@ -140,11 +140,11 @@ class RobotScene:
             Ghost.REAL: Look(colours.real, 0.7),
         }
         for ghost, appearance in looks.items():
-            for part in parts.moving_parts(self.chain):
+            for part in robot_parts.moving_parts(self.chain):
                 path = f"{ROOT}/{ghost}/{LINKS[part.link]}/{part.name}"
                 solid = Solid(part.shape, part.middle, appearance)
                 self.scene.put(set_object(path, solid))
-        self._put_all("base", parts.fixed_parts(self.chain, Look(colours.fixed)))
+        self._put_all("base", robot_parts.fixed_parts(self.chain, Look(colours.fixed)))
         self._put_surroundings()
         self.show(self._reading)
 
@@ -153,13 +153,13 @@ class RobotScene:
         low, high, radius = (-np.inf, np.inf, np.inf) if zone is None else _ends(zone)
         floor = low if np.isfinite(low) else None
         glass, living = Look("#9fc8d8", 0.25, veil=True), Look("#7fbf5f", 0.8)
-        self._put_all("specimen", parts.specimen(self.chain, floor, glass, living))
+        self._put_all("specimen", robot_parts.specimen(self.chain, floor, glass, living))
         for name, height in (("floor", low), ("objective", high)):
             path, seen = f"{ROOT}/bounds/{name}", bool(np.isfinite(height))
             self.scene.put(set_property(path, "visible", seen))
             if seen:
                 forbidden = Look(colours.forbidden, 0.3, veil=True)
-                disc = parts.bound(self.chain, height, radius, forbidden)
+                disc = robot_parts.bound(self.chain, height, radius, forbidden)
                 self.scene.put(set_object(path, disc))
 
     def _put_all(self, group: str, solids: Mapping[str, Solid]) -> None:

@@ -4,7 +4,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.scene.parts import cell_of
+from rotemina.app.scene.robot_parts import cell_of
 from rotemina.app.scene.scene import Command
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position

@@ -5,7 +5,7 @@ the state of a camera, are among :data:`WORDS`. What is neither, as the text of 
 operating system, is shown as it is.
 """
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.messages import Wording
 from rotemina.sim.quantities import decimal_sign

@@ -11,7 +11,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.drivers.samples import DeviceState
-from rotemina.sim.trajectory.example import example_for
+from rotemina.sim.trajectory.first_trajectory import example_for
 
 _KEY = "window.first_steps"  # the preference: whether the card is still wanted
 
@@ -155,4 +155,5 @@ class FirstSteps(QFrame):
 
     def _diagnose(self) -> None:
         self._diagnosed = True
-        self.asked.emit("gap")
+        self.asked.emit("gap")  # makes the panel, if it is not made yet
+        self._bench.diagnosis_asked.emit()

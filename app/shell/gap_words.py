@@ -1,7 +1,7 @@
 """The gap in words: the same name and the same digits wherever it is shown."""
 
-from rotemina.app.display import label
-from rotemina.app.motion.run import Run
+from rotemina.app.display_units import label
+from rotemina.app.motion.compared_run import Run
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.comparison.gap import GapFigure, gap_text
 from rotemina.sim.quantities import NOTHING

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QPushButton
 
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.requests import Requests
+from rotemina.app.shell.operator_requests import Requests
 from rotemina.app.widgets.controls import plain_tip
 
 

@@ -7,8 +7,8 @@ from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QMenu, QWidget
 
 from rotemina.app.shell import language
-from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.language import LANGUAGES, SETTING, SYSTEM, translate
+from rotemina.app.shell.palette_entries import Entry
 from rotemina.app.shell.workbench import Level, Workbench
 
 # What is told in each language, for whoever reads only one of them.

@@ -23,8 +23,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from rotemina.app.shell.event_loop_watch import LoopWatch
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.loop_watch import LoopWatch
 from rotemina.app.shell.message_log import Message, MessageLog, chosen
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level

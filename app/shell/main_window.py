@@ -21,32 +21,32 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell import commands, key_help, layout_menu, layouts
 from rotemina.app.shell.column_mapping import ask_columns
-from rotemina.app.shell.entries import Entry, command_entries, panel_entries
+from rotemina.app.shell.deferred_panels import LatePanels
+from rotemina.app.shell.event_loop_watch import LoopWatch
 from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.first_steps import FirstSteps
 from rotemina.app.shell.folded_panels import FoldedPanels
 from rotemina.app.shell.help_button import DockHelp, TabHelp
 from rotemina.app.shell.help_page import HelpPage
 from rotemina.app.shell.help_topics import Explained, page_at
-from rotemina.app.shell.host import find_panels
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.language_menu import LanguageMenu, language_entries
-from rotemina.app.shell.late_panels import LatePanels
-from rotemina.app.shell.leaving import Leaving
 from rotemina.app.shell.log_page import LogPage
-from rotemina.app.shell.loop_watch import LoopWatch
 from rotemina.app.shell.machine_badge import Machine, window_title
 from rotemina.app.shell.message_log import MessageLog
 from rotemina.app.shell.motion_bar import MotionBar
 from rotemina.app.shell.notices import NoticeBar
 from rotemina.app.shell.palette import Palette
-from rotemina.app.shell.progress import ProgressLine
+from rotemina.app.shell.palette_entries import Entry, command_entries, panel_entries
+from rotemina.app.shell.panel_host import find_panels
+from rotemina.app.shell.progress_line import ProgressLine
+from rotemina.app.shell.quit_dialog import Leaving
 from rotemina.app.shell.recent_files import RecentFiles
 from rotemina.app.shell.record_chooser import ask_records
 from rotemina.app.shell.reloading import Reloading, ReloadMenu
 from rotemina.app.shell.replay_bar import ReplayBar
-from rotemina.app.shell.status import StatusText
-from rotemina.app.shell.stops import StopWatch
+from rotemina.app.shell.status_line import StatusText
+from rotemina.app.shell.stop_controls import StopWatch
 from rotemina.app.shell.support_page import SupportPage
 from rotemina.app.shell.window_layout import ArrangedWindow, Arrangement
 from rotemina.app.shell.workbench import Level, Workbench

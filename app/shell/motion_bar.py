@@ -12,9 +12,9 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.machine_badge import MachineBadge
 from rotemina.app.shell.model_chip import ModelChip
 from rotemina.app.shell.owner_chip import OwnerChip
-from rotemina.app.shell.phase import PhaseLabel, doing, headword, set_tone, tone
+from rotemina.app.shell.phase_words import PhaseLabel, doing, headword, set_tone, tone
 from rotemina.app.shell.recording_sign import RecordingSign
-from rotemina.app.shell.stops import EmergencyButton, StopButton
+from rotemina.app.shell.stop_controls import EmergencyButton, StopButton
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import ElidedLabel

@@ -17,7 +17,7 @@ from rotemina.app.shell.layouts import DIAGNOSE
 from rotemina.app.shell.main_window import MainWindow
 from rotemina.app.shell.window_run import make_window
 from rotemina.app.shell.workbench import Level, Run
-from rotemina.sim.comparison.figure import save_figure
+from rotemina.sim.comparison.comparison_picture import save_figure
 from rotemina.sim.comparison.table import table
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
@@ -25,8 +25,8 @@ from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.demonstration import demonstration, worn_effects
-from rotemina.sim.trajectory.example import example_for
+from rotemina.sim.trajectory.first_trajectory import example_for
+from rotemina.sim.trajectory.worn_machine_demo import demonstration, worn_effects
 
 TIME_LIMIT_MS = 120_000
 DIAGNOSIS_LIMIT_MS = 600_000  # on a busy computer; 15 s are usual

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase import Tone, driven, set_tone
+from rotemina.app.shell.phase_words import Tone, driven, set_tone
 from rotemina.app.widgets.controls import plain_tip
 
 

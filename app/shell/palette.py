@@ -14,9 +14,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell.entries import Entry
-from rotemina.app.shell.fuzzy import score
+from rotemina.app.shell.fuzzy_match import score
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.palette_entries import Entry
 from rotemina.app.widgets.controls import native_keys
 
 _WIDTH, _HEIGHT = 560, 380

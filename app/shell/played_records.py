@@ -6,8 +6,8 @@ from typing import Protocol, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
+from rotemina.app.motion.compared_run import Run, compared
 from rotemina.app.motion.playback import PlaybackPhase
-from rotemina.app.motion.run import Run, compared
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Event, PlaybackFinished
 from rotemina.app.shell.language import translate

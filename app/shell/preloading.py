@@ -6,7 +6,7 @@ import logging
 import threading
 from collections.abc import Iterable
 
-from rotemina.app.motion.recording.tables import prepare
+from rotemina.app.motion.recording.arrow_tables import prepare
 
 logger = logging.getLogger(__name__)
 

@@ -7,8 +7,8 @@ from shutil import disk_usage
 
 from PySide6.QtCore import QObject, Signal
 
-from rotemina.app.display import size_text
-from rotemina.app.motion.run import Run
+from rotemina.app.display_units import size_text
+from rotemina.app.motion.compared_run import Run
 from rotemina.app.motion.run_labels import RunLabels
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.records.entry import Entry

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from datetime import datetime
 
-from rotemina.app.display import duration_text, label, size_text
+from rotemina.app.display_units import duration_text, label, size_text
 from rotemina.app.records.entry import Entry, Kind, WorstGap
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.comparison.gap import gap_text

@@ -3,9 +3,9 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSizePolicy
 
-from rotemina.app.display import duration_text, size_text
+from rotemina.app.display_units import duration_text, size_text
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
 

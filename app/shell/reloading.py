@@ -11,11 +11,11 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QDockWidget, QMenu, QWidget
 
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.help_topics import Remedy
-from rotemina.app.shell.host import GROUP, Panels
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.leaving import moves
+from rotemina.app.shell.palette_entries import Entry
+from rotemina.app.shell.panel_host import GROUP, Panels
+from rotemina.app.shell.quit_dialog import moves
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.registry import load_class
 from rotemina.sim.plugin_import import import_fault

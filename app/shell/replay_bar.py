@@ -12,12 +12,12 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
 )
 
-from rotemina.app.display import duration_text
-from rotemina.app.motion.recording.pacing import SPEEDS
+from rotemina.app.display_units import duration_text
+from rotemina.app.motion.recording.replay_pace import SPEEDS
 from rotemina.app.motion.state import SessionState
 from rotemina.app.recorded_events import timeline_events
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase import PhaseLabel, Tone, set_tone
+from rotemina.app.shell.phase_words import PhaseLabel, Tone, set_tone
 from rotemina.app.shell.timeline import Timeline
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import ElidedLabel

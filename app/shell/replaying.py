@@ -8,11 +8,11 @@ from PySide6.QtCore import QObject, Signal
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
+from rotemina.app.motion.recording.arrow_tables import units_of
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.pacing import PacedReplay
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.replay import Replay
-from rotemina.app.motion.recording.tables import units_of
+from rotemina.app.motion.recording.replay_pace import PacedReplay
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.shell.language import translate
 from rotemina.drivers.samples import DeviceState

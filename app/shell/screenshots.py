@@ -26,7 +26,7 @@ def main(folder: Path) -> int:
     from rotemina.app.shell.window_run import make_window
     from rotemina.drivers.simulator.driver import Simulator
     from rotemina.sim.robot.file import load_robot
-    from rotemina.sim.trajectory.demonstration import worn_effects
+    from rotemina.sim.trajectory.worn_machine_demo import worn_effects
 
     log_qt_messages()
     folder.mkdir(parents=True, exist_ok=True)
@@ -85,7 +85,7 @@ def in_german(folder: Path, kept: Path) -> int:
     from rotemina.app.shell.window_run import make_window
     from rotemina.drivers.simulator.driver import Simulator
     from rotemina.sim.robot.file import load_robot
-    from rotemina.sim.trajectory.example import example_for
+    from rotemina.sim.trajectory.first_trajectory import example_for
 
     robot = load_robot("rotemina")
     settings = Settings(kept / "german.json")

@@ -10,7 +10,7 @@ from pathlib import Path
 from rotemina.app.driver_settings import assigned, kept
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
-from rotemina.app.shell.display import display_fault
+from rotemina.app.shell.display_check import display_fault
 from rotemina.app.system_check import complaint, missing_libraries, platform_in_use
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.registry import driver_named

@@ -15,13 +15,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import size_text
+from rotemina.app.display_units import size_text
 from rotemina.app.shell.anonymiser import Anonymiser
+from rotemina.app.shell.event_loop_watch import LoopWatch
 from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.loop_watch import LoopWatch
 from rotemina.app.shell.message_log import MessageLog
-from rotemina.app.shell.progress import Progress
+from rotemina.app.shell.progress_line import Progress
 from rotemina.app.shell.support_bundle import Item, gather, write_bundle
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow

@@ -7,9 +7,9 @@ from rotemina.app.panel import Area
 from rotemina.app.shell import layouts
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.folded_panels import NARROW_BELOW, FoldedPanels
-from rotemina.app.shell.host import Panels
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.layout_menu import LayoutRow
+from rotemina.app.shell.panel_host import Panels
 from rotemina.app.shell.workbench import Level, Workbench
 
 _THEME, _SCALE, _AUTOMATIC = "window.theme", "window.scale", 0.0

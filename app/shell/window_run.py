@@ -18,15 +18,15 @@ from rotemina.app.range_settings import kept_ranges
 from rotemina.app.settings import Settings
 from rotemina.app.shell import language
 from rotemina.app.shell import theme as themes
-from rotemina.app.shell.allocator import trim_heap
 from rotemina.app.shell.application import make_application
-from rotemina.app.shell.exits import exits_refused
+from rotemina.app.shell.exit_guard import exits_refused
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
+from rotemina.app.shell.memory_allocator import trim_heap
 from rotemina.app.shell.panel_watch import PanelWatch
 from rotemina.app.shell.preloading import preload
 from rotemina.app.shell.workbench import FRAME_MS, Level, Workbench
-from rotemina.app.watchdog.watched import Watched
+from rotemina.app.watchdog.heartbeat_sender import Watched
 from rotemina.sim.errors import InputError
 
 DEFAULT_THEME = "dark"

@@ -9,14 +9,14 @@ from typing import TypeVar
 from PySide6.QtCore import QTimer, Signal
 
 from rotemina.app.microscope.microscope import Microscope
-from rotemina.app.motion.deviation import Excess
+from rotemina.app.motion.compared_run import Run, compared, compared_again
+from rotemina.app.motion.model_deviation import Excess
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.playback import Playback, PlaybackPhase
 from rotemina.app.motion.recording.replay import Replay
-from rotemina.app.motion.run import Run, compared, compared_again
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (
     Alarmed,
@@ -31,18 +31,18 @@ from rotemina.app.motion.state import (
 from rotemina.app.records.entry import Entry
 from rotemina.app.records.library import commands, read
 from rotemina.app.settings import Settings
-from rotemina.app.shell.at_rest import AtRest
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.help_topics import Explained, page_for, page_of, remedy_of
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.loaded_trajectory import Plan
+from rotemina.app.shell.operator_requests import Requests
 from rotemina.app.shell.penetration_records import PenetrationRecords
-from rotemina.app.shell.plan import Plan
 from rotemina.app.shell.played_records import PlayedRecords
-from rotemina.app.shell.progress import Progress
+from rotemina.app.shell.progress_line import Progress
 from rotemina.app.shell.record_library import RecordLibrary
 from rotemina.app.shell.replaying import Replaying, opened, remark
-from rotemina.app.shell.requests import Requests
+from rotemina.app.shell.requests_at_rest import AtRest
 from rotemina.app.shell.theme import Theme
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState
@@ -68,8 +68,8 @@ class Level(StrEnum):
 class Workbench(Requests):
     """The window's state and its requests; every panel holds the same one.
 
-    What moves or connects the machine is among :class:`~rotemina.app.shell.requests.Requests`: a
-    refusal becomes a notice.
+    What moves or connects the machine is among
+    :class:`~rotemina.app.shell.operator_requests.Requests`: a refusal becomes a notice.
 
     ``plan`` is the trajectory in hand, ``run`` the last comparison, ``run_path`` the file of its
     record, ``record`` what would be saved, and ``unsaved`` a played record that no file holds yet:
@@ -94,6 +94,7 @@ class Workbench(Requests):
     run_changed(Run) : a record was opened or a playback ended, and model and real are compared.
     busy_changed(str) : what is being worked on in the background, or "".
     noticed(Level, Explained) : something to tell the operator, a text with its page of the help.
+    diagnosis_asked() : the records that are chosen are to be diagnosed.
     stopped() : someone asked for a stop; what waits for an answer is withdrawn.
     theme_changed(Theme)
     closing() : the window goes; what a panel has under way must end before this returns.
@@ -108,6 +109,7 @@ class Workbench(Requests):
     busy_changed = Signal(str)
     noticed = Signal(object, object)
     theme_changed = Signal(object)
+    diagnosis_asked = Signal()
     stopped = Signal()
     closing = Signal()
     _happened = Signal(object)

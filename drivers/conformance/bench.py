@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.conformance.subject import Subject
+from rotemina.drivers.conformance.driver_under_test import Subject
 from rotemina.drivers.driver import Driver
 from rotemina.sim.robot.model import Robot
 

@@ -6,9 +6,9 @@ from rotemina.drivers.abilities import Capturer, ProfileRunner
 from rotemina.drivers.capture import Captured
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
+from rotemina.drivers.conformance.driver_under_test import Motion, Subject, interval_of
 from rotemina.drivers.conformance.findings import Unmet, at_most, demand, refused, within
 from rotemina.drivers.conformance.moves import STOP_LATE_S, demand_halt
-from rotemina.drivers.conformance.subject import Motion, Subject, interval_of
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState, Samples

@@ -2,8 +2,8 @@
 
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
+from rotemina.drivers.conformance.driver_under_test import CATCH_S, Subject
 from rotemina.drivers.conformance.findings import Inapplicable, Unmet, demand, refused
-from rotemina.drivers.conformance.subject import CATCH_S, Subject
 from rotemina.drivers.errors import ConnectionLostError, DriverError, StateError
 from rotemina.drivers.samples import DeviceState
 

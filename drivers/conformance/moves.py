@@ -8,6 +8,7 @@ import numpy as np
 from rotemina.drivers.abilities import LONGEST_LEASE_S, VelocityMover
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
+from rotemina.drivers.conformance.driver_under_test import CATCH_S, Motion, Subject, interval_of
 from rotemina.drivers.conformance.findings import (
     Inapplicable,
     Unmet,
@@ -16,11 +17,10 @@ from rotemina.drivers.conformance.findings import (
     refused,
     within,
 )
-from rotemina.drivers.conformance.subject import CATCH_S, Motion, Subject, interval_of
 from rotemina.drivers.errors import LimitError
 from rotemina.drivers.gate import Gate, GateError, Permit
 from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.sim.trajectory.validation import RATE_SLACK
+from rotemina.sim.trajectory.trajectory_excesses import RATE_SLACK
 
 # A stop is asked for between two exchanges with the device: it may take one of them.
 STOP_LATE_S = 0.010

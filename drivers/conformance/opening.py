@@ -18,7 +18,7 @@ from rotemina.drivers.driver import Driver
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.settings import SettingError
-from rotemina.sim.trajectory.limits import RANGE_SLACK
+from rotemina.sim.trajectory.axis_limits import RANGE_SLACK
 
 # Of the span: what an axis at rest may seem to move by its sensor's noise and its vibration.
 _STILL = 5e-3

@@ -5,8 +5,8 @@ import numpy as np
 from rotemina.drivers.abilities import TrajectoryPlayer
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
+from rotemina.drivers.conformance.driver_under_test import Motion, Subject, interval_of
 from rotemina.drivers.conformance.findings import Unmet, at_most, demand, refused, within
-from rotemina.drivers.conformance.subject import Motion, Subject, interval_of
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.records.record import Record, Tap

@@ -7,8 +7,8 @@ import numpy as np
 
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
+from rotemina.drivers.conformance.driver_under_test import interval_of
 from rotemina.drivers.conformance.findings import Inapplicable, demand, within
-from rotemina.drivers.conformance.subject import interval_of
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.samples import Samples
 

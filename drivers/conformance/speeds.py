@@ -5,9 +5,9 @@ import numpy as np
 from rotemina.drivers.abilities import LONGEST_LEASE_S, VelocityMover
 from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import check
+from rotemina.drivers.conformance.driver_under_test import LONGEST_S, Motion, Subject, interval_of
 from rotemina.drivers.conformance.findings import at_most, demand, refused
 from rotemina.drivers.conformance.moves import STOP_LATE_S, demand_halt
-from rotemina.drivers.conformance.subject import LONGEST_S, Motion, Subject, interval_of
 from rotemina.drivers.errors import LimitError
 from rotemina.drivers.samples import DeviceState, Samples
 

@@ -4,12 +4,12 @@ from collections.abc import Iterator, Sequence
 
 from rotemina.drivers.conformance import (
     captures,
-    extras,
     links,
     moves,
     opening,
     playing,
     sampling,
+    service_checks,
     speeds,
 )
 from rotemina.drivers.conformance.bench import Bench
@@ -22,7 +22,7 @@ CHECKS: tuple[Check, ...] = (
     *moves.CHECKS,
     *speeds.CHECKS,
     *playing.CHECKS,
-    *extras.CHECKS,
+    *service_checks.CHECKS,
     *captures.CHECKS,
     *links.CHECKS,
 )

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.gcode.reports import Answer, Message, Status, parse_report
-from rotemina.drivers.link import LinkQuality
+from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.mc68hc11.port import Port
 
 QUERY, HOLD, RESET, JOG_CANCEL = b"?", b"!", b"\x18", b"\x85"

@@ -10,13 +10,13 @@ from math import ceil, floor, log10
 from typing import Self
 
 from rotemina.drivers.errors import ProtocolError
-from rotemina.drivers.mc68hc11.codes import AXES, Kind, Unit
-from rotemina.drivers.mc68hc11.codes import Role as RoleCode
-from rotemina.drivers.mc68hc11.reports import AxisDescription
+from rotemina.drivers.mc68hc11.board_messages import AxisDescription
+from rotemina.drivers.mc68hc11.protocol_codes import AXES, Kind, Unit
+from rotemina.drivers.mc68hc11.protocol_codes import Role as RoleCode
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
-from rotemina.sim.trajectory.limits import resolution_of
+from rotemina.sim.trajectory.axis_limits import resolution_of
 
 _MOST_MANTISSA = 0xFFFF
 _DEVIATIONS = 1 << 16  # steps

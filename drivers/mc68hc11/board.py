@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.board_clock import BoardClock
-from rotemina.drivers.mc68hc11.codes import Ability, Fault, State
+from rotemina.drivers.mc68hc11.board_messages import Identity, Inputs, Rates, Telemetry
 from rotemina.drivers.mc68hc11.dialogue import Urgency
-from rotemina.drivers.mc68hc11.grid import Grid
-from rotemina.drivers.mc68hc11.link import Link
-from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.orders import Orders
-from rotemina.drivers.mc68hc11.reports import Identity, Inputs, Rates, Telemetry
+from rotemina.drivers.mc68hc11.payload import Message
+from rotemina.drivers.mc68hc11.pending_orders import Orders
+from rotemina.drivers.mc68hc11.protocol_codes import Ability, Fault, State
+from rotemina.drivers.mc68hc11.sampling_grid import Grid
+from rotemina.drivers.mc68hc11.serial_link import Link
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.messages import marked, message
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from rotemina.drivers.capture import Captured
 from rotemina.drivers.mc68hc11.board import Board
-from rotemina.drivers.mc68hc11.codes import State
-from rotemina.drivers.mc68hc11.reports import Captured as Report
+from rotemina.drivers.mc68hc11.board_messages import Captured as Report
+from rotemina.drivers.mc68hc11.protocol_codes import State
 from rotemina.sim.arrays import FloatArray
 
 _TURN = 1 << 16  # steps: only the low bits are sent

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import Permit
+from rotemina.drivers.mc68hc11.board_messages import Done, Refused
 from rotemina.drivers.mc68hc11.framing import RESYNC, Frame, encoded
-from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.reports import Done, Refused
+from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.sim.messages import message
 
 _MOST_QUEUED = 96  # requests of one urgency: a profile and all parameters, and some

@@ -4,7 +4,7 @@ All traffic happens in the calls of the one thread that uses the driver; only a 
 the ports by whoever calls it.
 """
 
-from rotemina.drivers.mc68hc11.extras import Extras
+from rotemina.drivers.mc68hc11.board_services import Extras
 from rotemina.drivers.mc68hc11.moving import Moving
 
 

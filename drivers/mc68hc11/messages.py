@@ -7,8 +7,7 @@ times whole microseconds of the board's own clock.
 from collections.abc import Mapping
 
 from rotemina.drivers.errors import ProtocolError
-from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.reports import (
+from rotemina.drivers.mc68hc11.board_messages import (
     AxisDescription,
     Captured,
     Done,
@@ -19,7 +18,7 @@ from rotemina.drivers.mc68hc11.reports import (
     Refused,
     Telemetry,
 )
-from rotemina.drivers.mc68hc11.requests import (
+from rotemina.drivers.mc68hc11.host_messages import (
     AbortProfile,
     ArmProfile,
     AskRates,
@@ -44,6 +43,7 @@ from rotemina.drivers.mc68hc11.requests import (
     Watch,
     WriteParameter,
 )
+from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.sim.messages import message
 
 _ALL: tuple[type[Message], ...] = (

@@ -9,12 +9,12 @@ from rotemina.drivers.axes import AxisDescription
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.axes import BoardAxis
-from rotemina.drivers.mc68hc11.codes import Ability
 from rotemina.drivers.mc68hc11.connection import Connected
-from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.orders import constant
+from rotemina.drivers.mc68hc11.host_messages import Home, MoveTo, MoveVelocity, SetVoltage
 from rotemina.drivers.mc68hc11.parameters import CODES, PER_AXIS
-from rotemina.drivers.mc68hc11.requests import Home, MoveTo, MoveVelocity, SetVoltage
+from rotemina.drivers.mc68hc11.payload import Message
+from rotemina.drivers.mc68hc11.pending_orders import constant
+from rotemina.drivers.mc68hc11.protocol_codes import Ability
 from rotemina.drivers.mc68hc11.segment_player import Player
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError

@@ -6,12 +6,12 @@ from functools import partial
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board
-from rotemina.drivers.mc68hc11.codes import VERSION, State
+from rotemina.drivers.mc68hc11.board_messages import Identity, Parameter
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
-from rotemina.drivers.mc68hc11.message import Message
+from rotemina.drivers.mc68hc11.host_messages import Identify, ReadParameter, WriteParameter
 from rotemina.drivers.mc68hc11.parameters import fingerprint, meaning, parameters_of
-from rotemina.drivers.mc68hc11.reports import Identity, Parameter
-from rotemina.drivers.mc68hc11.requests import Identify, ReadParameter, WriteParameter
+from rotemina.drivers.mc68hc11.payload import Message
+from rotemina.drivers.mc68hc11.protocol_codes import VERSION, State
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.sim.messages import joined, marked, message
 from rotemina.sim.robot.model import Robot

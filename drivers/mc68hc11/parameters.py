@@ -8,7 +8,7 @@ from rotemina.drivers.abilities import VOLTAGE_SLEW
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.sim.messages import marked, message
 from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
-from rotemina.sim.trajectory.limits import controller_of
+from rotemina.sim.trajectory.axis_limits import controller_of
 
 PER_AXIS = 8
 _START = 0xFFFF  # of the check, as of a frame's

@@ -7,9 +7,9 @@ import numpy as np
 
 from rotemina.drivers.errors import LimitError
 from rotemina.drivers.mc68hc11.axes import BoardAxis
-from rotemina.drivers.mc68hc11.codes import SEGMENTS
-from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.requests import ArmProfile, BeginProfile, Quadratic, Segments
+from rotemina.drivers.mc68hc11.host_messages import ArmProfile, BeginProfile, Quadratic, Segments
+from rotemina.drivers.mc68hc11.payload import Message
+from rotemina.drivers.mc68hc11.protocol_codes import SEGMENTS
 from rotemina.drivers.profile import Profile
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.messages import message

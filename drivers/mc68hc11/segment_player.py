@@ -13,12 +13,12 @@ import numpy as np
 from rotemina.drivers.errors import LimitError
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.mc68hc11.board import Board, BoardSample
-from rotemina.drivers.mc68hc11.budget import ROWS
-from rotemina.drivers.mc68hc11.codes import QUEUE
 from rotemina.drivers.mc68hc11.dialogue import Request
-from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.orders import constant
-from rotemina.drivers.mc68hc11.requests import BeginStream, MoveTo, SetPoint
+from rotemina.drivers.mc68hc11.host_messages import BeginStream, MoveTo, SetPoint
+from rotemina.drivers.mc68hc11.line_budget import ROWS
+from rotemina.drivers.mc68hc11.payload import Message
+from rotemina.drivers.mc68hc11.pending_orders import constant
+from rotemina.drivers.mc68hc11.protocol_codes import QUEUE
 from rotemina.drivers.mc68hc11.segment_window import MOST_WAY, ROUNDING, SetpointWindow
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.messages import AxisName, message

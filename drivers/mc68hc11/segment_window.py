@@ -3,12 +3,12 @@
 from collections.abc import Callable
 
 from rotemina.drivers.gate import Permit
-from rotemina.drivers.mc68hc11.codes import Refusal
+from rotemina.drivers.mc68hc11.board_messages import Refused, Telemetry
 from rotemina.drivers.mc68hc11.dialogue import Offered
 from rotemina.drivers.mc68hc11.framing import RESYNC, Frame, encoded
-from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.reports import Refused, Telemetry
-from rotemina.drivers.mc68hc11.requests import SetPoint
+from rotemina.drivers.mc68hc11.host_messages import SetPoint
+from rotemina.drivers.mc68hc11.payload import Message
+from rotemina.drivers.mc68hc11.protocol_codes import Refusal
 
 MOST_WAY = ((1 << 23) - 1) // 2  # steps between two set-points: a second difference is two of them
 ROUNDING = 1.0  # steps between two set-points beyond the greatest speed: each is a whole step

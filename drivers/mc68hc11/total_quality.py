@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from rotemina.drivers.link import LinkQuality
+from rotemina.drivers.line_quality import LinkQuality
 
 
 def total_quality(lines: Sequence[LinkQuality]) -> LinkQuality:

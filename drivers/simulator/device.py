@@ -6,20 +6,20 @@ from enum import Enum, auto
 import numpy as np
 
 from rotemina.drivers.samples import Samples
-from rotemina.drivers.simulator.compensating import Compensating, Rest
+from rotemina.drivers.simulator.axis_inverses import Compensating, Rest
+from rotemina.drivers.simulator.axis_loops import Regulating
 from rotemina.drivers.simulator.homing import Homing
-from rotemina.drivers.simulator.playing import Chunk, Playing, selected
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
-from rotemina.drivers.simulator.regulating import Regulating
 from rotemina.drivers.simulator.setpoint_generator import SetpointGenerator
+from rotemina.drivers.simulator.trajectory_playback import Chunk, Playing, selected
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.plant.effect_switch import taken_over
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.plant.state import PlantState
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis

@@ -27,8 +27,8 @@ from rotemina.drivers.model_abilities import Compensator, EffectCarrier, Regulat
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.drivers.settings import SettingError, SettingValue
-from rotemina.drivers.simulator.capturing import Capturing
 from rotemina.drivers.simulator.device import SimulatedDevice
+from rotemina.drivers.simulator.fast_captures import Capturing
 from rotemina.drivers.simulator.front_panel import FrontPanel
 from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
@@ -36,7 +36,7 @@ from rotemina.drivers.simulator.tool import SimulatedTool
 from rotemina.drivers.simulator.true_positions import TruePositions
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.inverse import Exceedance
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.errors import LostLoopError
 from rotemina.sim.feedback.regulation import Regulation
@@ -45,7 +45,7 @@ from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import AxisEffect, ForceAxis, PiezoAxis, Robot, StepperAxis
-from rotemina.sim.trajectory.limits import check_target
+from rotemina.sim.trajectory.axis_limits import check_target
 from rotemina.sim.trajectory.setpoint_limits import SetpointLimits
 
 MAX_RATE_HZ = 20_000.0

@@ -10,14 +10,14 @@ from typing import Literal
 import numpy as np
 
 from rotemina.drivers.mc68hc11.axes import board_axes
-from rotemina.drivers.mc68hc11.budget import BAUDS, Line
-from rotemina.drivers.mc68hc11.codes import Fault
+from rotemina.drivers.mc68hc11.line_budget import BAUDS, Line
+from rotemina.drivers.mc68hc11.protocol_codes import Fault
 from rotemina.drivers.virtual_board.clock import BoardClock
 from rotemina.drivers.virtual_board.firmware import Firmware
 from rotemina.drivers.virtual_board.line import SerialLine
 from rotemina.drivers.virtual_board.machine import Machine
-from rotemina.drivers.virtual_board.moving import press
-from rotemina.drivers.virtual_board.notes import Notes
+from rotemina.drivers.virtual_board.motion_handlers import press
+from rotemina.drivers.virtual_board.observer_notes import Notes
 from rotemina.drivers.virtual_board.samples import take_samples
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message

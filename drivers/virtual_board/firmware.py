@@ -9,19 +9,19 @@ from math import inf
 import numpy as np
 
 from rotemina.drivers.mc68hc11.axes import BoardAxis
-from rotemina.drivers.mc68hc11.budget import Line
-from rotemina.drivers.mc68hc11.codes import LCD_COLUMNS, LCD_ROWS, Fault, State
 from rotemina.drivers.mc68hc11.framing import Frame
-from rotemina.drivers.mc68hc11.message import Message
+from rotemina.drivers.mc68hc11.line_budget import Line
+from rotemina.drivers.mc68hc11.payload import Message
+from rotemina.drivers.mc68hc11.protocol_codes import LCD_COLUMNS, LCD_ROWS, Fault, State
 from rotemina.drivers.virtual_board.axis_drive import AxisDrive
 from rotemina.drivers.virtual_board.clock import MASK, BoardClock
 from rotemina.drivers.virtual_board.homing import HomingAxis
 from rotemina.drivers.virtual_board.machine import Machine
-from rotemina.drivers.virtual_board.notes import Notes, StopNote
+from rotemina.drivers.virtual_board.observer_notes import Notes, StopNote
 from rotemina.drivers.virtual_board.parameter_memory import ParameterMemory
-from rotemina.drivers.virtual_board.profile import Profile
+from rotemina.drivers.virtual_board.profile_motion import Profile
 from rotemina.drivers.virtual_board.reporter import Reporter
-from rotemina.drivers.virtual_board.stream import Stream
+from rotemina.drivers.virtual_board.setpoint_stream import Stream
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.robot.model import Robot
 

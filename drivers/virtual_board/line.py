@@ -9,12 +9,12 @@ from collections.abc import Sequence
 from math import inf
 from typing import NamedTuple
 
-from rotemina.drivers.mc68hc11.budget import Line as Speed
 from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
-from rotemina.drivers.mc68hc11.message import Message
+from rotemina.drivers.mc68hc11.line_budget import Line as Speed
+from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.virtual_board.firmware import Firmware
+from rotemina.drivers.virtual_board.frame_execution import answer
 from rotemina.drivers.virtual_board.line_faults import Channel
-from rotemina.drivers.virtual_board.messages import answer
 
 _SLOT = 3  # bytes of silence after a frame on a shared bus
 _BACKLOG = 3 * 32  # bytes: telemetry that waits longer is out of date, and left out

@@ -14,7 +14,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.plant.state import PlantState
 
 _AHEAD = 100  # ticks

@@ -1,6 +1,6 @@
 """Refusals of a board, and checks common to most frames."""
 
-from rotemina.drivers.mc68hc11.codes import Fault, Refusal
+from rotemina.drivers.mc68hc11.protocol_codes import Fault, Refusal
 from rotemina.drivers.virtual_board.firmware import Firmware
 
 

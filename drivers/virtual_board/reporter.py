@@ -4,8 +4,8 @@ from collections import deque
 from dataclasses import dataclass, field
 from math import inf
 
-from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.reports import Captured, Telemetry
+from rotemina.drivers.mc68hc11.board_messages import Captured, Telemetry
+from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.virtual_board.sampling import Capture, Schedule
 
 _WAITING = 12  # frames of captured samples that a board has room for

@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from typing import Any
 
-from rotemina.drivers.mc68hc11 import reports, requests
-from rotemina.drivers.mc68hc11.budget import rates
-from rotemina.drivers.mc68hc11.codes import (
+from rotemina.drivers.mc68hc11 import board_messages, host_messages
+from rotemina.drivers.mc68hc11.line_budget import rates
+from rotemina.drivers.mc68hc11.payload import Message
+from rotemina.drivers.mc68hc11.protocol_codes import (
     LCD_COLUMNS,
     LCD_ROWS,
     VERSION,
@@ -13,7 +14,6 @@ from rotemina.drivers.mc68hc11.codes import (
     Fault,
     Refusal,
 )
-from rotemina.drivers.mc68hc11.message import Message
 from rotemina.drivers.virtual_board.firmware import Firmware
 from rotemina.drivers.virtual_board.refusal import axes_of, axis_of, demand, has_converter
 from rotemina.drivers.virtual_board.samples import fresh_sample, inputs
@@ -23,7 +23,7 @@ _NAME = 10  # bytes of the robot's name in the board's
 _MS_US = 1000
 
 
-def _identify(board: Firmware, _: requests.Identify) -> Message:
+def _identify(board: Firmware, _: host_messages.Identify) -> Message:
     abilities = (
         Ability.MOVE
         | Ability.VELOCITY
@@ -43,35 +43,35 @@ def _identify(board: Firmware, _: requests.Identify) -> Message:
     name = board.robot.name.encode("ascii", "replace")[:_NAME] + b" %d" % board.number
     own = board.kept
     count = len(board.axes)
-    return reports.Identity(
+    return board_messages.Identity(
         VERSION, abilities, count, board.line.baud, len(own), own.fingerprint, name
     )
 
 
-def _poll(board: Firmware, _: requests.Poll) -> Message:
+def _poll(board: Firmware, _: host_messages.Poll) -> Message:
     if board.reporter.tells_inputs():
         return inputs(board)
     return board.reporter.polled() or fresh_sample(board)
 
 
-def _describe_axis(board: Firmware, asked: requests.DescribeAxis) -> Message:
+def _describe_axis(board: Firmware, asked: host_messages.DescribeAxis) -> Message:
     return board.axes[axis_of(board, asked.axis)].described(board.robot)
 
 
-def _ask_rates(board: Firmware, _: requests.AskRates) -> Message:
+def _ask_rates(board: Firmware, _: host_messages.AskRates) -> Message:
     return _rates(board)
 
 
-def _rates(board: Firmware) -> reports.Rates:
+def _rates(board: Firmware) -> board_messages.Rates:
     return rates(board.line, round(1.0 / board.tick_s))
 
 
-def _read_parameter(board: Firmware, asked: requests.ReadParameter) -> Message:
+def _read_parameter(board: Firmware, asked: host_messages.ReadParameter) -> Message:
     demand(asked.index < len(board.kept), Refusal.BAD_VALUE)
-    return reports.Parameter(asked.index, board.kept[asked.index])
+    return board_messages.Parameter(asked.index, board.kept[asked.index])
 
 
-def _show_text(board: Firmware, asked: requests.ShowText) -> None:
+def _show_text(board: Firmware, asked: host_messages.ShowText) -> None:
     end = asked.column + len(asked.text)
     demand(asked.row < LCD_ROWS and end <= LCD_COLUMNS, Refusal.BAD_VALUE)
     line = board.lcd[asked.row]
@@ -79,7 +79,7 @@ def _show_text(board: Firmware, asked: requests.ShowText) -> None:
     board.lcd[asked.row] = line[: asked.column] + text + line[end:]
 
 
-def _set_telemetry(board: Firmware, asked: requests.SetTelemetry) -> None:
+def _set_telemetry(board: Firmware, asked: host_messages.SetTelemetry) -> None:
     if asked.period_ms == 0:
         board.reporter.set_telemetry(None)
         return
@@ -88,7 +88,7 @@ def _set_telemetry(board: Firmware, asked: requests.SetTelemetry) -> None:
     board.reporter.set_telemetry(schedule)
 
 
-def _capture(board: Firmware, asked: requests.Capture) -> None:
+def _capture(board: Firmware, asked: host_messages.Capture) -> None:
     if asked.samples == 0:
         board.reporter.set_capture(None)
         return
@@ -105,20 +105,20 @@ def _capture(board: Firmware, asked: requests.Capture) -> None:
     board.reporter.set_capture(Capture(board.machine, indices, schedule, asked.samples))
 
 
-def _clear_fault(board: Firmware, _: requests.ClearFault) -> None:
+def _clear_fault(board: Firmware, _: host_messages.ClearFault) -> None:
     own = zip(board.steppers, board.drives, strict=True)
     demand(not any(stepper and drive.moving for stepper, drive in own), Refusal.FAULTY)
     board.fault = Fault.NONE
     board.ways = [0.0] * len(board.axes)  # away from a switch is right now
 
 
-def _watch(board: Firmware, asked: requests.Watch) -> None:
+def _watch(board: Firmware, asked: host_messages.Watch) -> None:
     demand(asked.silence_ms > 0, Refusal.BAD_VALUE)
     board.watch_us = asked.silence_ms * _MS_US
     board.watch_tick = board.now + board.clock.ticks(board.watch_us)
 
 
-def _write_parameter(board: Firmware, asked: requests.WriteParameter) -> None:
+def _write_parameter(board: Firmware, asked: host_messages.WriteParameter) -> None:
     demand(asked.index < len(board.kept), Refusal.BAD_VALUE)
     demand(not board.moving and not board.stream.playing, Refusal.BUSY)
     demand(board.kept.accepts(asked.index, asked.value), Refusal.BAD_VALUE)
@@ -128,15 +128,15 @@ def _write_parameter(board: Firmware, asked: requests.WriteParameter) -> None:
 
 
 HANDLERS: tuple[tuple[type[Message], Callable[[Firmware, Any], Message | None]], ...] = (
-    (requests.Identify, _identify),
-    (requests.ClearFault, _clear_fault),
-    (requests.Poll, _poll),
-    (requests.DescribeAxis, _describe_axis),
-    (requests.Watch, _watch),
-    (requests.AskRates, _ask_rates),
-    (requests.ReadParameter, _read_parameter),
-    (requests.WriteParameter, _write_parameter),
-    (requests.ShowText, _show_text),
-    (requests.SetTelemetry, _set_telemetry),
-    (requests.Capture, _capture),
+    (host_messages.Identify, _identify),
+    (host_messages.ClearFault, _clear_fault),
+    (host_messages.Poll, _poll),
+    (host_messages.DescribeAxis, _describe_axis),
+    (host_messages.Watch, _watch),
+    (host_messages.AskRates, _ask_rates),
+    (host_messages.ReadParameter, _read_parameter),
+    (host_messages.WriteParameter, _write_parameter),
+    (host_messages.ShowText, _show_text),
+    (host_messages.SetTelemetry, _set_telemetry),
+    (host_messages.Capture, _capture),
 )

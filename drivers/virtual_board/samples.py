@@ -1,7 +1,7 @@
 """Samples of a board: sensor readings, beside the active commands."""
 
-from rotemina.drivers.mc68hc11.message import Message
-from rotemina.drivers.mc68hc11.reports import Inputs, Telemetry
+from rotemina.drivers.mc68hc11.board_messages import Inputs, Telemetry
+from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.virtual_board.firmware import Firmware
 
 _READING = (1 << 23) - 1

@@ -1,7 +1,7 @@
 """The sampling instants of a board, for telemetry and captures."""
 
+from rotemina.drivers.mc68hc11.board_messages import Captured
 from rotemina.drivers.mc68hc11.framing import MAX_PAYLOAD
-from rotemina.drivers.mc68hc11.reports import Captured
 from rotemina.drivers.virtual_board.clock import MASK, BoardClock, signed
 from rotemina.drivers.virtual_board.machine import Machine
 

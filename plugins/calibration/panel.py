@@ -4,8 +4,8 @@ from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
+from rotemina.app.calibration.calibration_playback import CalibrationRun, Phase, RunState
 from rotemina.app.calibration.files import Source, kept, source_of
-from rotemina.app.calibration.run import CalibrationRun, Phase, RunState
 from rotemina.app.calibration.store import Stored
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
@@ -15,17 +15,17 @@ from rotemina.app.shell.file_dialog import ask_files
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.scroll import lay_beside, tabbed
-from rotemina.plugins.calibration.procedure import Procedure
+from rotemina.app.widgets.scroll_areas import lay_beside, tabbed
+from rotemina.plugins.calibration.procedure_controls import Procedure
 from rotemina.plugins.calibration.result_view import ResultView
 from rotemina.plugins.calibration.stored_view import StoredView
 from rotemina.plugins.calibration.words import NOTHING, motion_drawing, planned
-from rotemina.sim.calibration.calibrating import Calibration, calibrated
-from rotemina.sim.calibration.parts import compared
+from rotemina.sim.calibration.comparable_parts import compared
 from rotemina.sim.calibration.plan import calibration_motion
+from rotemina.sim.calibration.sensor_calibration import Calibration, calibrated
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
-from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 from rotemina.sim.trajectory.dry_run import dry_run
 
 RECORDS = marked("calibration", "Records (*.csv *.txt *.dat *.gz);;All files (*)")

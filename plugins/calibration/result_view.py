@@ -21,7 +21,7 @@ from rotemina.plugins.calibration.words import (
     shown,
     verdict,
 )
-from rotemina.sim.calibration.calibrating import Calibration
+from rotemina.sim.calibration.sensor_calibration import Calibration
 
 _TIP = marked(
     "calibration",

@@ -5,14 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.app.calibration.run import Phase, RunState
+from rotemina.app.calibration.calibration_playback import Phase, RunState
 from rotemina.app.calibration.store import Stored
 from rotemina.app.calibration.words import figure_rows, iso_rows
-from rotemina.app.display import duration_text, label
+from rotemina.app.display_units import duration_text, label
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.calibration.calibrating import Calibration
+from rotemina.sim.calibration.sensor_calibration import Calibration
 from rotemina.sim.quantities import amount, scale_of
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot, StepperAxis

@@ -13,12 +13,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.gap_words import RUN, size
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import LINES, SignalPlot
-from rotemina.app.shell.reports import RUN_REPORT, RUN_REPORT_TIP, ask_run_report
+from rotemina.app.shell.report_files import RUN_REPORT, RUN_REPORT_TIP, ask_run_report
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.app.widgets.labels import legend

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.compensation.trial_motion import Aid
 from rotemina.plugins.compensation.typed_gains import TypedGains

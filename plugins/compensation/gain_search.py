@@ -5,18 +5,18 @@ from threading import Event as Flag
 
 from PySide6.QtCore import QObject, Signal
 
-from rotemina.app.shell.job import Job, Tell
+from rotemina.app.shell.background_job import Job, Tell
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.compensation.background_search import problem_of, search
 from rotemina.plugins.compensation.controls import Controls
-from rotemina.plugins.compensation.tuning import problem_of, search
-from rotemina.plugins.compensation.views import FrontView
+from rotemina.plugins.compensation.plot_views import FrontView
 from rotemina.plugins.compensation.words import point_text
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.tuning.problem import Evaluation, TuningProblem
-from rotemina.sim.tuning.result import Tuning, load_tuning, save_tuning
 from rotemina.sim.tuning.search import Generation, SearchSettings
+from rotemina.sim.tuning.search_problem import Evaluation, TuningProblem
+from rotemina.sim.tuning.tuning_result import Tuning, load_tuning, save_tuning
 
 _SEARCHED = "search"  # what gains are called that no file holds yet
 

@@ -12,26 +12,26 @@ from PySide6.QtWidgets import (
 from rotemina.app.motion.compensation import NamedInverse, check_belongs
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
+from rotemina.app.shell.background_job import Job, Tell
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_files, ask_where
-from rotemina.app.shell.job import Job, Tell
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.scroll import lay_beside, tabbed
+from rotemina.app.widgets.scroll_areas import lay_beside, tabbed
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.compensation.actuation import Actuation
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.gain_search import GainSearch
-from rotemina.plugins.compensation.learning import (
+from rotemina.plugins.compensation.inverse_training import (
     Learned,
     Listener,
     learned_from,
     learned_simulated,
 )
+from rotemina.plugins.compensation.machine_actions import Actuation
+from rotemina.plugins.compensation.plot_views import CheckView, FrontView, LiveView
 from rotemina.plugins.compensation.trial_motion import NAME
-from rotemina.plugins.compensation.views import CheckView, FrontView, LiveView
 from rotemina.plugins.compensation.words import NO_FRONT, NOTHING, kind_name
 from rotemina.sim.compensate.file import read_trained, write_trained
 from rotemina.sim.records.reading import read_record

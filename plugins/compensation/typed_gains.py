@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 from rotemina.app.motion.regulation import NamedRegulation
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
-from rotemina.plugins.compensation.tuning import RATE_HZ
+from rotemina.plugins.compensation.background_search import RATE_HZ
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.gains import Gains
@@ -13,7 +13,7 @@ from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import parsed, rounded
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.tuning.problem import USUAL, gains_at, most_of, with_amounts
+from rotemina.sim.tuning.search_problem import USUAL, gains_at, most_of, with_amounts
 
 # Name in Gains, letter, unit.
 _AMOUNTS = (

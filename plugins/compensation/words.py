@@ -2,16 +2,16 @@
 
 from collections.abc import Mapping
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.compensation.trial_motion import Trial
 from rotemina.sim.compensate.inverse import Exceedance
+from rotemina.sim.compensate.inverse_parameters import Kind
 from rotemina.sim.compensate.judgement import NAMES
-from rotemina.sim.compensate.model import Kind
 from rotemina.sim.compensate.training import Trained
 from rotemina.sim.quantities import amount, percent
-from rotemina.sim.tuning.front import Point
+from rotemina.sim.tuning.pareto_front import Point
 
 HEAD = (
     marked("compensation", "inverse"),

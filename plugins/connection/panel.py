@@ -6,14 +6,14 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.scroll import least_width, scrolled
-from rotemina.plugins.connection.device import DeviceSection
-from rotemina.plugins.connection.line import LineSection, StopSection
-from rotemina.plugins.connection.parameters import ParameterSection
-from rotemina.plugins.connection.position import PositionSection
+from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.plugins.connection.driver_choice import DeviceSection
+from rotemina.plugins.connection.homing_section import PositionSection
+from rotemina.plugins.connection.line_quality import LineSection, StopSection
+from rotemina.plugins.connection.parameter_differences import ParameterSection
+from rotemina.plugins.connection.service_voltage import VoltageSection
 from rotemina.plugins.connection.state_section import StateSection
-from rotemina.plugins.connection.tip import TipSection
-from rotemina.plugins.connection.voltage import VoltageSection
+from rotemina.plugins.connection.tip_floor import TipSection
 
 
 class ConnectionPanel(Panel):

@@ -5,11 +5,11 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase import PhaseLabel
+from rotemina.app.shell.phase_words import PhaseLabel
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.section import Section
-from rotemina.plugins.connection import reasons
+from rotemina.plugins.connection import unavailable_reasons
 
 
 class StateSection(Section):
@@ -63,6 +63,6 @@ class StateSection(Section):
         )
         allow(
             self.clear,
-            reasons.against_clearing(state),
+            unavailable_reasons.against_clearing(state),
             translate("connection", "Acknowledge the device's fault"),
         )

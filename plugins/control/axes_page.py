@@ -2,7 +2,7 @@
 
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 
-from rotemina.app.display import axis_scale, label
+from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.backlash import OVER_PLAY, Approach, play_of
 from rotemina.app.motion.state import SessionState
 from rotemina.app.range_settings import keep_ranges
@@ -10,7 +10,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import plain_text, show_text
-from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.control.wording import no_position, typed
 from rotemina.sim.quantities import Scale, rounded
 from rotemina.sim.robot.model import StepperAxis

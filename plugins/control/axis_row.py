@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton
 
-from rotemina.app.display import axis_scale, label
+from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.ranges import Range
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
@@ -16,8 +16,8 @@ from rotemina.app.widgets.controls import allow, plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.control.asking import Confirmation
-from rotemina.plugins.control.holding import Holding
+from rotemina.plugins.control.hold_to_jog import Holding
+from rotemina.plugins.control.large_move_confirmation import Confirmation
 from rotemina.plugins.control.readout import RangeBar, Readout
 from rotemina.plugins.control.step_choice import SpeedChoice, StepChoice
 from rotemina.plugins.control.wording import (
@@ -34,7 +34,7 @@ from rotemina.plugins.control.wording import (
     way,
 )
 from rotemina.sim.quantities import Scale
-from rotemina.sim.trajectory.limits import check_target
+from rotemina.sim.trajectory.axis_limits import check_target
 
 _NAME = 44  # px, at least
 

@@ -9,10 +9,10 @@ from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from rotemina.app.motion.saved_positions import LOAD, WORK
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.pending import Pending
+from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
-from rotemina.plugins.connection.reasons import against_teaching, in_motion
+from rotemina.plugins.connection.unavailable_reasons import against_teaching, in_motion
 
 LIFT = "z"
 _THERE = 1e-9  # m or rad

@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWi
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel

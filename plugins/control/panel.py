@@ -15,19 +15,19 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import stages
+from rotemina.app.display_units import stages
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.scroll import scrolled
+from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.control.axes_page import AxesPage
 from rotemina.plugins.control.axis_row import AxisRow
-from rotemina.plugins.control.hand_page import HandPage
 from rotemina.plugins.control.overview import Overview
 from rotemina.plugins.control.penetration_page import PenetrationPage
 from rotemina.plugins.control.positions_page import PositionsPage
 from rotemina.plugins.control.step_choice import StepChoice
+from rotemina.plugins.control.stick_page import HandPage
 from rotemina.plugins.control.tip_page import TipPage
 from rotemina.plugins.control.wording import aids
 from rotemina.sim.kinematics.keep_out import KeepOutZone

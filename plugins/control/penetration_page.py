@@ -9,7 +9,7 @@ from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import plain_text

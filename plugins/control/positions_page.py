@@ -5,16 +5,20 @@ from collections.abc import Callable, Mapping
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QVBoxLayout, QWidget
 
-from rotemina.app.display import axis_scale, label
+from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.saved_positions import HOME, LOAD, LONGEST_NAME, WORK, SavedPositions
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.pending import Pending
+from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.steady import SteadyChoice
-from rotemina.plugins.connection.reasons import against_going_back, against_homing, in_motion
+from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.connection.unavailable_reasons import (
+    against_going_back,
+    against_homing,
+    in_motion,
+)
 from rotemina.plugins.control.change_guide import LIFT, ChangeGuide
 from rotemina.plugins.control.step_choice import SpeedChoice
 

@@ -4,9 +4,9 @@ from collections.abc import Iterable
 
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
-from rotemina.app.display import step_presets
+from rotemina.app.display_units import step_presets
 from rotemina.app.shell.language import translate
-from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.sim.quantities import rounded, scale_in
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.units import to_unit

@@ -2,13 +2,13 @@
 
 from enum import StrEnum
 
-from rotemina.app.display import label, noticeable
+from rotemina.app.display_units import label, noticeable
 from rotemina.app.motion.backlash import Approach
 from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
 from rotemina.app.motion.ranges import Range
 from rotemina.app.motion.state import SessionState
-from rotemina.app.motion.teleoperation.views import TeleoperationState
+from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate

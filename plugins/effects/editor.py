@@ -12,12 +12,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import plain_tip, set_property
-from rotemina.app.widgets.steady import SteadyChoice
-from rotemina.plugins.effects.field import ParameterField
-from rotemina.plugins.effects.quantity import Quantity
+from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.effects.parameter_display import Quantity
+from rotemina.plugins.effects.parameter_field import ParameterField
 from rotemina.plugins.effects.words import effect_summary, effect_title, formulation_name
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import Robot

@@ -5,10 +5,10 @@ from collections.abc import Callable, Mapping
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
-from rotemina.plugins.effects.chain import candidates
+from rotemina.plugins.effects.chosen_effects import candidates
 from rotemina.plugins.effects.words import (
     effect_summary,
     effect_title,

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import error_text
@@ -23,11 +23,11 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip, set_property
-from rotemina.plugins.effects.chain import Chain, with_formulation, with_value
+from rotemina.plugins.effects.chosen_effects import Chain, with_formulation, with_value
 from rotemina.plugins.effects.editor import Editor
-from rotemina.plugins.effects.live import ApplyState, Effects, LiveEffects
+from rotemina.plugins.effects.effect_table import EffectTable
+from rotemina.plugins.effects.live_changes import ApplyState, Effects, LiveEffects
 from rotemina.plugins.effects.menu import fill
-from rotemina.plugins.effects.table import EffectTable
 from rotemina.plugins.effects.words import effect_title, spoken
 from rotemina.sim.effects.formulation import Effect, Formulation
 from rotemina.sim.effects.registry import all_effects
@@ -35,7 +35,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.robot.writing import write_robot
-from rotemina.sim.trajectory.demonstration import worn_effects
+from rotemina.sim.trajectory.worn_machine_demo import worn_effects
 
 REAL_MACHINE = marked(
     "effects",

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 
-from rotemina.app.display import axis_scale, label
+from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
 from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState

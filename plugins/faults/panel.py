@@ -19,10 +19,10 @@ from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
-from rotemina.app.widgets.scroll import least_width, scrolled
-from rotemina.plugins.faults.history import Entry, History, Kind, as_text
-from rotemina.plugins.faults.injection import Injection
-from rotemina.plugins.faults.table import HistoryTable
+from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.plugins.faults.fault_history import Entry, History, Kind, as_text
+from rotemina.plugins.faults.fault_injection import Injection
+from rotemina.plugins.faults.fault_table import HistoryTable
 
 
 class FaultsPanel(Panel):

@@ -22,7 +22,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import hint
 from rotemina.app.widgets.table import Table
-from rotemina.plugins.gap.blind_result import HEAD, BlindResult
+from rotemina.plugins.gap.blind_figures import HEAD, BlindResult
 from rotemina.plugins.gap.blind_run import BlindRun
 from rotemina.plugins.gap.robot_choice import RobotChoice
 from rotemina.plugins.gap.words import effect_title, effect_word

@@ -7,7 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QProcess, QTimer, Signal
 
 from rotemina.app.shell.language import translate
-from rotemina.plugins.gap.blind_result import BlindResult, step
+from rotemina.plugins.gap.blind_figures import BlindResult, step
 from rotemina.sim.errors import InputError
 
 _WORKER = ("-m", "rotemina.plugins.gap.blind_worker")

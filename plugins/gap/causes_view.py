@@ -6,14 +6,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QPlainTextEdit, QSplitter
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.engine_words import WindowWording
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.table import Table
-from rotemina.plugins.gap.advice import advice
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosis_answer import Answer
+from rotemina.plugins.gap.verdict_advice import advice
 from rotemina.plugins.gap.words import (
     AXIS_VERDICTS,
     any_of,

@@ -6,13 +6,13 @@ from threading import Event
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import translate
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.diagnosis_process import DiagnosisProcess
 from rotemina.plugins.gap.words import effect_word, stage_name
-from rotemina.sim.gap.progress import Progress
+from rotemina.sim.gap.diagnosis_progress import Progress
 from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot

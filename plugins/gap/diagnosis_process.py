@@ -17,9 +17,9 @@ from types import MappingProxyType
 from typing import IO
 
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.progress import Listener, Progress
+from rotemina.sim.gap.diagnosis_progress import Listener, Progress
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 

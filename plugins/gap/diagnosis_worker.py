@@ -13,10 +13,10 @@ from dataclasses import replace
 from queue import SimpleQueue
 from typing import IO
 
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.diagnosis_process import Failure, Request, Unwanted, read, write
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.progress import Progress
+from rotemina.sim.gap.diagnosis_progress import Progress
 
 _NICE = 5  # the window and what steers the machine go first
 
@@ -59,11 +59,13 @@ def _reply(request: Request, requests: _Requests, out: IO[bytes]) -> Answer | Fa
                 write(progress, out)
 
     try:
-        from rotemina.sim.gap import method  # takes its time to import
+        from rotemina.sim.gap import diagnosis_pipeline  # takes its time to import
 
         # One core stays free for the machine and the window.
         jobs = max((os.cpu_count() or 1) - 1, 1)
-        diagnosis = method.diagnose(request.robot, request.records, jobs=jobs, listener=listen)
+        diagnosis = diagnosis_pipeline.diagnose(
+            request.robot, request.records, jobs=jobs, listener=listen
+        )
         listen(Progress("drawing", None, None, 1.0))
         answer = Answer.of(diagnosis, request.names, request.records)
         return replace(answer, records=())  # which the other side has

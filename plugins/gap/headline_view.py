@@ -5,13 +5,13 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.engine_words import WindowWording
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
-from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.headline import TONES, Tone, change, why_worse
-from rotemina.plugins.gap.proof import Proof
+from rotemina.plugins.gap.answer_quality import TONES, Tone, change, why_worse
+from rotemina.plugins.gap.diagnosis_answer import Answer
+from rotemina.plugins.gap.unseen_motion_result import Proof
 from rotemina.plugins.gap.words import VERDICTS
 from rotemina.sim.gap.wording import details, findings
 

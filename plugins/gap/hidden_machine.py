@@ -7,11 +7,11 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rotemina.app.blind.hidden_machine import Cause, HiddenMachine, Secret, draw_secret, is_right
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.simulator.driver import Simulator
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.words import effect_word
 
 RIGHT, PLAYED = "hidden.right", "hidden.played"  # of the score, in the preferences

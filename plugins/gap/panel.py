@@ -14,20 +14,20 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.scroll import scrolled
+from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.gap.actions import Actions
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.answer_exports import Actions
 from rotemina.plugins.gap.blind_page import BlindPage
 from rotemina.plugins.gap.diagnosing import Diagnosing
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.headline_view import HEIGHT, LITTLE
 from rotemina.plugins.gap.hidden_machine import HiddenMachineTrial
 from rotemina.plugins.gap.model_switch import ModelSwitch, against, candidate
-from rotemina.plugins.gap.proof import Proof
 from rotemina.plugins.gap.records import Records
 from rotemina.plugins.gap.result_section import ResultSection, unfound
 from rotemina.plugins.gap.start_section import StartSection
 from rotemina.plugins.gap.unseen_motion import UnseenMotion
+from rotemina.plugins.gap.unseen_motion_result import Proof
 from rotemina.plugins.gap.words import stage_name
 
 _HEIGHT = 240
@@ -114,6 +114,7 @@ class GapPanel(Panel):
         self.unseen.proved.connect(self._take_proof)
         self.workbench.run_changed.connect(self.unseen.prove)
         self.workbench.refreshed.connect(self._follow_motion)
+        self.workbench.diagnosis_asked.connect(self._start_asked)
         self.workbench.closing.connect(self.diagnosing.close)
         self.workbench.theme_changed.connect(result.set_theme)
 
@@ -131,6 +132,10 @@ class GapPanel(Panel):
         else:
             self._goes_on = True
             self.rail.menu.ask()
+
+    def _start_asked(self) -> None:
+        if not self.diagnosing.running:
+            self._start()
 
     def _go_on(self) -> None:
         goes_on, self._goes_on = self._goes_on, False

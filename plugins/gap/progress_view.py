@@ -3,11 +3,11 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QWidget
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.plugins.gap.ranking_view import RankingView
-from rotemina.sim.gap.progress import Progress
+from rotemina.sim.gap.diagnosis_progress import Progress
 
 STAGES = {
     "reading": marked("gap", "Reading the records."),

@@ -8,9 +8,9 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
-from rotemina.app.motion.run import Run, compared, compared_again
+from rotemina.app.motion.compared_run import Run, compared, compared_again
 from rotemina.app.records.entry import Entry, Kind
-from rotemina.app.records.facts import moment
+from rotemina.app.records.file_facts import moment
 from rotemina.app.records.library import read, worst_gap
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.column_mapping import ask_columns

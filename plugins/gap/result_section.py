@@ -16,16 +16,16 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import allow, plain_tip, set_property
 from rotemina.app.widgets.labels import hint
-from rotemina.plugins.gap.advice import readiness
-from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.axis_cells import AxisCells
+from rotemina.plugins.gap.axis_cards import AxisCells
 from rotemina.plugins.gap.causes_view import CausesView
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.distribution_view import DistributionView
 from rotemina.plugins.gap.headline_view import Headline
 from rotemina.plugins.gap.progress_view import ProgressView
-from rotemina.plugins.gap.proof import Proof
-from rotemina.plugins.gap.proof_view import ProofView
 from rotemina.plugins.gap.shrinkage_view import ShrinkageView
+from rotemina.plugins.gap.unseen_motion_result import Proof
+from rotemina.plugins.gap.unseen_motion_view import ProofView
+from rotemina.plugins.gap.verdict_advice import readiness
 
 VIEWS = (
     marked("gap", "Where"),

@@ -8,12 +8,12 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QLabel, QSizePolicy, QSplitter, QVBoxLayout, QWidget
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
-from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.headline import change
+from rotemina.plugins.gap.answer_quality import change
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.trace_view import TraceView
 from rotemina.plugins.gap.words import effect_title
 from rotemina.sim.gap.diagnosis import Shrinkage

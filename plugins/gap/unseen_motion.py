@@ -6,11 +6,11 @@ from PySide6.QtWidgets import QWidget
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Run, Workbench
-from rotemina.plugins.gap.advice import check_title
-from rotemina.plugins.gap.answer import Answer
-from rotemina.plugins.gap.playing import Playing
-from rotemina.plugins.gap.proof import Proof, new_motion, prove
-from rotemina.sim.gap.suggestion import suggestion
+from rotemina.plugins.gap.diagnosis_answer import Answer
+from rotemina.plugins.gap.requested_motion import Playing
+from rotemina.plugins.gap.unseen_motion_result import Proof, new_motion, prove
+from rotemina.plugins.gap.verdict_advice import check_title
+from rotemina.sim.gap.experiment_files import suggestion
 
 
 class UnseenMotion(QObject):

@@ -5,10 +5,10 @@ from pathlib import Path
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.identification.filled_template import localized
-from rotemina.plugins.identification.question import Question, first_axis, taps_of
+from rotemina.plugins.identification.record_query import Question, first_axis, taps_of
 from rotemina.plugins.identification.views import View
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot

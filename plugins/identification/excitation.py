@@ -6,16 +6,16 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.display import duration_text, label
+from rotemina.app.display_units import duration_text, label
 from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.identification.views import View
 from rotemina.sim.errors import InputError
 from rotemina.sim.excitation.generator import Excitation, Kind, excite
-from rotemina.sim.excitation.levels import Staircase
 from rotemina.sim.excitation.quantity import Amount, ExcitationError, amount_of
-from rotemina.sim.excitation.swings import Triangle
-from rotemina.sim.excitation.tones import Multisine, Sine
+from rotemina.sim.excitation.sines_and_chirps import Multisine, Sine
+from rotemina.sim.excitation.staircase_steps_prbs import Staircase
+from rotemina.sim.excitation.triangles_and_sweeps import Triangle
 from rotemina.sim.kinematics.keep_out import KeepOutZone
 from rotemina.sim.quantities import exact, parsed, rounded
 from rotemina.sim.records.record import Record, Tap

@@ -14,13 +14,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.pending import Pending
-from rotemina.app.shell.plan import Plan
+from rotemina.app.shell.loaded_trajectory import Plan
+from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.app.widgets.controls import allow, set_property
 from rotemina.app.widgets.labels import plain_text

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.filled_template import FilledTemplate
-from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.record_query import Question
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import Scale, scale_of

@@ -7,15 +7,15 @@ import numpy as np
 from rotemina.app.shell.language import marked, translate
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import Column, Curve, Findings, Picture, ratio_scale
-from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
-from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.nominal_response import ABSENT, nominal_signals
+from rotemina.plugins.identification.record_query import Question
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import TooShortError
+from rotemina.sim.identification.experiment_signals import Signals
 from rotemina.sim.identification.frequency_response import FrequencyResponse
 from rotemina.sim.identification.multisine import periodic_response
 from rotemina.sim.identification.resonance import Resonance, fit_resonance
-from rotemina.sim.identification.signals import Signals
 from rotemina.sim.identification.welch import welch_response
 from rotemina.sim.quantities import Scale, fixed, rounded, uncertain
 

@@ -5,16 +5,16 @@ from collections.abc import Callable
 import numpy as np
 
 from rotemina.app.shell.language import marked
+from rotemina.plugins.identification.cycle_statistics import HEAD, Figure, largest
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import Column, Curve, Findings, Picture
-from rotemina.plugins.identification.nominal import ABSENT, nominal_signals
-from rotemina.plugins.identification.question import Question
-from rotemina.plugins.identification.statistics import HEAD, Figure, largest
+from rotemina.plugins.identification.nominal_response import ABSENT, nominal_signals
+from rotemina.plugins.identification.record_query import Question
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.errors import ExcitationError
-from rotemina.sim.identification.loop import Loop, amplitude_exponent, loops
-from rotemina.sim.identification.signals import Signals
+from rotemina.sim.identification.experiment_signals import Signals
+from rotemina.sim.identification.loop_figures import Loop, amplitude_exponent, loops
 from rotemina.sim.quantities import Scale, rounded, scale_of
 
 _MOST_DRAWN = 20_000  # rows; more of a loop is a blot, and slow

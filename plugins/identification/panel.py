@@ -22,7 +22,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
-from rotemina.app.widgets.scroll import scrolled
+from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.identification.chart import Chart
 from rotemina.plugins.identification.controls import Controls
@@ -31,8 +31,8 @@ from rotemina.plugins.identification.excite_view import ExciteView
 from rotemina.plugins.identification.export import as_csv, as_text
 from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.findings import Findings, answered
-from rotemina.plugins.identification.health import keep_card
-from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.health_card import keep_card
+from rotemina.plugins.identification.record_query import Question
 from rotemina.plugins.identification.views import LOOKS, View
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record

@@ -10,11 +10,11 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.steady import SteadyChoice
-from rotemina.plugins.inputs.bars import Curve
-from rotemina.plugins.inputs.calibrating import Calibrating, summary
-from rotemina.plugins.inputs.measuring import Measuring
+from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.inputs.calibration_progress import Calibrating, summary
+from rotemina.plugins.inputs.measuring_steps import Measuring
 from rotemina.plugins.inputs.number_field import NumberField
+from rotemina.plugins.inputs.reading_bars import Curve
 from rotemina.plugins.inputs.words import device_name
 
 _MM = 1e3

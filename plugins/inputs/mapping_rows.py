@@ -8,8 +8,8 @@ from rotemina.app.motion.teleoperation.profile import ActionMapping
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
-from rotemina.plugins.inputs.edits import Edited
 from rotemina.plugins.inputs.number_field import NumberField
+from rotemina.plugins.inputs.profile_edits import Edited
 from rotemina.plugins.inputs.words import (
     ACTION_TIPS,
     ACTIONS,

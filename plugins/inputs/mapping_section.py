@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 from PySide6.QtWidgets import QGridLayout
 
-from rotemina.app.motion.teleoperation.detection import Detected
-from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
+from rotemina.app.motion.teleoperation.moved_control import Detected
 from rotemina.app.motion.teleoperation.profile import OperatorRole, Profile
 from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
@@ -15,10 +15,10 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.steady import SteadyChoice
-from rotemina.plugins.inputs.edits import Edited, exchanged, threshold, turned
-from rotemina.plugins.inputs.finding import Finding
+from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.inputs.control_finding import Finding
 from rotemina.plugins.inputs.mapping_rows import ActionRow, Row, TargetRow
+from rotemina.plugins.inputs.profile_edits import Edited, exchanged, threshold, turned
 from rotemina.plugins.inputs.profiles import ProfileChoice
 from rotemina.plugins.inputs.words import ACTIONS, axis_targets, device_name, way_of
 from rotemina.sim.errors import InputError

@@ -15,19 +15,19 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.scroll import scrolled
+from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.inputs.calibration_section import CalibrationSection
 from rotemina.plugins.inputs.device_list import DeviceList, Troubles
-from rotemina.plugins.inputs.live import LiveSection
+from rotemina.plugins.inputs.live_readings import LiveSection
 from rotemina.plugins.inputs.mapping_section import MappingSection
 from rotemina.plugins.inputs.profile_section import ProfileSection
 from rotemina.plugins.inputs.profiles import ProfileChoice

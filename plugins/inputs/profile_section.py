@@ -3,15 +3,15 @@
 from PySide6.QtGui import QStandardItemModel
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
 
-from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.labels import show_text
-from rotemina.app.widgets.question import Question
 from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.inputs.profiles import AUTOMATIC, Offer, ProfileChoice
 
 _FIRST = marked("inputs", "save or discard the changes first")

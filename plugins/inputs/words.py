@@ -4,8 +4,8 @@ import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from rotemina.app.display import label
-from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.display_units import label
+from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.profile import OperatorRole

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
@@ -23,10 +23,10 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow, fill, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
-from rotemina.app.widgets.scroll import scrolled
+from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.job import words
 from rotemina.plugins.job.words import Running
-from rotemina.plugins.trajectory.transport import against_playing, play_word
+from rotemina.plugins.trajectory.playback_controls import against_playing, play_word
 from rotemina.sim.records.record import Tap
 
 _STEPS = 1000

@@ -3,14 +3,14 @@
 from pathlib import Path
 from typing import NamedTuple
 
-from rotemina.app.display import duration_text, size_text
+from rotemina.app.display_units import duration_text, size_text
 from rotemina.app.motion.ownership import PLAYBACK
 from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase import driven
+from rotemina.app.shell.phase_words import driven
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.penetration.words import headline
 

@@ -12,7 +12,7 @@ from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, Trigger
 from rotemina.plugins.microscope.camera_form import (
     WHOLE,

@@ -5,13 +5,13 @@ from functools import partial
 
 import numpy as np
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.saved_positions import SavedPositions
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.pending import Pending
+from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
@@ -23,7 +23,7 @@ from rotemina.plugins.microscope.tip_map import MapPlace, PlaceKind, TipMap, Tra
 from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.workspace import Workspace
 from rotemina.sim.quantities import amount, fixed
-from rotemina.sim.trajectory.limits import check_target
+from rotemina.sim.trajectory.axis_limits import check_target
 
 _NOTED_S = 0.1  # between two looks where the tip is
 _FILE_S = 1.0  # between two looks at the file of positions

@@ -14,7 +14,7 @@ from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.microscope.feed_notice import against_clicking
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.words import target_text, visit_text

@@ -9,7 +9,7 @@ from rotemina.app.microscope.click_run import Visit
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.plugins.microscope.readout import measured_text
+from rotemina.plugins.microscope.cursor_readout import measured_text
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.quantities import exact, fixed
 

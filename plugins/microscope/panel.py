@@ -22,16 +22,16 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import button
 from rotemina.app.widgets.labels import ElidedLabel
-from rotemina.app.widgets.scroll import scrolled
+from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.plugins.microscope.calibration_section import CalibrationSection
 from rotemina.plugins.microscope.camera_section import CameraSection, SettingsSection
+from rotemina.plugins.microscope.cursor_readout import cursor_text
 from rotemina.plugins.microscope.map_section import MapSection
 from rotemina.plugins.microscope.move_section import MoveSection, TargetSection
 from rotemina.plugins.microscope.picture_section import LayerSection, PictureSection
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
 from rotemina.plugins.microscope.pointer_tools import PointerTools
-from rotemina.plugins.microscope.readout import cursor_text
 from rotemina.plugins.microscope.saving_section import SavingSection
 from rotemina.plugins.microscope.stack_section import StackSection
 from rotemina.plugins.microscope.top_bar import TopBar

@@ -12,7 +12,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import button, plain_tip
 from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.microscope.contrast import GAMMA, Contrast, Table, histogram
 from rotemina.plugins.microscope.histogram_view import HistogramView
 from rotemina.plugins.microscope.overlays import Layer

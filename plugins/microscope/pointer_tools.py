@@ -9,7 +9,7 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.pending import Pending
+from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.gate import Permit
 from rotemina.plugins.microscope.feed_notice import against_aiming, against_clicking

@@ -15,8 +15,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
-from rotemina.plugins.microscope.picture_view import PictureView
-from rotemina.plugins.microscope.saving import (
+from rotemina.plugins.microscope.picture_saving import (
     STAMP,
     VideoCapture,
     circumstances,
@@ -24,6 +23,7 @@ from rotemina.plugins.microscope.saving import (
     summary,
     write_pictures,
 )
+from rotemina.plugins.microscope.picture_view import PictureView
 from rotemina.sim.errors import InputError
 
 FOLLOWS = "microscope.video_with_recording"

@@ -19,9 +19,9 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.microscope.feed_notice import against_moving
-from rotemina.plugins.microscope.saving import STAMP, circumstances
+from rotemina.plugins.microscope.picture_saving import STAMP, circumstances
 from rotemina.plugins.microscope.words import focus_name
 from rotemina.sim.quantities import parsed, rounded
 

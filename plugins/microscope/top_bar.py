@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import allow, button, plain_tip
-from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
 from rotemina.sim.quantities import fixed
 

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import axis_scale, label
+from rotemina.app.display_units import axis_scale, label
 from rotemina.app.files import write_text
 from rotemina.app.motion.penetration.cell_list import Outcome
 from rotemina.app.motion.penetration.run_log import PenetrationRun

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.motion.penetration.parameters import (
     Direction,
     PenetrationParameters,
@@ -26,10 +26,10 @@ from rotemina.app.motion.penetration.parameters import (
 from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import allow, plain_tip
-from rotemina.app.widgets.steady import SteadyChoice
-from rotemina.plugins.penetration.fields import NumberField
+from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.penetration.parameter_fields import NumberField
 from rotemina.plugins.penetration.quantities import QUANTITIES, Group, TypedError, in_group
-from rotemina.plugins.penetration.table_text import EXAMPLE, read_table, table_text
+from rotemina.plugins.penetration.thrust_table_text import EXAMPLE, read_table, table_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import Robot
 

@@ -20,17 +20,17 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.reports import ask_run_report, recording_of
+from rotemina.app.shell.report_files import ask_run_report, recording_of
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.scroll import least_width, scrolled
+from rotemina.app.widgets.scroll_areas import least_width, scrolled
 from rotemina.plugins.penetration.cell_list_view import CellListView
 from rotemina.plugins.penetration.cell_view import CellView
 from rotemina.plugins.penetration.form import ParameterForm
-from rotemina.plugins.penetration.log_view import LogView
+from rotemina.plugins.penetration.past_runs_view import LogView
 from rotemina.plugins.penetration.plan_preview import PlanPreview
-from rotemina.plugins.penetration.preview import ThrustPreview
 from rotemina.plugins.penetration.readouts import Readouts
 from rotemina.plugins.penetration.run_bar import RunBar
+from rotemina.plugins.penetration.thrust_view import ThrustPreview
 from rotemina.plugins.penetration.words import FIXED, message
 
 FILES = marked("penetration", "Penetrations (*.toml);;All files (*)")

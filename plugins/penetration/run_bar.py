@@ -9,11 +9,11 @@ from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus,
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow
 from rotemina.drivers.clock import Clock
-from rotemina.plugins.connection.reasons import in_motion
+from rotemina.plugins.connection.unavailable_reasons import in_motion
 from rotemina.plugins.penetration.words import (
     STRIP,
     Light,

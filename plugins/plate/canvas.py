@@ -16,8 +16,8 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
-from rotemina.plugins.plate.drawing import View, colours, drawn
-from rotemina.plugins.plate.picture import Picture
+from rotemina.plugins.plate.surface_drawing import View, colours, drawn
+from rotemina.plugins.plate.surface_picture import Picture
 from rotemina.sim.quantities import rounded
 
 _DEGREES_PER_PIXEL = 0.5

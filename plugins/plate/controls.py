@@ -10,10 +10,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.widgets.steady import SteadySlider
-from rotemina.plugins.plate.quantities import QUANTITIES, Quantity
+from rotemina.app.widgets.wheel_safe import SteadySlider
+from rotemina.plugins.plate.coloured_quantities import QUANTITIES, Quantity
 from rotemina.plugins.plate.words import AXES
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.quantities import fixed

@@ -20,12 +20,12 @@ from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, set_property
-from rotemina.app.widgets.scroll import least_width, scrolled
+from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.plugins.plate.background_solution import Solving
 from rotemina.plugins.plate.canvas import Canvas
 from rotemina.plugins.plate.controls import Controls
-from rotemina.plugins.plate.picture import mode_picture, static_picture
-from rotemina.plugins.plate.solved import Solved
-from rotemina.plugins.plate.solving import Solving
+from rotemina.plugins.plate.solution import Solved
+from rotemina.plugins.plate.surface_picture import mode_picture, static_picture
 from rotemina.plugins.plate.words import (
     EMPTY,
     MESHES,

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from rotemina.app.display import label
+from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.plate.solved import Solved
+from rotemina.plugins.plate.solution import Solved
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.plate.application import agreement
-from rotemina.sim.plate.report import TOLERANCE, mode_name
+from rotemina.sim.plate.plate_report import TOLERANCE, mode_name
+from rotemina.sim.plate.robot_entries import agreement
 from rotemina.sim.plate.stress import Safety, StressPoint, safety
 from rotemina.sim.quantities import fixed, percent
 from rotemina.sim.robot.plate import Plate

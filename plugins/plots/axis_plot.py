@@ -8,8 +8,8 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from rotemina.app.display import axis_scale, label
-from rotemina.app.motion.history import LiveWindow
+from rotemina.app.display_units import axis_scale, label
+from rotemina.app.motion.recent_history import LiveWindow
 from rotemina.app.shell.gap_words import live_gap, run_gap, size, small_print
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import LINES
@@ -17,11 +17,11 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
-from rotemina.plugins.plots.analysis import spectrum
 from rotemina.plugins.plots.cursor_text import Reading, Shown, loop_text, nearest, values_text
 from rotemina.plugins.plots.gap_strip import LEAST_HEIGHT, MOST_HEIGHT, GapStrip
-from rotemina.plugins.plots.overlay import OtherRun
-from rotemina.plugins.plots.signals import GapHistory
+from rotemina.plugins.plots.history_signals import GapHistory
+from rotemina.plugins.plots.overlay_data import OtherRun
+from rotemina.plugins.plots.spectra_and_loops import spectrum
 from rotemina.plugins.plots.view_plot import ViewPlot, logarithm
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.gap import GapFigure

@@ -7,12 +7,12 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.display import label, noticeable
+from rotemina.app.display_units import label, noticeable
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import AXIS_WIDTH, BAND, RIGHT_MARGIN
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
-from rotemina.plugins.plots.signals import SHORT_S
+from rotemina.plugins.plots.history_signals import SHORT_S
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.gap import gap_text
 from rotemina.sim.quantities import rounded

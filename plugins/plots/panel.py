@@ -18,8 +18,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import stages
-from rotemina.app.motion.history import LiveWindow
+from rotemina.app.display_units import stages
+from rotemina.app.motion.recent_history import LiveWindow
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.gap_words import LIVE_S
@@ -30,11 +30,11 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
-from rotemina.plugins.plots.beside import RunBeside
 from rotemina.plugins.plots.cursor_text import Shown, across_text
 from rotemina.plugins.plots.exporting import save_picture
+from rotemina.plugins.plots.history_signals import SHORT_S, GapHistory, as_record, gaps_of, latest
+from rotemina.plugins.plots.overlay_choice import RunBeside
 from rotemina.plugins.plots.plot_grid import PlotGrid
-from rotemina.plugins.plots.signals import SHORT_S, GapHistory, as_record, gaps_of, latest
 from rotemina.plugins.plots.view_plot import ViewPlot
 from rotemina.sim.comparison.gap import GapFigure
 from rotemina.sim.quantities import rounded

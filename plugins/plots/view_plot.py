@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor
 
 from rotemina.app.shell.plot import SignalPlot
 from rotemina.app.shell.theme import Theme
-from rotemina.plugins.plots.analysis import thinned_loop
+from rotemina.plugins.plots.spectra_and_loops import thinned_loop
 from rotemina.sim.arrays import FloatArray
 
 _SHRINK, _MARGIN = 0.35, 0.08

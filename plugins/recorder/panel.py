@@ -10,12 +10,12 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.scroll import scrolled, tabbed
-from rotemina.plugins.recorder.events import EventsView
-from rotemina.plugins.recorder.recording import RecordingSection
+from rotemina.app.widgets.scroll_areas import scrolled, tabbed
+from rotemina.plugins.recorder.interrupted_files import Unfinished, look
+from rotemina.plugins.recorder.interrupted_view import UnfinishedBox
+from rotemina.plugins.recorder.recording_controls import RecordingSection
+from rotemina.plugins.recorder.recording_events import EventsView
 from rotemina.plugins.recorder.records_view import RecordsView
-from rotemina.plugins.recorder.unfinished import UnfinishedBox
-from rotemina.plugins.recorder.unfinished_files import Unfinished, look
 from rotemina.plugins.recorder.words import listed
 
 _WIDTH = 240  # of the recording's own part, px

@@ -14,10 +14,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import size_text
+from rotemina.app.display_units import size_text
 from rotemina.app.motion.recording import exporting
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.records.entry import Entry, Kind
 from rotemina.app.shell.engine_words import error_text
@@ -25,10 +25,10 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.record_table import RecordTable
 from rotemina.app.shell.record_words import NAME, NOTE, state_text
-from rotemina.app.shell.reports import RUN_REPORT, ask_run_report
+from rotemina.app.shell.report_files import RUN_REPORT, ask_run_report
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
-from rotemina.app.widgets.question import Question
+from rotemina.app.widgets.inline_question import Question
 from rotemina.plugins.recorder.words import BEGIN, END, span
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import fixed

@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from rotemina.app.display import size_text
+from rotemina.app.display_units import size_text
 from rotemina.app.shell.language import marked, translate
-from rotemina.plugins.recorder.unfinished_files import Unfinished
+from rotemina.plugins.recorder.interrupted_files import Unfinished
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import parsed
 

@@ -4,10 +4,10 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QSizePolicy, QWidget
 
-from rotemina.app.display import Scale
+from rotemina.app.display_units import Scale
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
-from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
+from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView, TeleoperationState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import set_property

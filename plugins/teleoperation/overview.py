@@ -3,11 +3,11 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy
 
-from rotemina.app.motion.teleoperation.devices_view import DevicesView
-from rotemina.app.motion.teleoperation.views import TeleoperationState
+from rotemina.app.motion.teleoperation.device_state import DevicesView
+from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
-from rotemina.app.shell.phase import Tone, set_tone
+from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.section import Section

@@ -2,15 +2,15 @@
 
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout
 
-from rotemina.app.display import label
-from rotemina.app.motion.teleoperation.devices_view import DevicesView
-from rotemina.app.motion.teleoperation.views import TeleoperationState
+from rotemina.app.display_units import label
+from rotemina.app.motion.teleoperation.device_state import DevicesView
+from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.section import Section
-from rotemina.app.widgets.steady import SteadyChoice
+from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.teleoperation import wording
 from rotemina.plugins.teleoperation.pad_area import PadArea
 from rotemina.plugins.teleoperation.virtual_stick import SHARES, VirtualStick

@@ -6,13 +6,13 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.scroll import least_width, scrolled
-from rotemina.plugins.teleoperation.choices import ChoiceSection
+from rotemina.app.widgets.scroll_areas import least_width, scrolled
 from rotemina.plugins.teleoperation.coordinates import CoordinateSection
-from rotemina.plugins.teleoperation.editor import ScaleEditor
+from rotemina.plugins.teleoperation.mode_buttons import ChoiceSection
 from rotemina.plugins.teleoperation.overview import OverviewSection
 from rotemina.plugins.teleoperation.pad_section import PadSection
-from rotemina.plugins.teleoperation.reserve import ReserveSection
+from rotemina.plugins.teleoperation.piezo_reserve import ReserveSection
+from rotemina.plugins.teleoperation.scale_editor import ScaleEditor
 
 
 class TeleoperationPanel(Panel):

@@ -4,8 +4,8 @@ from collections.abc import Collection
 from dataclasses import replace
 from typing import NamedTuple
 
-from rotemina.app.display import axis_scale, label
-from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.display_units import axis_scale, label
+from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
@@ -16,10 +16,10 @@ from rotemina.app.motion.teleoperation.modes import ALL_AXES, TIP_MODES
 from rotemina.app.motion.teleoperation.profile import OperatorRole
 from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.app.motion.teleoperation.scales import LawKind
-from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
+from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView, TeleoperationState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.phase import Tone
+from rotemina.app.shell.phase_words import Tone
 from rotemina.plugins.teleoperation import plain_units
 from rotemina.sim.quantities import Scale, fixed, scale_in
 from rotemina.sim.robot.model import Robot

@@ -16,17 +16,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import axis_scale, label
+from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.plan import Plan
+from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import set_property
-from rotemina.plugins.trajectory.path_view import PathView
-from rotemina.plugins.trajectory.resampling import ResamplingDialog
-from rotemina.plugins.trajectory.table import (
+from rotemina.plugins.trajectory.dry_run_table import (
     BOUND,
     COLUMNS,
     bound_text,
@@ -35,11 +33,13 @@ from rotemina.plugins.trajectory.table import (
     preset_bound,
     read_bound,
 )
+from rotemina.plugins.trajectory.path_view import PathView
+from rotemina.plugins.trajectory.playback_controls import Transport
+from rotemina.plugins.trajectory.resampling import ResamplingDialog
 from rotemina.plugins.trajectory.teach_view import TeachView
-from rotemina.plugins.trajectory.transport import Transport
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
-from rotemina.sim.trajectory.parts import MOST_TIMES, part
+from rotemina.sim.trajectory.section_and_repeat import MOST_TIMES, part
 
 EMPTY = marked(
     "trajectory",

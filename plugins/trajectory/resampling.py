@@ -11,7 +11,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import speed_changes
+from rotemina.app.display_units import speed_changes
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.errors import InputError

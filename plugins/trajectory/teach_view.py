@@ -13,12 +13,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.display import axis_scale, label
+from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
-from rotemina.plugins.trajectory.teach import LONGEST_PAUSE_S, TaughtPoint, taught
+from rotemina.plugins.trajectory.taught_trajectory import LONGEST_PAUSE_S, TaughtPoint, taught
 from rotemina.sim.quantities import parsed, rounded
 from rotemina.sim.records.record import Record
 

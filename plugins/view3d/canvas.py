@@ -19,7 +19,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.scene.camera import Camera
-from rotemina.app.scene.picture import Drawn, Picture
+from rotemina.app.scene.projected_picture import Drawn, Picture
 from rotemina.app.scene.scene import Scene
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme

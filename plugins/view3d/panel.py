@@ -16,15 +16,15 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
-from rotemina.app.scene.notes import Words
 from rotemina.app.scene.robot_scene import Colours, Ghost, Reading, RobotScene
+from rotemina.app.scene.scale_notes import Words
 from rotemina.app.scene.views import View
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
 from rotemina.plugins.view3d.canvas import Canvas
-from rotemina.plugins.view3d.serving import Serving
+from rotemina.plugins.view3d.scene_server import Serving
 from rotemina.sim.kinematics.chain import ChainError
 from rotemina.sim.robot.model import Robot
 

@@ -9,11 +9,8 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind import excitation
 from rotemina.sim.blind.catalogue import CATALOGUE
-from rotemina.sim.blind.machine import Commands, Machine, Response, machine_of
-from rotemina.sim.blind.part import Axis, Part
-from rotemina.sim.blind.parts import draw_part
-from rotemina.sim.blind.remainder import LEAST_SHARE, MOST_SHARE, draw_remainder
-from rotemina.sim.blind.trial import (
+from rotemina.sim.blind.effect_functions import draw_part
+from rotemina.sim.blind.effect_sizing import (
     LEAST_BESIDE,
     LEAST_FLOORS,
     MOST_FLOORS,
@@ -22,6 +19,9 @@ from rotemina.sim.blind.trial import (
     Trial,
     record_seed,
 )
+from rotemina.sim.blind.machine import Commands, Machine, Response, machine_of
+from rotemina.sim.blind.part import Axis, Part
+from rotemina.sim.blind.remainder import LEAST_SHARE, MOST_SHARE, draw_remainder
 from rotemina.sim.robot.model import Robot
 
 # On one axis, the sum of two of these is a third, or the same with another size.

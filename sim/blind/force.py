@@ -11,6 +11,7 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.blind.effect_sizing import LEAST_BESIDE, LEAST_FLOORS
 from rotemina.sim.blind.machine import Commands
 from rotemina.sim.blind.mechanics import (
     DAHL,
@@ -21,7 +22,6 @@ from rotemina.sim.blind.mechanics import (
     load_force,
     propagator,
 )
-from rotemina.sim.blind.trial import LEAST_BESIDE, LEAST_FLOORS
 from rotemina.sim.robot.model import ForceAxis, Robot
 
 EFFECTS = ("friction", "gain_error", "delay", "flexible_mode", "saturation", "vibration")

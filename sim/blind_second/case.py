@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind_second.axis import AxisFacts, facts_of
 from rotemina.sim.blind_second.effects import MAKERS, PIEZO_ALONE, STEPPER_ALONE, Added, draw
 from rotemina.sim.blind_second.machine import Machine, Motion
+from rotemina.sim.blind_second.machine_axis import AxisFacts, facts_of
 from rotemina.sim.blind_second.motions import motions
 from rotemina.sim.blind_second.remainder import draw_remainder
 from rotemina.sim.records.record import Record, Tap

@@ -8,8 +8,8 @@ import numpy as np
 from scipy import signal
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind_second.axis import AxisFacts, Grid
 from rotemina.sim.blind_second.dynamics import CONTACT, FRICTION, STIFFENING
+from rotemina.sim.blind_second.machine_axis import AxisFacts, Grid
 
 DRIVE, ACTUATOR, FORCE, SPRING, MOTION, SENSOR, SAMPLED = range(7)
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind_second import effects
-from rotemina.sim.blind_second.axis import AxisFacts, Grid
 from rotemina.sim.blind_second.dynamics import moved
 from rotemina.sim.blind_second.effects import Added
+from rotemina.sim.blind_second.machine_axis import AxisFacts, Grid
 
 _FINE_S = 1e-4
 _LEAD_S = 1.0  # for the way to the first command

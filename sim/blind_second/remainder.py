@@ -5,8 +5,8 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind_second.axis import AxisFacts, Grid
 from rotemina.sim.blind_second.effects import MOTION, Added
+from rotemina.sim.blind_second.machine_axis import AxisFacts, Grid
 
 
 def draw_remainder(axis: AxisFacts, rng: np.random.Generator) -> Added:

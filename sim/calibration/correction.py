@@ -8,8 +8,8 @@ round, ``q = (x − o − bend(q) − Σ w E(q))/(1 + e)``, by a few rounds.
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.calibration.lag import Lag
 from rotemina.sim.calibration.sensor import SensorModel
+from rotemina.sim.calibration.sensor_lag import Lag
 from rotemina.sim.calibration.stops import stops
 
 _ROUNDS = 4  # each leaves a few per cent of the error at the most

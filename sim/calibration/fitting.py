@@ -15,9 +15,16 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.calibration.design import Choice, Gram, Run, columns, indices, model_of
-from rotemina.sim.calibration.lag import MOST_S, Lag
+from rotemina.sim.calibration.regression_columns import (
+    Choice,
+    Gram,
+    Run,
+    columns,
+    indices,
+    model_of,
+)
 from rotemina.sim.calibration.sensor import BENDS, SensorModel
+from rotemina.sim.calibration.sensor_lag import MOST_S, Lag
 
 BLOCKS = 8  # of each run
 PROBABILITY = 0.95

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.calibration.design import Gram, Run
+from rotemina.sim.calibration.regression_columns import Gram, Run
 from rotemina.sim.calibration.sensor import waves
 
 _LEAST_PERIODS = 3.0  # in a stretch

@@ -26,7 +26,7 @@ from rotemina.sim.excitation.moves import (
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
-from rotemina.sim.trajectory.limits import voltage_bounds
+from rotemina.sim.trajectory.axis_limits import voltage_bounds
 
 RUNS = ISO_RUNS
 TARGETS = 11

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.calibration.lag import Lag
+from rotemina.sim.calibration.sensor_lag import Lag
 
 SHARES = (0.0005, 0.002, 0.01, 0.04, 0.15)  # of the range: radii of the stops
 BENDS = 6  # coefficients of the bend at the most

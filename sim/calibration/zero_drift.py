@@ -3,7 +3,7 @@
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.calibration.design import Run
+from rotemina.sim.calibration.regression_columns import Run
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact
 

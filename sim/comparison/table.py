@@ -1,7 +1,7 @@
 """The figures of a comparison as a table: one line per signal, in units that read well."""
 
 from rotemina.sim.comparison.comparison import Comparison, TapComparison
-from rotemina.sim.comparison.runs import RunComparison
+from rotemina.sim.comparison.run_comparison import RunComparison
 from rotemina.sim.messages import Wording, marked, message
 from rotemina.sim.quantities import NOTHING, Number, amount, fixed, percent
 from rotemina.sim.tables import aligned

@@ -16,7 +16,7 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.compensate import kernel
 from rotemina.sim.compensate.errors import ConvergenceError
-from rotemina.sim.compensate.model import Premises
+from rotemina.sim.compensate.inverse_parameters import Premises
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 

@@ -13,7 +13,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance, Inverse
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record, Tap

@@ -10,8 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.compensate.inverse_parameters import InverseModel, Kind, Premises
 from rotemina.sim.compensate.judgement import Residual
-from rotemina.sim.compensate.model import InverseModel, Kind, Premises
 from rotemina.sim.compensate.training import Trained
 from rotemina.sim.input_files import read_bytes
 from rotemina.sim.messages import marked, message

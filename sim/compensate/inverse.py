@@ -16,8 +16,8 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.compensate import kernel
 from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.compensate.kernel import Numbers
-from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Inverse
+from rotemina.sim.compensate.inverse_parameters import InverseModel, Kind
 from rotemina.sim.compensate.lag_and_creep import delayed
-from rotemina.sim.compensate.model import InverseModel, Kind
 from rotemina.sim.compensate.samples import Samples
 from rotemina.sim.messages import Message, joined, marked, message
 from rotemina.sim.quantities import exact, percent

@@ -15,7 +15,9 @@ _BEGUN, _LAST, _BEFORE, _START, FIXED = 0, 1, 2, 3, 4
 
 
 class Numbers(NamedTuple):
-    """An inverse at one sampling rate, shapes as of :mod:`rotemina.sim.compensate.model`.
+    """An inverse at one sampling rate.
+
+    Shapes are those of :mod:`rotemina.sim.compensate.inverse_parameters`.
 
     Few arrays, because each of them costs a call about half a microsecond.
 

@@ -9,10 +9,10 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.errors import CompensationError
+from rotemina.sim.compensate.inverse_parameters import InverseModel, Kind
 from rotemina.sim.compensate.judgement import Residual, reason, recommended, residual
 from rotemina.sim.compensate.lag_and_creep import Stages, find_stages, stops_of, thresholds
 from rotemina.sim.compensate.linear import fit_line
-from rotemina.sim.compensate.model import InverseModel, Kind
 from rotemina.sim.compensate.modified_prandtl_ishlinskii import fit_modified
 from rotemina.sim.compensate.prandtl_ishlinskii import fit_hysteresis
 from rotemina.sim.compensate.samples import Samples, common, one_size

@@ -7,12 +7,12 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance, Inverse
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
-from rotemina.sim.trajectory.validation import commands_of
+from rotemina.sim.trajectory.trajectory_excesses import commands_of
 
 _UNEVEN = 1e-3  # of a row's interval
 

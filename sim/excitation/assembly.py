@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.excitation.draft import MOST_ROWS, Draft, Signal
+from rotemina.sim.excitation.axis_draft import MOST_ROWS, Draft, Signal
 from rotemina.sim.excitation.quantity import ExcitationError
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap

@@ -8,19 +8,19 @@ from typing import ClassVar, NamedTuple, Protocol
 import numpy as np
 
 from rotemina.sim.excitation.assembly import Drawn, assembled
-from rotemina.sim.excitation.draft import Adjustment, Draft, Signal, natural_frequency
-from rotemina.sim.excitation.levels import Prbs, Staircase, Steps
+from rotemina.sim.excitation.axis_draft import Adjustment, Draft, Signal, natural_frequency
 from rotemina.sim.excitation.quantity import ExcitationError
-from rotemina.sim.excitation.swings import DecayingTriangle, Sweeps, Triangle
-from rotemina.sim.excitation.tones import Chirp, Multisine, Sine
+from rotemina.sim.excitation.sines_and_chirps import Chirp, Multisine, Sine
+from rotemina.sim.excitation.staircase_steps_prbs import Prbs, Staircase, Steps
+from rotemina.sim.excitation.triangles_and_sweeps import DecayingTriangle, Sweeps, Triangle
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 from rotemina.sim.trajectory.dry_run import dry_run
 from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
-from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.validation import Quantity, Violation
+from rotemina.sim.trajectory.trajectory_excesses import Quantity, Violation
 
 _PER_RESONANCE = 4.0  # rows in a period of the fastest resonance, at the default rate
 _RATES_HZ = (1_000.0, 2_000.0, 5_000.0, 10_000.0)

@@ -19,12 +19,12 @@ from rotemina.sim.feedback.sampled_axis import SampledAxis, late_intervals
 from rotemina.sim.feedback.stability import PEAK_SENSITIVITY, check_stability
 from rotemina.sim.messages import message
 from rotemina.sim.plant import kernel
-from rotemina.sim.plant.group import asked_position
-from rotemina.sim.plant.machine import Machine
+from rotemina.sim.plant.coupled_groups import asked_position
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.plant.plant_arrays import Machine
+from rotemina.sim.plant.random_draws import Chance
+from rotemina.sim.plant.segment_steps import steps_through
 from rotemina.sim.plant.state import Behind, PlantState
-from rotemina.sim.plant.steps import steps_through
 from rotemina.sim.plant.zero_order_hold import cut
 from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
 

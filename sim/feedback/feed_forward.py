@@ -1,7 +1,7 @@
 """Feed-forward: the output for a reference, before any feedback.
 
 The reference is sent through an inverse of what the actuator does to a position. What the axis and
-the held command would lag behind it (:mod:`rotemina.sim.feedback.lead`) is added::
+the held command would lag behind it (:mod:`rotemina.sim.feedback.reference_lead`) is added::
 
     w = inverse(r) + lead(r) − r
 

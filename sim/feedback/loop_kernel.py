@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.feedback.kernel import ASKED, BELIEVED, OUTPUT, control
 from rotemina.sim.plant.kernel import Given, State, Steps, Taken, run
-from rotemina.sim.plant.machine import Machine
+from rotemina.sim.plant.plant_arrays import Machine
 
 
 class Loops(NamedTuple):

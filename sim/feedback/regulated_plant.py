@@ -13,11 +13,11 @@ from rotemina.sim.feedback.controller import Controller
 from rotemina.sim.feedback.errors import LostLoopError
 from rotemina.sim.messages import message
 from rotemina.sim.plant import kernel
+from rotemina.sim.plant.coupled_groups import asked_position
 from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.group import asked_position
-from rotemina.sim.plant.machine import Machine
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.plant.plant_arrays import Machine
+from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.plant.state import Behind, Motion, PlantState
 from rotemina.sim.quantities import amount, percent
 

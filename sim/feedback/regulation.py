@@ -5,9 +5,9 @@ import numpy as np
 from rotemina.sim.feedback.controller import Controller
 from rotemina.sim.feedback.feed_forward import FeedForward, SampledInverse
 from rotemina.sim.feedback.gains import Gains
-from rotemina.sim.feedback.lead import lead_taps
-from rotemina.sim.feedback.spread import SPREAD, loops_of
+from rotemina.sim.feedback.reference_lead import lead_taps
 from rotemina.sim.feedback.stability import PEAK_SENSITIVITY, UnstableError, check_stability
+from rotemina.sim.feedback.tolerance_spread import SPREAD, loops_of
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 

@@ -16,7 +16,7 @@ import numpy as np
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.messages import message
-from rotemina.sim.plant.group import asked_position
+from rotemina.sim.plant.coupled_groups import asked_position
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.zero_order_hold import step_matrices
 from rotemina.sim.quantities import rounded

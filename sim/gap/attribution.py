@@ -9,7 +9,7 @@ from rotemina.sim.gap.catalogue import brought_along, is_of
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import Explanation, explanation, mean_squares
 from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.selection import LEAST_POWER, LEAST_SHARE
+from rotemina.sim.gap.forward_selection import LEAST_POWER, LEAST_SHARE
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from rotemina.sim.gap.caution import Caution, Labelled
+from rotemina.sim.gap.cautions import Caution, Labelled
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.time_leaps import holes
 from rotemina.sim.messages import message

@@ -9,17 +9,17 @@ nothing of the gap; it must instead close much of the remainder of the loop.
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rotemina.sim.gap.attempts import fitted, screened_beside
 from rotemina.sim.gap.baseline import is_own
 from rotemina.sim.gap.candidates import scouts
 from rotemina.sim.gap.catalogue import catalogue, kinship_of
-from rotemina.sim.gap.closing import closed
-from rotemina.sim.gap.contest import Ranking
+from rotemina.sim.gap.cause_contest import Ranking
+from rotemina.sim.gap.closed_share import closed
+from rotemina.sim.gap.diagnosis_progress import Account
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import Explanation, named_as
-from rotemina.sim.gap.progress import Account
+from rotemina.sim.gap.forward_selection import LEAST_SHARE, NOTICED, possible_causes
+from rotemina.sim.gap.parallel_fits import fitted, screened_beside
 from rotemina.sim.gap.rivals import Key, rivals
-from rotemina.sim.gap.selection import LEAST_SHARE, NOTICED, possible_causes
 from rotemina.sim.robot.model import AxisEffect
 
 _OF_SEEN = 0.8  # of what is left of seen data: creep leaves no more, at first sight already

@@ -6,8 +6,7 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.blocks import drawn_means
-from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.closed_share import closed
 from rotemina.sim.gap.diagnosis import (
     CORRECTING,
     UNKNOWN,
@@ -24,10 +23,11 @@ from rotemina.sim.gap.disturbances import Disturbance
 from rotemina.sim.gap.evidence import Evidence, Part, block_rows
 from rotemina.sim.gap.examination import Examination
 from rotemina.sim.gap.explanations import Explanation
+from rotemina.sim.gap.forward_selection import NOTICED
 from rotemina.sim.gap.location import LocatedGap
-from rotemina.sim.gap.origins import origin_remarks
+from rotemina.sim.gap.position_origins import origin_remarks
 from rotemina.sim.gap.rivals import paired_blocks, probability
-from rotemina.sim.gap.selection import NOTICED
+from rotemina.sim.gap.row_blocks import drawn_means
 from rotemina.sim.gap.shrinkage import LeftBy, at_tap, closing, rms, shrinkage
 from rotemina.sim.gap.wording import group
 from rotemina.sim.messages import Listed, Message, message

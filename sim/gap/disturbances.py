@@ -16,14 +16,14 @@ from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.kinship import Family
 from rotemina.sim.gap.catalogue import catalogue, shown_as
-from rotemina.sim.gap.cells import cell_of, floor_beyond
 from rotemina.sim.gap.coarseness import coarse_step, stands_on
 from rotemina.sim.gap.evidence import Evidence, Observation, Signals
-from rotemina.sim.gap.excursions import excursions
 from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.jumps import jumps as jumps_in
+from rotemina.sim.gap.lost_step_jumps import jumps as jumps_in
+from rotemina.sim.gap.reading_cells import cell_of, floor_beyond
 from rotemina.sim.gap.spectral_noise import common_level, noise_level
-from rotemina.sim.gap.tones import tone_signals, tones
+from rotemina.sim.gap.spikes import excursions
+from rotemina.sim.gap.vibration_lines import tone_signals, tones
 from rotemina.sim.messages import Listed, Message, message
 from rotemina.sim.quantities import Number, exact, rounded
 from rotemina.sim.records.record import Record, Tap

@@ -13,11 +13,11 @@ from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.identification import Extent
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.blocks import block_numbers
-from rotemina.sim.gap.cells import beyond
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.history import other_starts, start
 from rotemina.sim.gap.noise_floors import floors
+from rotemina.sim.gap.reading_cells import beyond
+from rotemina.sim.gap.row_blocks import block_numbers
+from rotemina.sim.gap.start_state import other_starts, start
 from rotemina.sim.messages import message
 from rotemina.sim.plant.fine_rows import respond
 from rotemina.sim.plant.plant import Plant

@@ -10,15 +10,17 @@ from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.baseline import is_whole_own
-from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.cause_contest import Ranking, contested, rivals_of
+from rotemina.sim.gap.closed_share import closed
 from rotemina.sim.gap.coarse_reading import steps_of
 from rotemina.sim.gap.companions import accompanied
 from rotemina.sim.gap.compare.retained import with_retained
 from rotemina.sim.gap.compare.verdict import Closing, decide, is_sure
-from rotemina.sim.gap.contest import Ranking, contested, rivals_of
 from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
+from rotemina.sim.gap.diagnosis_progress import Account
 from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap
 from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.excitation_richness import is_poor
 from rotemina.sim.gap.explanations import (
     Explanation,
     counted_in,
@@ -27,20 +29,18 @@ from rotemina.sim.gap.explanations import (
     named_as,
     untouched,
 )
-from rotemina.sim.gap.many_modes import many_modes
-from rotemina.sim.gap.origins import with_origins
-from rotemina.sim.gap.progress import Account
-from rotemina.sim.gap.residual_features import Probe, probed
-from rotemina.sim.gap.richness import is_poor
-from rotemina.sim.gap.rivals import Key, not_ruled_out
-from rotemina.sim.gap.search import MUCH_BETTER, acts, searched
-from rotemina.sim.gap.selection import (
+from rotemina.sim.gap.forward_selection import (
     CLEARLY,
     LEAST_POWER,
     LEAST_SHARE,
     Selection,
 )
-from rotemina.sim.gap.wander import wander
+from rotemina.sim.gap.many_modes import many_modes
+from rotemina.sim.gap.position_origins import with_origins
+from rotemina.sim.gap.repeated_search import MUCH_BETTER, acts, searched
+from rotemina.sim.gap.residual_features import Probe, probed
+from rotemina.sim.gap.rivals import Key, not_ruled_out
+from rotemina.sim.gap.sensor_wander import wander
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 

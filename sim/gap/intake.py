@@ -9,14 +9,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from rotemina.sim.gap.caution import Caution, Labelled
+from rotemina.sim.gap.cautions import Caution, Labelled
+from rotemina.sim.gap.channel_check import check_following
 from rotemina.sim.gap.clocks import check_clock
-from rotemina.sim.gap.copies import check_copies
+from rotemina.sim.gap.duplicate_records import check_copies
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.following import check_following
-from rotemina.sim.gap.scales import check_scales
-from rotemina.sim.gap.stuck import check_sensors
+from rotemina.sim.gap.stuck_sensor import check_sensors
 from rotemina.sim.gap.time_leaps import LEAST_ROWS, check_leaps, default_names, pieces
+from rotemina.sim.gap.unit_factors import check_scales
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import ForceAxis, Robot
@@ -39,7 +39,7 @@ def check(
     Returns
     -------
     tuple of Caution
-        :func:`~rotemina.sim.gap.caution.remarks` makes of them what a diagnosis says of an axis.
+        :func:`~rotemina.sim.gap.cautions.remarks` makes of them what a diagnosis says of an axis.
 
     Raises
     ------

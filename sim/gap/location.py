@@ -10,9 +10,9 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.gap.bands import band_edges, bands, is_even, white_shares
-from rotemina.sim.gap.blocks import Blocks, block_numbers, drawn_means, summed
 from rotemina.sim.gap.evidence import Evidence, Observation
 from rotemina.sim.gap.regimes import DOING, Regime, Ways, regimes
+from rotemina.sim.gap.row_blocks import Blocks, block_numbers, drawn_means, summed
 from rotemina.sim.records.record import Record, Tap
 
 _LIKELY = 0.95  # of intervals

@@ -14,11 +14,11 @@ from scipy.linalg import expm
 from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray
 from rotemina.sim.effects.modes import MODES
 from rotemina.sim.gap.catalogue import by_spectra
+from rotemina.sim.gap.diagnosis_progress import Account
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import Explanation, mean_squares
 from rotemina.sim.gap.fit import Fit
-from rotemina.sim.gap.progress import Account
-from rotemina.sim.gap.selection import LEAST_SHARE
+from rotemina.sim.gap.forward_selection import LEAST_SHARE
 from rotemina.sim.identification.vector_fitting import (
     Spectra,
     contributions,

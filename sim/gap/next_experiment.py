@@ -14,6 +14,7 @@ from rotemina.sim.gap.diagnosis import CORRECTING, Experiment, Verdict
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination
 from rotemina.sim.gap.rivals import Rival, not_ruled_out
+from rotemina.sim.gap.safe_tests import RICH, Trial, trials
 from rotemina.sim.gap.separation import (
     Answer,
     Player,
@@ -24,7 +25,6 @@ from rotemina.sim.gap.separation import (
     over_floors,
     plainly_apart,
 )
-from rotemina.sim.gap.trials import RICH, Trial, trials
 from rotemina.sim.gap.wording import effect_on
 from rotemina.sim.messages import AxisName, Listed, Message, message
 from rotemina.sim.quantities import amount, rounded

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.gap.equivalent_input import inputs_left
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.fit import Fit
-from rotemina.sim.gap.inverse import inputs_left
 from rotemina.sim.gap.strongest_line import line_over
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect

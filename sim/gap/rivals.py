@@ -9,13 +9,13 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.kinship import Family
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.baseline import is_whole_own
-from rotemina.sim.gap.blocks import Blocks
 from rotemina.sim.gap.catalogue import is_of, kinship_of, with_parameter
-from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.closed_share import closed
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.evidence import Evidence, block_rows
 from rotemina.sim.gap.explanations import Explanation
+from rotemina.sim.gap.row_blocks import Blocks
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 

@@ -23,7 +23,7 @@ from rotemina.sim.gap.fit import (
     residual_of,
     with_values,
 )
-from rotemina.sim.gap.starts import starts
+from rotemina.sim.gap.fit_starts import starts
 from rotemina.sim.robot.model import AxisEffect
 
 

@@ -7,13 +7,13 @@ from math import factorial
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.blocks import drawn_means
-from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.closed_share import closed
 from rotemina.sim.gap.diagnosis import Interval, Shrinkage, ShrinkageStep
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import Explanation
 from rotemina.sim.gap.residual_features import Probe
 from rotemina.sim.gap.rivals import paired_blocks
+from rotemina.sim.gap.row_blocks import drawn_means
 from rotemina.sim.records.record import Tap
 
 _TAIL = 2.5  # percent on either side of an interval

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
-from rotemina.sim.gap.caution import Caution, Labelled
+from rotemina.sim.gap.cautions import Caution, Labelled
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded

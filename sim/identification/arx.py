@@ -6,6 +6,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.identification.errors import ExcitationError
+from rotemina.sim.identification.experiment_signals import Signals
 from rotemina.sim.identification.model import (
     IdentifiedModel,
     Orders,
@@ -14,7 +15,6 @@ from rotemina.sim.identification.model import (
     fit_percent,
     past_length,
 )
-from rotemina.sim.identification.signals import Signals
 from rotemina.sim.identification.transfer_function import (
     TransferFunction,
     filtered,

@@ -10,7 +10,7 @@ from rotemina.sim.identification.errors import (
     IdentificationError,
     TooShortError,
 )
-from rotemina.sim.identification.signals import Signals, check_moving
+from rotemina.sim.identification.experiment_signals import Signals, check_moving
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.identification.errors import SettingError, TooShortError
-from rotemina.sim.identification.signals import Signals, check_moving
+from rotemina.sim.identification.experiment_signals import Signals, check_moving
 from rotemina.sim.identification.transfer_function import TransferFunction, filtered, shifted
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded

@@ -12,6 +12,7 @@ from rotemina.sim.identification.arx import (
     regressors,
     split,
 )
+from rotemina.sim.identification.experiment_signals import Signals
 from rotemina.sim.identification.model import (
     IdentifiedModel,
     Orders,
@@ -20,7 +21,6 @@ from rotemina.sim.identification.model import (
     free_responses,
     past_length,
 )
-from rotemina.sim.identification.signals import Signals
 from rotemina.sim.identification.transfer_function import (
     filtered,
     is_stable,

@@ -8,7 +8,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.identification.errors import SettingError, TooShortError
-from rotemina.sim.identification.signals import Signals
+from rotemina.sim.identification.experiment_signals import Signals
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 

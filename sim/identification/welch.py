@@ -4,6 +4,7 @@ import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
 from rotemina.sim.identification.errors import SettingError, TooShortError
+from rotemina.sim.identification.experiment_signals import Signals
 from rotemina.sim.identification.frequency_response import (
     EXCITED_ABOVE,
     FrequencyResponse,
@@ -11,7 +12,6 @@ from rotemina.sim.identification.frequency_response import (
     coherence_of,
     excited_lines,
 )
-from rotemina.sim.identification.signals import Signals
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 

@@ -16,7 +16,7 @@ from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.robot.file import CONVENTIONAL_UNITS
 from rotemina.sim.robot.model import VOLTAGE_SLACK, PiezoAxis, Robot
-from rotemina.sim.trajectory.limits import RANGE_SLACK, OutOfLimitsError, voltage_bounds
+from rotemina.sim.trajectory.axis_limits import RANGE_SLACK, OutOfLimitsError, voltage_bounds
 
 JOINTS = ("x", "y", "z", "thx", "thy", "zn")
 TABLES = slice(0, 3)

@@ -9,7 +9,7 @@ from rotemina.sim.kinematics.aiming import aim, free_pose
 from rotemina.sim.kinematics.chain import NANO, TABLES, Chain
 from rotemina.sim.kinematics.forward import tip_from_pivot
 from rotemina.sim.messages import message
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 _ROUNDING = 8.0 * float(np.finfo(np.float64).eps)
 

@@ -17,7 +17,7 @@ from rotemina.sim.kinematics.workspace import Box, Workspace
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 SLOW_HEIGHT = 0.5e-3  # m above the floor: below it the tip goes down no faster than that
 SLOW_SPEED = 0.5e-3  # m/s

@@ -23,7 +23,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
-from rotemina.sim.plant.group import input_gain
+from rotemina.sim.plant.coupled_groups import input_gain
 from rotemina.sim.robot.matrices import inertia_matrices
 from rotemina.sim.robot.model import Robot, StepperAxis
 

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
-from rotemina.sim.plant.group import groups_of
+from rotemina.sim.plant.coupled_groups import groups_of
 from rotemina.sim.robot.matrices import InertiaMatrices, inertia_matrices
 from rotemina.sim.robot.model import Robot
 

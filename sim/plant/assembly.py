@@ -18,8 +18,14 @@ from rotemina.sim.effects.formulation import (
     Trait,
 )
 from rotemina.sim.messages import message
-from rotemina.sim.plant.group import Group, PlacedPart, coupled_axes, groups_of, static_groups_of
-from rotemina.sim.plant.machine import (
+from rotemina.sim.plant.coupled_groups import (
+    Group,
+    PlacedPart,
+    coupled_axes,
+    groups_of,
+    static_groups_of,
+)
+from rotemina.sim.plant.plant_arrays import (
     Machine,
     PlacedEffect,
     machine_of,

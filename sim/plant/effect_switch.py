@@ -8,8 +8,8 @@ import numpy as np
 
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Part
-from rotemina.sim.plant.machine import states_of
 from rotemina.sim.plant.plant import Plant
+from rotemina.sim.plant.plant_arrays import states_of
 from rotemina.sim.plant.state import PlantState
 
 _Key = tuple[str, str, str, str | None, int]

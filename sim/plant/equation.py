@@ -7,7 +7,7 @@ import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray, IntArray
 from rotemina.sim.effects.formulation import Change, Motion, Part, Reading, Skew
-from rotemina.sim.plant.group import input_gain
+from rotemina.sim.plant.coupled_groups import input_gain
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.robot.matrices import inertia_matrices
 from rotemina.sim.robot.model import ForceAxis

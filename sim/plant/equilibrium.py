@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
-from rotemina.sim.plant.group import Group
+from rotemina.sim.plant.coupled_groups import Group
 from rotemina.sim.robot.model import CascadeController
 
 

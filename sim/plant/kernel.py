@@ -12,7 +12,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.effects.step import call_step
 from rotemina.sim.plant.indexing import item
-from rotemina.sim.plant.machine import Machine, TableArray
+from rotemina.sim.plant.plant_arrays import Machine, TableArray
 
 # How a loop obtains its speed.
 NO_LOOP, STATE_VELOCITY, BACKWARD_VELOCITY = 0, 1, 2

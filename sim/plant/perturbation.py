@@ -8,8 +8,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.messages import message
+from rotemina.sim.plant.coupled_groups import Group
 from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.group import Group
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -13,15 +13,15 @@ from rotemina.sim.messages import message
 from rotemina.sim.plant import kernel
 from rotemina.sim.plant.assembly import Assembly, assemble
 from rotemina.sim.plant.clocks import ROWS, on_skewed_clocks
+from rotemina.sim.plant.coupled_groups import Group
 from rotemina.sim.plant.equilibrium import rest
 from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.group import Group
-from rotemina.sim.plant.machine import Machine, phase_of, states_of
 from rotemina.sim.plant.perturbation import Perturbation
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.plant.plant_arrays import Machine, phase_of, states_of
+from rotemina.sim.plant.random_draws import Chance
+from rotemina.sim.plant.segment_steps import steps_through
 from rotemina.sim.plant.settling import lead_of
 from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
-from rotemina.sim.plant.steps import steps_through
 from rotemina.sim.plant.zero_order_hold import Segments, cut
 from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis

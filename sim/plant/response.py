@@ -9,9 +9,9 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.fine_rows import respond
-from rotemina.sim.plant.history import measured_start, steady_start
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.run import Run
+from rotemina.sim.plant.run_start import measured_start, steady_start
 from rotemina.sim.plant.state import Behind, Motion
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis

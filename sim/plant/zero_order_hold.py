@@ -13,8 +13,8 @@ import scipy
 
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.messages import message
+from rotemina.sim.plant.coupled_groups import Group
 from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.plant.group import Group
 from rotemina.sim.quantities import rounded
 
 TICK_S = 2.0**-50  # finest difference of sample times that is told from rounding

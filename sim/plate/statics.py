@@ -13,8 +13,8 @@ import scipy
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.bending import Bending, assemble, factorized
+from rotemina.sim.plate.curvature_recovery import at_points
 from rotemina.sim.plate.mesh import DIVISIONS, PlateMesh, make_mesh
-from rotemina.sim.plate.recovery import at_points
 from rotemina.sim.robot.plate import Plate
 
 AXES = ("zn", "thx", "thy")

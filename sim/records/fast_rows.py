@@ -9,7 +9,7 @@ import numpy as np
 import polars as pl
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.records.source import count_lines
+from rotemina.sim.records.file_blocks import count_lines
 
 _COMMENT_LINES = re.compile(rb"^[ \t]*#[^\n]*\n", re.MULTILINE)
 

@@ -5,6 +5,7 @@ from hashlib import sha256
 from os import PathLike, fspath
 
 from rotemina.sim.messages import message
+from rotemina.sim.records.file_blocks import LIMITS, Limits, open_blocks
 from rotemina.sim.records.layout import (
     SEPARATORS,
     header_separator,
@@ -15,8 +16,7 @@ from rotemina.sim.records.layout import (
 )
 from rotemina.sim.records.metadata import BLANKS
 from rotemina.sim.records.record import RecordError
-from rotemina.sim.records.rows import decode_line
-from rotemina.sim.records.source import LIMITS, Limits, open_blocks
+from rotemina.sim.records.row_parsing import decode_line
 
 _BLOCK_BYTES = 65_536
 _SEPARATOR_NAMES = {";": "semicolon", "\t": "tab", ",": "comma", " ": "blank"}

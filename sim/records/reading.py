@@ -10,6 +10,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
+from rotemina.sim.records.file_blocks import LIMITS, Block, Limits, open_blocks
 from rotemina.sim.records.layout import (
     EXAMPLE,
     Column,
@@ -21,8 +22,7 @@ from rotemina.sim.records.layout import (
 )
 from rotemina.sim.records.metadata import Comments
 from rotemina.sim.records.record import Record, RecordError
-from rotemina.sim.records.rows import RowParser, decode_line
-from rotemina.sim.records.source import LIMITS, Block, Limits, open_blocks
+from rotemina.sim.records.row_parsing import RowParser, decode_line
 from rotemina.sim.robot.model import Robot
 
 _COMMENT_LINE = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)

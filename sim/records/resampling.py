@@ -9,8 +9,8 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
+from rotemina.sim.records.file_blocks import LIMITS
 from rotemina.sim.records.record import Record, RecordError, Tap
-from rotemina.sim.records.source import LIMITS
 
 Method = Literal["hold", "linear", "cubic"]
 

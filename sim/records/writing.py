@@ -12,10 +12,10 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
+from rotemina.sim.records.file_blocks import LIMITS
 from rotemina.sim.records.layout import Column, Layout, check_axis_name, check_commands
 from rotemina.sim.records.metadata import comment_lines
 from rotemina.sim.records.record import VOLTAGE_TAPS, Record, RecordError
-from rotemina.sim.records.source import LIMITS
 from rotemina.sim.units import UnitError, canonical, quantity
 from rotemina.sim.whole_files import FileWriteError, replaced
 

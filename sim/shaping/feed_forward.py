@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import rounded
 from rotemina.sim.shaping.errors import ShapingError
-from rotemina.sim.shaping.shape import Shape, summed
+from rotemina.sim.shaping.move_shape import Shape, summed
 
 _JUMP = 1e-6  # of the greatest acceleration: what rounding may leave
 

@@ -11,7 +11,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, read_only
 from rotemina.sim.messages import message
 from rotemina.sim.shaping.errors import ShapingError
-from rotemina.sim.shaping.shape import Shape, joined_breaks, summed
+from rotemina.sim.shaping.move_shape import Shape, joined_breaks, summed
 
 MOST_ORDER = 4
 

@@ -10,7 +10,7 @@ import scipy
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
 from rotemina.sim.shaping.errors import ShapingError
-from rotemina.sim.shaping.shape import Shape
+from rotemina.sim.shaping.move_shape import Shape
 
 MOST_ROWS = 1000  # of a table
 # Of 10 τ³ − 15 τ⁴ + 6 τ⁵: the greatest speed, acceleration and jerk.

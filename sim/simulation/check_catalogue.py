@@ -8,8 +8,8 @@ from rotemina.sim.effects.attachment import RESERVED
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import EVERY_KIND, Effect, Formulation, Parameter, Stage
-from rotemina.sim.simulation.check import Check, stated
 from rotemina.sim.simulation.check_bench import Bench
+from rotemina.sim.simulation.check_result import Check, stated
 
 #: What a unit may be made of; q, u and N stand for those of the axis.
 UNITS = frozenset(

@@ -9,8 +9,8 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.formulation import Trait, Values
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.records.record import RecordError, Tap
-from rotemina.sim.simulation.check import Check, exceeds, left_out, measured, stated
 from rotemina.sim.simulation.check_bench import SEED, Bench, moves, waves
+from rotemina.sim.simulation.check_result import Check, exceeds, left_out, measured, stated
 from rotemina.sim.simulation.simulation import Simulation
 
 ROWS = 600

@@ -10,8 +10,8 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.formulation import Drive, Force, Motion, Reading, Stage
 from rotemina.sim.effects.step import address_of
-from rotemina.sim.simulation.check import Check, measured, stated
 from rotemina.sim.simulation.check_bench import SEED, Bench
+from rotemina.sim.simulation.check_result import Check, measured, stated
 
 _CALLS = 400
 _GUARD = 64  # numbers before and behind a memory that must stay as they are

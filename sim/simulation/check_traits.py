@@ -11,8 +11,8 @@ from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import run_of
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.simulation.check import Check, left_out, measured
 from rotemina.sim.simulation.check_bench import SEED, Bench, moves, visit, waves
+from rotemina.sim.simulation.check_result import Check, left_out, measured
 
 _ROWS = 800
 _RISE_ROWS = 300

@@ -16,10 +16,10 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.robot.file import load_robot, nominal_robots
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.simulation.check import Check, Report, left_out
 from rotemina.sim.simulation.check_bench import Bench, benches_of
 from rotemina.sim.simulation.check_catalogue import check_bounds, check_catalogue
 from rotemina.sim.simulation.check_response import check_response, check_speed
+from rotemina.sim.simulation.check_result import Check, Report, left_out
 from rotemina.sim.simulation.check_step import check_step
 from rotemina.sim.simulation.check_traits import check_traits
 

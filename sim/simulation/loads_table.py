@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from os import PathLike, fspath
 from typing import BinaryIO
 
-from rotemina.sim.plant.loads import JointLoads
+from rotemina.sim.plant.joint_loads import JointLoads
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.writing import open_export
 

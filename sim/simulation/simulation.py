@@ -8,15 +8,15 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.assembly import assemble
-from rotemina.sim.plant.history import steady_start
 from rotemina.sim.plant.perturbation import Perturbation
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.plant.response import check_axes, run_of
 from rotemina.sim.plant.run import Run
+from rotemina.sim.plant.run_start import steady_start
 from rotemina.sim.plant.state import Motion, PlantState
-from rotemina.sim.records.pieces import PIECE_ROWS, join_records
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.record_pieces import PIECE_ROWS, join_records
 from rotemina.sim.robot.model import AxisEffect, ReferenceNoise, Robot, StepperAxis
 
 

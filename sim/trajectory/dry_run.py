@@ -11,16 +11,16 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import Message, lines, message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Axis, Robot
-from rotemina.sim.trajectory.checked import CheckedTrajectory
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S, accelerations, jump_speeds
-from rotemina.sim.trajectory.limits import (
+from rotemina.sim.trajectory.axis_limits import (
     OutOfLimitsError,
     controller_of,
     resolution_of,
     voltage_bounds,
 )
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
+from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S, accelerations, jump_speeds
 from rotemina.sim.trajectory.prediction import TrackingError, predict
-from rotemina.sim.trajectory.validation import Violation, find_violations
+from rotemina.sim.trajectory.trajectory_excesses import Violation, find_violations
 
 
 class Bounds(NamedTuple):

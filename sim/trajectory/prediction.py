@@ -18,7 +18,7 @@ from rotemina.sim.quantities import exact
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.schedule import Schedule
-from rotemina.sim.trajectory.validation import Quantity, Violation
+from rotemina.sim.trajectory.trajectory_excesses import Quantity, Violation
 
 #: How far beyond its range, in shares of it, an axis may be predicted to swing.
 OVERSHOOT_SHARE = 0.01

@@ -7,7 +7,7 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.robot.model import Axis, PiezoAxis, Robot
-from rotemina.sim.trajectory.limits import voltage_bounds
+from rotemina.sim.trajectory.axis_limits import voltage_bounds
 
 # What an axis without declared bounds is given: its range in a second, that speed in a tenth.
 _CROSSING_S = 1.0

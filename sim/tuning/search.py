@@ -14,10 +14,10 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.feedback.gains import Gains
 from rotemina.sim.messages import message
 from rotemina.sim.tuning.errors import TuningError
-from rotemina.sim.tuning.figures import Figures
-from rotemina.sim.tuning.front import Point
 from rotemina.sim.tuning.objectives import SecondObjective
-from rotemina.sim.tuning.problem import VARIABLES, TuningProblem
+from rotemina.sim.tuning.pareto_front import Point
+from rotemina.sim.tuning.performance_figures import Figures
+from rotemina.sim.tuning.search_problem import VARIABLES, TuningProblem
 
 _NEVER = 1e6  # an objective, and a broken constraint, of what cannot be simulated
 # A search of the most generations and individuals takes days; one of more fills the memory.

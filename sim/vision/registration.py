@@ -75,7 +75,7 @@ def register(reference: Image, image: Image) -> Registration:
     """Return by how much ``image`` is shifted against ``reference``, both (rows, columns).
 
     The whole scene must move as one; where only a part does, look at parts
-    (:mod:`rotemina.sim.vision.drift`) or at the tip (:mod:`rotemina.sim.vision.tip`).
+    (:mod:`rotemina.sim.vision.background_drift`) or at the tip (:mod:`rotemina.sim.vision.tip`).
 
     Raises
     ------

@@ -18,7 +18,7 @@ from rotemina.app.cli.main import main
 from rotemina.app.microscope.calibration_file import file_of, load
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import PenetrationRun, RunLog, Verdict
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.recovery import recover
 from rotemina.app.motion.recording.writer import RecordingWriter
 from rotemina.app.motion.saved_positions import FOLDER, SavedPositions
@@ -32,17 +32,17 @@ from rotemina.drivers.cameras.sequence import ImageSequences
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.drivers.inputs.script import Script
 from rotemina.drivers.samples import Samples
-from rotemina.plugins.gap.blind_result import BlindResult
+from rotemina.plugins.gap.blind_figures import BlindResult
 from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.file import Provenance, read_trained, write_trained
 from rotemina.sim.compensate.samples import Samples as Compared
 from rotemina.sim.compensate.training import train
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.reading import read_document
+from rotemina.sim.gap.document_reader import read_document
 from rotemina.sim.plugin_import import _kept
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot, robot_file_text
-from rotemina.sim.tuning.result import load_tuning
+from rotemina.sim.tuning.tuning_result import load_tuning
 
 MUTATIONS = 2000  # of each kind of file
 ROBOT = load_robot("rotemina")

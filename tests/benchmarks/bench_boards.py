@@ -20,9 +20,9 @@ import pytest
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Phase
-from rotemina.drivers.mc68hc11.budget import Line
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.mc68hc11.framing import MAX_FRAME
+from rotemina.drivers.mc68hc11.line_budget import Line
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap

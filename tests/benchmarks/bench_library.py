@@ -13,9 +13,9 @@ from statistics import median
 import pytest
 from PySide6.QtCore import QObject, Signal
 
+from rotemina.app.records.database import RecordStore
 from rotemina.app.records.entry import Entry, Kind, WorstGap
 from rotemina.app.records.library import Library
-from rotemina.app.records.store import RecordStore
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.application import make_application
 from rotemina.app.shell.record_table import RecordTable

@@ -12,9 +12,9 @@ from threadpoolctl import threadpool_limits
 
 from rotemina.app.shell.theme import DARK
 from rotemina.plugins.plate.canvas import Canvas
-from rotemina.plugins.plate.picture import static_picture
-from rotemina.plugins.plate.quantities import QUANTITIES
-from rotemina.plugins.plate.solved import solved
+from rotemina.plugins.plate.coloured_quantities import QUANTITIES
+from rotemina.plugins.plate.solution import solved
+from rotemina.plugins.plate.surface_picture import static_picture
 from rotemina.plugins.plate.words import pose_lines
 from rotemina.sim.plate.modes import eigenmodes
 from rotemina.sim.plate.statics import hold, solve

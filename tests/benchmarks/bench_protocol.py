@@ -8,9 +8,9 @@ import time
 
 import numpy as np
 
+from rotemina.drivers.mc68hc11.board_messages import Telemetry
 from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
 from rotemina.drivers.mc68hc11.messages import message_of
-from rotemina.drivers.mc68hc11.reports import Telemetry
 
 LINE_BYTES_PER_S = 12_500  # 125 000 baud
 LEAST = 50.0

@@ -21,7 +21,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import KeepOut
-from rotemina.sim.trajectory.checked import accepted
+from rotemina.sim.trajectory.checked_trajectory import accepted
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 

@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from rotemina.sim.records.pieces import PIECE_ROWS
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.record_pieces import PIECE_ROWS
 from rotemina.sim.records.writing import write_pieces
 from rotemina.sim.robot.file import load_robot
 

@@ -21,13 +21,13 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Phase
 from rotemina.app.motion.teleoperation.intent import Action, Intent
 from rotemina.app.motion.teleoperation.scales import LawKind
-from rotemina.app.motion.teleoperation.teleoperator import Teleoperator
+from rotemina.app.motion.teleoperation.teleoperation_loop import Teleoperator
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.inputs.hid.source import HidSource
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.mc68hc11.framing import Decoder
+from rotemina.drivers.mc68hc11.host_messages import MoveVelocity
 from rotemina.drivers.mc68hc11.port import open_port
-from rotemina.drivers.mc68hc11.requests import MoveVelocity
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
 

@@ -16,15 +16,15 @@ import numpy as np
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.feedback.feed_forward import FeedForward
-from rotemina.sim.feedback.lead import lead_taps
+from rotemina.sim.feedback.reference_lead import lead_taps
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.feedback.stability import LoopAnalysis
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.tuning.problem import TuningProblem
-from rotemina.sim.tuning.result import tuning_of
-from rotemina.sim.tuning.scenario import step_of
 from rotemina.sim.tuning.search import SearchSettings, generations
+from rotemina.sim.tuning.search_problem import TuningProblem
+from rotemina.sim.tuning.tuning_result import tuning_of
+from rotemina.sim.tuning.tuning_scenario import step_of
 
 RATE_HZ, H = 5000.0, 2e-4
 LONGEST_S, CORES, GENERATIONS = 60.0, 2, 50

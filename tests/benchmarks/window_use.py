@@ -19,10 +19,10 @@ from PySide6.QtWidgets import QApplication, QDialog, QMenu, QMessageBox
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
-from rotemina.app.shell.allocator import trim_heap
 from rotemina.app.shell.application import make_application
-from rotemina.app.shell.entries import Entry
 from rotemina.app.shell.layouts import OPERATE
+from rotemina.app.shell.memory_allocator import trim_heap
+from rotemina.app.shell.palette_entries import Entry
 from rotemina.app.shell.window_run import SWITCH_S, make_window
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator

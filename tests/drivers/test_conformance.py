@@ -16,8 +16,8 @@ from rotemina.drivers.conformance.suite import CHECKS, checks_named, run_checks
 from rotemina.drivers.errors import ConnectionLostError
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState, Samples
-from rotemina.drivers.simulator.capturing import Capturing
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.drivers.simulator.fast_captures import Capturing
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 

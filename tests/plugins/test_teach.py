@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.plugins.trajectory import teach
-from rotemina.plugins.trajectory.teach import RATE_HZ, TaughtPoint, taught
+from rotemina.plugins.trajectory import taught_trajectory
+from rotemina.plugins.trajectory.taught_trajectory import RATE_HZ, TaughtPoint, taught
 from rotemina.sim.excitation.quantity import ExcitationError
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 MIDDLE = {axis: 0.5 * sum(one.range) for axis, one in ROBOT.axes.items()}
@@ -70,6 +70,6 @@ def test_what_is_none_is_refused_with_the_bound(points, error, why):
 
 
 def test_too_many_rows_are_refused_before_they_are_made(monkeypatch):
-    monkeypatch.setattr(teach, "MOST_ROWS", 2000)
+    monkeypatch.setattr(taught_trajectory, "MOST_ROWS", 2000)
     with pytest.raises(ExcitationError, match="shorten pauses or increase speeds"):
         taught(ROBOT, [point(), replace(point(x=0.03), pause_s=1.9)], "")

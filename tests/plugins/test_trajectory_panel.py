@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 
 from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.trajectory.table import BOUND, bound_text, read_bound
+from rotemina.plugins.trajectory.dry_run_table import BOUND, bound_text, read_bound
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect

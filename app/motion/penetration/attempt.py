@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rotemina.app.motion.penetration.detector import Contact, ContactDetector, Noise
-from rotemina.app.motion.penetration.feed import NONE, AxisSamples, joined
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict, as_table
+from rotemina.app.motion.penetration.sample_feed import NONE, AxisSamples, joined
 from rotemina.app.motion.penetration.thrust import ThrustMeasured, ThrustPlan
 from rotemina.drivers.capture import Captured
 from rotemina.sim.robot.model import Robot

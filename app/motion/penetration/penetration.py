@@ -11,9 +11,9 @@ from datetime import UTC, datetime
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.arming import armed, check_now
 from rotemina.app.motion.penetration.attempt import Attempt
-from rotemina.app.motion.penetration.feed import AxisFeed, AxisSamples
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import RunLog, Verdict
+from rotemina.app.motion.penetration.sample_feed import AxisFeed, AxisSamples
 from rotemina.app.motion.penetration.sequence import OWNER, PenetrationSequence
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.penetration.thrust import ThrustPlan

@@ -18,11 +18,11 @@ from rotemina.sim.messages import AxisName, message
 from rotemina.sim.modes.vibration import damped_modes
 from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.shaping.cubics import as_cubics
+from rotemina.sim.shaping.cubic_segments import as_cubics
 from rotemina.sim.shaping.feed_forward import inverse_of, led
 from rotemina.sim.shaping.impulses import shaped, zero_vibration
+from rotemina.sim.shaping.move_shape import Shape
 from rotemina.sim.shaping.moves import minimum_jerk, s_curve_in, tabled
-from rotemina.sim.shaping.shape import Shape
 
 _ORDERS = {Shaping.ZV: 1, Shaping.ZVD: 2, Shaping.ZVDD: 3}
 _FIT = 1e-3  # of the depth, by which cubics may miss the profile

@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.reading import RecordedSamples, Recording
+from rotemina.app.motion.recording.recording_reader import RecordedSamples, Recording
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_pieces
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 from rotemina.sim.trajectory.dry_run import dry_run, mode_of
 
 # Device times are told apart to this many parts of a second: the rounding of a late device time

@@ -10,10 +10,7 @@ from typing import BinaryIO
 import numpy as np
 import pyarrow as pa  # type: ignore[import-untyped,unused-ignore] # it comes without types
 
-from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.locking import locked
-from rotemina.app.motion.recording.segments import ByteRange, WholeSegments
-from rotemina.app.motion.recording.tables import (
+from rotemina.app.motion.recording.arrow_tables import (
     EVENTS,
     FORMAT,
     SAMPLES,
@@ -21,6 +18,9 @@ from rotemina.app.motion.recording.tables import (
     name_of,
     samples_schema,
 )
+from rotemina.app.motion.recording.errors import RecordingError
+from rotemina.app.motion.recording.locking import locked
+from rotemina.app.motion.recording.segments import ByteRange, WholeSegments
 from rotemina.sim.messages import message
 from rotemina.sim.whole_files import FileWriteError, replaced
 

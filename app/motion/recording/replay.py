@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from rotemina.app.motion.history import LiveHistory
+from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.recording.backlog import RecordedEvent
-from rotemina.app.motion.recording.reading import RecordedSamples, Recording
+from rotemina.app.motion.recording.recording_reader import RecordedSamples, Recording
 from rotemina.app.motion.state import (
     Alarmed,
     Callback,

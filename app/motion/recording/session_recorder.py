@@ -10,8 +10,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 from rotemina.app.motion.live_models import ModelOutputs
+from rotemina.app.motion.recording.arrow_tables import units_of
 from rotemina.app.motion.recording.segments import Opener, new_file
-from rotemina.app.motion.recording.tables import units_of
 from rotemina.app.motion.recording.writer import RecorderNotice, RecordingWriter
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (

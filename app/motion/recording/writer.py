@@ -10,12 +10,18 @@ from uuid import uuid4
 
 import numpy as np
 
+from rotemina.app.motion.recording.arrow_tables import (
+    CLOCK,
+    header,
+    prepare,
+    samples_schema,
+    streams,
+)
 from rotemina.app.motion.recording.backlog import Backlog, Block, Lost, RecordedEvent, Row
 from rotemina.app.motion.recording.device_clock import DeviceClock
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.recovery import UNFINISHED, merged
 from rotemina.app.motion.recording.segments import Opener, SegmentFile, new_file
-from rotemina.app.motion.recording.tables import CLOCK, header, prepare, samples_schema, streams
 from rotemina.app.motion.ticker import Ticker
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import Samples

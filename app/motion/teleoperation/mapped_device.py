@@ -4,11 +4,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration
-from rotemina.app.motion.teleoperation.button import Button, Threshold
+from rotemina.app.motion.teleoperation.button_debounce import Button, Threshold
+from rotemina.app.motion.teleoperation.input_trust import AxisTrust
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.profile import ActionMapping, DeviceMapping
 from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
-from rotemina.app.motion.teleoperation.trust import AxisTrust
 from rotemina.drivers.inputs.device import InputReading
 from rotemina.sim.messages import message
 

@@ -28,7 +28,7 @@ from rotemina.sim.messages import marked, message
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.matrices import inertia_matrices
-from rotemina.sim.trajectory.limits import check_target, resolution_of
+from rotemina.sim.trajectory.axis_limits import check_target, resolution_of
 
 _PACES = (1, 2, 3, 4)  # set-points a microstep that are tried
 _LOOK_S = 1e-4  # between two looks at the motion

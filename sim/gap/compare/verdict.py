@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.closed_share import closed
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.diagnosis import Verdict

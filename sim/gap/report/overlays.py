@@ -14,8 +14,8 @@ from rotemina.sim.gap.report.pictures import Role, legend, picture
 from rotemina.sim.gap.report.traces import Trace
 from rotemina.sim.gap.report.words import said
 from rotemina.sim.identification.errors import TimeGridError
+from rotemina.sim.identification.experiment_signals import Signals, uniform_rate
 from rotemina.sim.identification.frequency_response import FrequencyResponse
-from rotemina.sim.identification.signals import Signals, uniform_rate
 from rotemina.sim.identification.welch import welch_response
 from rotemina.sim.messages import marked
 from rotemina.sim.quantities import Scale, rounded, scale_of

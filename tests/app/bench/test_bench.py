@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rotemina.app.bench.bench_run import result_of, run_bench
 from rotemina.app.bench.machine import BenchError, Machine, Truth, machines
 from rotemina.app.bench.residual import Residual, residual_of
 from rotemina.app.bench.result import NamedCause, Result
-from rotemina.app.bench.run import result_of, run_bench
 from rotemina.app.bench.words import line, page
 from rotemina.app.cli.main import main
 from rotemina.sim.records.record import Record, Tap

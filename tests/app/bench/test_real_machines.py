@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from rotemina.app.bench.bench_run import result_of
 from rotemina.app.bench.machine import machines
-from rotemina.app.bench.run import result_of
 
 pytestmark = pytest.mark.slow
 

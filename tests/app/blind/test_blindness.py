@@ -6,8 +6,8 @@ import json
 import pytest
 
 from rotemina.app.blind.cases import FolderCases
-from rotemina.app.blind.process import diagnose
-from rotemina.app.blind.run import BlindRun
+from rotemina.app.blind.diagnosis_process import diagnose
+from rotemina.app.blind.resumable_run import BlindRun
 from rotemina.app.blind.shard import Shard
 from rotemina.sim.blind.case import draw_case
 from rotemina.sim.blind.files import write_case

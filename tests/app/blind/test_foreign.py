@@ -4,7 +4,7 @@ import pytest
 
 from rotemina.sim.blind.case import draw_case
 from rotemina.sim.blind.files import write_case
-from rotemina.sim.gap.method import diagnose
+from rotemina.sim.gap.diagnosis_pipeline import diagnose
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot
 

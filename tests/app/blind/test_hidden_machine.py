@@ -10,17 +10,17 @@ from rotemina.app.blind.hidden_machine import (
     draw_secret,
     is_right,
 )
-from rotemina.app.blind.stepped import STEPPED, SteppedPlant
+from rotemina.app.blind.stepped_machine import STEPPED, SteppedPlant
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, PlaybackFinished
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.blind.machine import Commands
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.demonstration import demonstration
+from rotemina.sim.trajectory.worn_machine_demo import demonstration
 
 ROBOT = load_robot("rotemina")
 

@@ -9,10 +9,10 @@ from rotemina.app.calibration.files import FORMAT, Source, kept, source_of
 from rotemina.app.calibration.store import CalibrationStore
 from rotemina.app.calibration.words import as_json, summary
 from rotemina.app.motion.sensor_corrections import SensorCorrections
-from rotemina.sim.calibration.calibrating import Calibration, Figure
 from rotemina.sim.calibration.errors import CalibrationError
 from rotemina.sim.calibration.iso230 import positioning
 from rotemina.sim.calibration.sensor import SensorModel
+from rotemina.sim.calibration.sensor_calibration import Calibration, Figure
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 

@@ -7,9 +7,9 @@ import pytest
 
 from rotemina.app.calibration.health import card_of, compared_cards
 from rotemina.app.calibration.health_book import HealthBook, HealthBookError
-from rotemina.sim.calibration.calibrating import Figure
+from rotemina.sim.calibration.sensor_calibration import Figure
 from rotemina.sim.excitation.generator import excite
-from rotemina.sim.excitation.levels import Steps
+from rotemina.sim.excitation.staircase_steps_prbs import Steps
 from rotemina.sim.identification.errors import IdentificationError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot

@@ -15,10 +15,10 @@ import pytest
 from rotemina.app.cli.board_ports import PseudoTerminal, Socket
 from rotemina.app.cli.main import main
 from rotemina.drivers.errors import ConnectionLostError, DriverTimeoutError
+from rotemina.drivers.mc68hc11.board_messages import Done, Identity
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.mc68hc11.framing import STOP_BYTES, Decoder, Frame, encoded
-from rotemina.drivers.mc68hc11.reports import Done, Identity
-from rotemina.drivers.mc68hc11.requests import Identify, MoveTo
+from rotemina.drivers.mc68hc11.host_messages import Identify, MoveTo
 from rotemina.drivers.samples import Samples
 from rotemina.sim.robot.file import load_robot
 

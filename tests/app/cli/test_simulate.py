@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.sim.records.pieces import PIECE_ROWS, read_pieces
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.record_pieces import PIECE_ROWS, read_pieces
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.drivers.gcode.stage import GcodeStage
+from rotemina.drivers.gcode.driver import GcodeStage
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.file import load_robot
 

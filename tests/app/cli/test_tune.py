@@ -12,7 +12,7 @@ from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.tuning import search
-from rotemina.sim.tuning.result import load_tuning
+from rotemina.sim.tuning.tuning_result import load_tuning
 
 SHORT = ["--generations", "2", "--population", "12", "--jobs", "1"]
 EFFECTS = """

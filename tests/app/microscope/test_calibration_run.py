@@ -11,7 +11,7 @@ from rotemina.app.microscope.calibration_run import Phase
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.drivers.cameras.frame import Region
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 
 @pytest.mark.parametrize("stage", [MICRO, pytest.param(NANO, marks=pytest.mark.slow)])

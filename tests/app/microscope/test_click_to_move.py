@@ -10,7 +10,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.targets import TargetSequence
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 
 def visit(bench, clicks, pixel, **options):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from rotemina.app.microscope.recorded_reference import recorded_reference
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
-from rotemina.sim.gap.method import diagnose
+from rotemina.sim.gap.diagnosis_pipeline import diagnose
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect
 

@@ -15,7 +15,7 @@ from rotemina.app.microscope.recorded_reference import recorded_reference
 from rotemina.app.microscope.status import Activity, ScaleSource, TipState
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.drivers.cameras.hub import CameraHub
 from rotemina.drivers.cameras.simulated import SimulatedMicroscope

@@ -8,7 +8,7 @@ from rotemina.app.motion.mailbox import RefusedError
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 X = tuple(ROBOT.axes).index("x")

@@ -17,7 +17,7 @@ from rotemina.sim.effects.registry import effect_ids
 from rotemina.sim.kinematics.keep_out import SLOW_SPEED
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect, KeepOut
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 DISH = replace(ROBOT, keep_out=KeepOut(floor=-0.02, objective=-0.03))

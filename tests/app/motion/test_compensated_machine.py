@@ -19,7 +19,7 @@ from rotemina.sim.compensate.conditioning import conditioning
 from rotemina.sim.compensate.excitation import excitation
 from rotemina.sim.compensate.samples import samples_of
 from rotemina.sim.compensate.training import train
-from rotemina.sim.gap.method import diagnose
+from rotemina.sim.gap.diagnosis_pipeline import diagnose
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot

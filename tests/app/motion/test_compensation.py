@@ -13,11 +13,11 @@ from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance, Inverse
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 ZN = ROBOT.axes["zn"]

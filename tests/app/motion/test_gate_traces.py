@@ -16,8 +16,8 @@ import pytest
 from rotemina.app.motion import mailbox
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.executor import Executor
-from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.mailbox import Mailbox
+from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.worker import Worker
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.gate import Gate

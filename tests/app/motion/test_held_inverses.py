@@ -13,9 +13,9 @@ from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.state import Alarmed, CommandRefused, PlaybackFinished
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
-from rotemina.sim.compensate.held import HeldInverse
+from rotemina.sim.compensate.held_setpoint_inverse import HeldInverse
 from rotemina.sim.compensate.inverse import Inverse
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -17,7 +17,7 @@ from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import KeepOut
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 FLOOR = -2e-3
 ROBOT = replace(load_robot("rotemina"), keep_out=KeepOut(floor=FLOOR, radius=0.02))

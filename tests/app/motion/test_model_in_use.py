@@ -7,13 +7,13 @@ import pytest
 
 from rotemina.app.motion.bracketed_model import BracketedModel
 from rotemina.app.motion.command_memory import CommandMemory
-from rotemina.app.motion.deviation import DeviationWatch
 from rotemina.app.motion.live_model import LiveModel
 from rotemina.app.motion.live_models import PreparedModel
 from rotemina.app.motion.mailbox import RefusedError
+from rotemina.app.motion.model_deviation import DeviationWatch
 from rotemina.app.motion.model_in_use import Machine, ModelError, ModelInUse
 from rotemina.app.motion.playback import Playback
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.state import Alarmed, CommandRefused, ModelChanged, PlaybackFinished
 from rotemina.drivers.samples import DeviceState, Samples
@@ -22,7 +22,7 @@ from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Offset, Verdict
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.checked import accepted
+from rotemina.sim.trajectory.checked_trajectory import accepted
 
 ROBOT = load_robot("rotemina")
 LOOP = AxisEffect(axis="zn", id="hysteresis", parameters={"width": 6e-6})

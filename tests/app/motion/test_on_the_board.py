@@ -13,7 +13,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Faulted, Phase, PlaybackFinished
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.samples import DeviceState
-from rotemina.sim.gap.method import diagnose
+from rotemina.sim.gap.diagnosis_pipeline import diagnose
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 

@@ -5,8 +5,8 @@ import pytest
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.device_link import DeviceLink
 from rotemina.app.motion.guard import Guard
-from rotemina.app.motion.history import LiveHistory
 from rotemina.app.motion.mailbox import Move, RefusedError
+from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.reservations import Reservations
 from rotemina.app.motion.stop import PROGRAM, StopRequest
 from rotemina.app.motion.subscribers import Subscribers

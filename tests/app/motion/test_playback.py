@@ -10,8 +10,8 @@ from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.checked import check
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
+from rotemina.sim.trajectory.checked_trajectory import check
 
 PERIOD_S = 1e-3
 ROWS = 2001

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.app.motion import moves
+from rotemina.app.motion import motion_requests
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.range_settings import keep_ranges, kept_ranges
 from rotemina.app.settings import Settings
@@ -13,7 +13,7 @@ from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 ZN = tuple(ROBOT.axes).index("zn")
@@ -110,13 +110,13 @@ def test_it_changes_at_rest_alone(machine):
 
 
 def test_a_range_that_narrows_while_a_path_is_checked_refuses_the_path(machine, monkeypatch):
-    session, checked = machine.session, moves.check_rows
+    session, checked = machine.session, motion_requests.check_rows
 
     def check_rows(*asked):
         checked(*asked)
         session.ranges.narrow("zn", 30e-6, 40e-6)
 
-    monkeypatch.setattr(moves, "check_rows", check_rows)
+    monkeypatch.setattr(motion_requests, "check_rows", check_rows)
     with pytest.raises(RefusedError, match="have changed; play again"):
         session.play(path(45e-6))
     settle(machine)

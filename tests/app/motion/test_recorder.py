@@ -10,7 +10,7 @@ from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.drivers.samples import Samples
 from rotemina.sim.records.record import Record, RecordError, Tap
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.checked import CheckedTrajectory
+from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 
 ROBOT = load_robot("rotemina")
 FIRST_S = 1234.5

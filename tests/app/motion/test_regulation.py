@@ -18,11 +18,11 @@ from rotemina.sim.feedback.stability import UnstableError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.tuning.figures import UNUSABLE
-from rotemina.sim.tuning.front import Point
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 from rotemina.sim.tuning.objectives import SecondObjective
-from rotemina.sim.tuning.result import Provenance, Tuning
+from rotemina.sim.tuning.pareto_front import Point
+from rotemina.sim.tuning.performance_figures import UNUSABLE
+from rotemina.sim.tuning.tuning_result import Provenance, Tuning
 
 ROBOT = load_robot("rotemina")
 ZN = ROBOT.axes["zn"]

@@ -7,7 +7,7 @@ from rotemina.app.motion.retiming import EASING_S, piece
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.checked import check
+from rotemina.sim.trajectory.checked_trajectory import check
 
 ROBOT = load_robot("rotemina")
 PERIOD_S = 5e-3

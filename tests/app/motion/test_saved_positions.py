@@ -8,7 +8,7 @@ from rotemina.app.motion.safe_path import safe_path
 from rotemina.app.motion.saved_positions import SavedPositionError, SavedPositions
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 MIDDLE = {name: sum(axis.range) / 2 for name, axis in ROBOT.axes.items()}

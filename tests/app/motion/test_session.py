@@ -25,11 +25,11 @@ from rotemina.drivers.samples import DeviceState, DeviceStatus, Samples
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory import checked as checked_module
-from rotemina.sim.trajectory.checked import check
+from rotemina.sim.trajectory import checked_trajectory as checked_module
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
+from rotemina.sim.trajectory.checked_trajectory import check
 from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.validation import TrajectoryError
+from rotemina.sim.trajectory.trajectory_excesses import TrajectoryError
 
 NOON = datetime(2026, 1, 2, 12)
 
@@ -269,7 +269,7 @@ def test_what_was_checked_is_not_checked_again(stepped, monkeypatch):
     def again(*_, **__):
         raise AssertionError("checked again")
 
-    monkeypatch.setattr("rotemina.sim.trajectory.checked.check_trajectory", again)
+    monkeypatch.setattr("rotemina.sim.trajectory.checked_trajectory.check_trajectory", again)
     stepped.session.play(checked)
     stepped.until_idle()
     assert stepped.told(PlaybackFinished)[0].completed

@@ -18,7 +18,7 @@ from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.status import Phase as Penetrating
 from rotemina.app.motion.recording.exporting import trajectory
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Faulted, Phase, PlaybackFinished
 from rotemina.app.motion.teleoperation.intent import Action

@@ -9,7 +9,7 @@ from rotemina.app.panel import Panel
 from rotemina.app.plugin_kit.panel_bench import panel_bench
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 pytestmark = pytest.mark.usefixtures("qapp")
 

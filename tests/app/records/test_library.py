@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rotemina.app.motion.compared_run import compared
 from rotemina.app.motion.model_in_use import ModelInUse
-from rotemina.app.motion.run import compared
-from rotemina.app.records import facts, library
+from rotemina.app.records import file_facts, library
+from rotemina.app.records.database import RecordStore
 from rotemina.app.records.entry import Entry, Kind
 from rotemina.app.records.errors import DamagedLibraryError, LibraryError
 from rotemina.app.records.library import Library, commands, read
 from rotemina.app.records.search import search
-from rotemina.app.records.store import RecordStore
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
@@ -180,7 +180,7 @@ def test_a_crash_between_writing_and_listing_loses_no_record(data, monkeypatch):
         if seen:
             raise KeyboardInterrupt
         seen.append(entry)
-        return facts.with_facts(entry)
+        return file_facts.with_facts(entry)
 
     with monkeypatch.context() as patched:
         patched.setattr(library, "with_facts", dies)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rotemina.app.cli.language import CatalogueWording
+from rotemina.app.motion.compared_run import Run
 from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
-from rotemina.app.motion.recording.reading import Recording
-from rotemina.app.motion.run import Run
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.records.entry import Entry, Kind
 from rotemina.app.records.run_report import RunReport, report_text
 from rotemina.sim.comparison.comparison import compare

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotemina.app.scene.frames import LINKS, exaggerated, frames
-from rotemina.app.scene.parts import moving_parts
+from rotemina.app.scene.robot_parts import moving_parts
 from rotemina.app.scene.robot_scene import Colours, Ghost, Reading, RobotScene
 from rotemina.app.scene.views import View
 from rotemina.sim.kinematics.chain import Chain, ChainError

@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell import entries, key_help
+from rotemina.app.shell import key_help, palette_entries
 from rotemina.app.shell import theme as themes
 from rotemina.app.shell.workbench import Level
 from rotemina.app.widgets.controls import allow
@@ -122,7 +122,9 @@ def test_the_palette_finds_explains_and_does_by_keys_alone(qtbot, window):
     session = bench.session
     session.jog("x", 1e-5)
     qtbot.waitUntil(lambda: session.undoable and not session.snapshot().owners, timeout=LONG_MS)
-    undo = next(e for e in entries.command_entries(window.commands()) if e.what.startswith("Back"))
+    undo = next(
+        e for e in palette_entries.command_entries(window.commands()) if e.what.startswith("Back")
+    )
     assert undo.why_not is None
     there = session.snapshot().command["x"]
     undo.run()

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QWidget
 from rotemina.app.panel import Panel
 from rotemina.app.shell import help_pages
 from rotemina.app.shell.help_page import HelpPage
-from rotemina.app.shell.host import GROUP
+from rotemina.app.shell.panel_host import GROUP
 from rotemina.drivers.registry import discover
 
 PANELS = ("plots", "microscope", "faults")

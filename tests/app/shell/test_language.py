@@ -21,14 +21,14 @@ from rotemina.drivers.errors import DriverError
 from rotemina.drivers.gcode.reports import Alarm
 from rotemina.drivers.registry import driver_named
 from rotemina.sim.errors import InputError
+from rotemina.sim.gap.document_reader import read_document
 from rotemina.sim.gap.intake import check as check_gap
-from rotemina.sim.gap.reading import read_document
 from rotemina.sim.messages import message
 from rotemina.sim.plate.mesh import make_mesh
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot, parse_robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
-from rotemina.sim.tuning.scenario import step_of
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError, check_target
+from rotemina.sim.tuning.tuning_scenario import step_of
 from rotemina.sim.units import canonical
 
 PANELS = ("connection",)

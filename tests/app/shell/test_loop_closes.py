@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QMessageBox
 
 from rotemina.app.motion.model_in_use import NOTED
 from rotemina.app.shell.gap_words import run_gap, run_lines
-from rotemina.plugins.gap.actions import write_report
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.answer_exports import write_report
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Shrinkage, Verdict
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot

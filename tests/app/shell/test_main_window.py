@@ -12,8 +12,8 @@ from rotemina.app.motion.state import PlaybackFinished
 from rotemina.app.settings import Settings
 from rotemina.app.shell import main_window as module
 from rotemina.app.shell import window_run
-from rotemina.app.shell.host import GROUP
-from rotemina.app.shell.late_panels import LatePanels
+from rotemina.app.shell.deferred_panels import LatePanels
+from rotemina.app.shell.panel_host import GROUP
 from rotemina.drivers import registry
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator

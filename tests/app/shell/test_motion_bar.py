@@ -10,15 +10,15 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QFileDialog, QMessageBo
 
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.panel import Panel
-from rotemina.app.shell.at_rest import AtRest
 from rotemina.app.shell.motion_bar import LARGE, SMALL
-from rotemina.app.shell.requests import Requests
-from rotemina.app.shell.stops import RELEASE_AFTER_S, EmergencyButton
+from rotemina.app.shell.operator_requests import Requests
+from rotemina.app.shell.requests_at_rest import AtRest
+from rotemina.app.shell.stop_controls import RELEASE_AFTER_S, EmergencyButton
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.trajectory.example import example_for
+from rotemina.sim.trajectory.first_trajectory import example_for
 
 PANELS = ("gap",)
 

@@ -11,7 +11,7 @@ from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QTabWidget, QWidget
 from shiboken6 import isValid
 
-from rotemina.app.shell.exits import ExitRefusedError, exits_refused
+from rotemina.app.shell.exit_guard import ExitRefusedError, exits_refused
 from rotemina.app.shell.panel_watch import MOST_FAULTS, PanelWatch
 from rotemina.app.shell.workbench import Level
 

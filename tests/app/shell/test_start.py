@@ -10,7 +10,7 @@ from PySide6.QtGui import QImage
 
 from rotemina.app.cli.main import main
 from rotemina.app.shell import start as module
-from rotemina.app.shell.display import display_fault
+from rotemina.app.shell.display_check import display_fault
 from rotemina.app.system_check import Package
 from rotemina.sim.records.reading import read_record
 

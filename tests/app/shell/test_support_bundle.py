@@ -12,7 +12,7 @@ import pytest
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.anonymiser import Anonymiser
 from rotemina.app.shell.message_log import Message
-from rotemina.app.shell.progress import CancelledError, Progress
+from rotemina.app.shell.progress_line import CancelledError, Progress
 from rotemina.app.shell.support_bundle import gather, write_bundle
 from rotemina.app.shell.workbench import Level
 from rotemina.sim.records.record import Record, Tap

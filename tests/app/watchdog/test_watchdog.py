@@ -13,7 +13,7 @@ import pytest
 
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.watchdog import process
-from rotemina.app.watchdog.watched import Watched, _command
+from rotemina.app.watchdog.heartbeat_sender import Watched, _command
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
@@ -144,7 +144,7 @@ PROGRAM = """
 import sys, time
 from pathlib import Path
 from rotemina.app.motion.session import MotionSession
-from rotemina.app.watchdog.watched import Watched, _command
+from rotemina.app.watchdog.heartbeat_sender import Watched, _command
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
 watched = Watched(MotionSession(Simulator(load_robot("rotemina"))), Path(sys.argv[1]), screen=False)

@@ -8,12 +8,12 @@ from PySide6.QtWidgets import QApplication, QLabel, QPushButton, QWidget
 from rotemina.app.shell.theme import DARK
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.figures import Figures
+from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.labels import ElidedLabel, keep_lines, legend, plain_text, show_text
-from rotemina.app.widgets.question import Question
-from rotemina.app.widgets.scroll import least_width, scrolled, tabbed
+from rotemina.app.widgets.scroll_areas import least_width, scrolled, tabbed
 from rotemina.app.widgets.section import Section, clear
-from rotemina.app.widgets.steady import SteadyChoice, SteadyNumber, SteadySlider
 from rotemina.app.widgets.table import RIGHT, Table
+from rotemina.app.widgets.wheel_safe import SteadyChoice, SteadyNumber, SteadySlider
 
 
 def choice():

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.app.blind.stepped import STEPPED, Going
+from rotemina.app.blind.stepped_machine import STEPPED, Going
 from rotemina.drivers.virtual_board.lookahead import PlantRun, Response
 from rotemina.sim.blind.machine import machine_of
 

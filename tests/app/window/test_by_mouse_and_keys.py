@@ -20,7 +20,7 @@ from rotemina.sim.gap.report.words import effect_title
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.demonstration import demonstration
+from rotemina.sim.trajectory.worn_machine_demo import demonstration
 
 HERE = Path(__file__).parent
 SEED = 1

@@ -7,8 +7,8 @@ import pytest
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.conformance.bench import Bench as KitBench
 from rotemina.drivers.errors import ConnectionLostError
+from rotemina.drivers.gcode.driver import GcodeStage
 from rotemina.drivers.gcode.emulator import EmulatedStage
-from rotemina.drivers.gcode.stage import GcodeStage
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.robot.file import load_robot
 

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from rotemina.drivers.mc68hc11.board_messages import Captured
 from rotemina.drivers.mc68hc11.capturing import Capturing
-from rotemina.drivers.mc68hc11.codes import State
-from rotemina.drivers.mc68hc11.reports import Captured
+from rotemina.drivers.mc68hc11.protocol_codes import State
 
 
 class Axes(list):

@@ -5,7 +5,7 @@ import pytest
 
 from rotemina.drivers.errors import DriverError, LimitError, StateError
 from rotemina.drivers.mc68hc11 import segment_player
-from rotemina.drivers.mc68hc11.codes import Fault
+from rotemina.drivers.mc68hc11.protocol_codes import Fault
 from rotemina.drivers.profile import Profile, ProfileSegment
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record, Tap

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.drivers.mc68hc11.firmware import budget, cycles
+from rotemina.drivers.mc68hc11.firmware import chip_load, cycles
 from rotemina.drivers.mc68hc11.firmware.cycles import BudgetError
 
 PAGE = (Path(__file__).parents[3] / "docs" / "protocol.md").read_text("utf-8")
@@ -20,7 +20,7 @@ def routines():
         if os.environ.get("CI") == "true":
             pytest.fail(absent)
         pytest.skip(absent)
-    return budget.hot_paths()
+    return chip_load.hot_paths()
 
 
 @pytest.mark.parametrize(
@@ -67,25 +67,25 @@ def test_interrupts_are_kept_out_until_the_mask_is_cleared():
 
 
 def test_no_case_exceeds_the_chip(routines):
-    for case in budget.CASES:
-        for clock_hz in budget.CLOCKS_HZ:
-            assert 0.4 < budget.load(case, routines, clock_hz) <= 0.92, case.name
+    for case in chip_load.CASES:
+        for clock_hz in chip_load.CLOCKS_HZ:
+            assert 0.4 < chip_load.load(case, routines, clock_hz) <= 0.92, case.name
 
 
 def test_no_interrupt_is_kept_out_for_longer_than_90_cycles(routines):
-    kept_out = {name: path.masked(routines) for name, path in budget.PATHS.items()}
-    assert max(kept_out.values()) <= budget.MOST_MASKED
+    kept_out = {name: path.masked(routines) for name, path in chip_load.PATHS.items()}
+    assert max(kept_out.values()) <= chip_load.MOST_MASKED
     assert sum(count > 0 for count in kept_out.values()) == 8
 
 
 def test_the_line_carries_every_case(routines):
-    for case in budget.CASES:
+    for case in chip_load.CASES:
         for faster in (1, 2):
-            assert max(case.line(faster)) * 10 < 0.7 * budget.BAUD, case.name
+            assert max(case.line(faster)) * 10 < 0.7 * chip_load.BAUD, case.name
 
 
 def test_the_page_shows_what_is_printed(routines, capsys):
-    assert budget.main() == 0
+    assert chip_load.main() == 0
     printed = capsys.readouterr().out
     shown = re.search(r"```text\n(path .*?)```", PAGE, re.DOTALL)
     assert shown is not None
@@ -94,11 +94,11 @@ def test_the_page_shows_what_is_printed(routines, capsys):
 
 def test_a_missing_assembler_is_told(monkeypatch, capsys):
     monkeypatch.setattr(cycles, "ASSEMBLER", "m68hc11-as-of-nobody")
-    assert budget.main() == 2
+    assert chip_load.main() == 2
     assert "install the package binutils-m68hc1x" in capsys.readouterr().err
-    assert budget.main(["now"]) == 2
+    assert chip_load.main(["now"]) == 2
 
 
 def test_a_label_that_is_gone_is_told(routines):
     with pytest.raises(BudgetError, match="no label 'isr_tick'"):
-        budget.PATHS["tick, led, micro"].cycles({})
+        chip_load.PATHS["tick, led, micro"].cycles({})

@@ -5,9 +5,8 @@ import pytest
 
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import GateError
-from rotemina.drivers.mc68hc11.codes import Fault
 from rotemina.drivers.mc68hc11.framing import Decoder
-from rotemina.drivers.mc68hc11.requests import (
+from rotemina.drivers.mc68hc11.host_messages import (
     ArmProfile,
     BeginStream,
     ClearFault,
@@ -19,6 +18,7 @@ from rotemina.drivers.mc68hc11.requests import (
     TriggerProfile,
     WriteParameter,
 )
+from rotemina.drivers.mc68hc11.protocol_codes import Fault
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Record, Tap
 

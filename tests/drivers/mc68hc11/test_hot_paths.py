@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from rotemina.drivers.mc68hc11.firmware import cycles
-from rotemina.drivers.mc68hc11.firmware.budget import SOURCES
+from rotemina.drivers.mc68hc11.firmware.chip_load import SOURCES
 
 sys.path.insert(0, str(Path(__file__).parent))  # no test module: the chip
 

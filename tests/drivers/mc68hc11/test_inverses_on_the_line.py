@@ -6,8 +6,8 @@ import pytest
 from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Faulted
-from rotemina.sim.compensate.held import HeldInverse
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.held_setpoint_inverse import HeldInverse
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 
 pytestmark = pytest.mark.slow
 STEP = 1e-9  # m, of zn's set-points

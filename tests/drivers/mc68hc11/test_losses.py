@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.drivers.errors import ConnectionLostError, StateError
-from rotemina.drivers.mc68hc11.codes import Fault
+from rotemina.drivers.mc68hc11.protocol_codes import Fault
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.drivers.virtual_board.clock import BoardClock
 from rotemina.sim.records.record import Record, Tap

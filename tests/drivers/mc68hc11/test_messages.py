@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotemina.drivers.errors import ProtocolError
+from rotemina.drivers.mc68hc11.board_messages import Captured, Inputs, Telemetry
 from rotemina.drivers.mc68hc11.framing import MAX_PAYLOAD, STOP_TYPE
+from rotemina.drivers.mc68hc11.host_messages import MoveVelocity, SetPoint, Stop
 from rotemina.drivers.mc68hc11.messages import MESSAGES, message_of
-from rotemina.drivers.mc68hc11.reports import Captured, Inputs, Telemetry
-from rotemina.drivers.mc68hc11.requests import MoveVelocity, SetPoint, Stop
 from rotemina.drivers.mc68hc11.segment_window import MOST_WAY
 
 BOUNDS = {

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from rotemina.drivers.mc68hc11.axes import board_axes
+from rotemina.drivers.mc68hc11.host_messages import WriteParameter
 from rotemina.drivers.mc68hc11.parameters import PER_AXIS, fingerprint, meaning, parameters_of
-from rotemina.drivers.mc68hc11.requests import WriteParameter
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 

@@ -5,14 +5,14 @@ import pytest
 
 from rotemina.drivers.errors import LimitError
 from rotemina.drivers.mc68hc11.axes import BoardAxis
-from rotemina.drivers.mc68hc11.codes import SEGMENTS
+from rotemina.drivers.mc68hc11.host_messages import BeginProfile, Segments
 from rotemina.drivers.mc68hc11.profile_upload import (
     FRACTION,
     profile_messages,
     segments_of,
     ticks_of,
 )
-from rotemina.drivers.mc68hc11.requests import BeginProfile, Segments
+from rotemina.drivers.mc68hc11.protocol_codes import SEGMENTS
 from rotemina.drivers.profile import Profile, ProfileSegment
 
 

@@ -14,7 +14,7 @@ import pytest
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Phase
 from rotemina.drivers.samples import DeviceState
-from rotemina.drivers.virtual_board.faults import RandomFaults, inject
+from rotemina.drivers.virtual_board.fault_injection import RandomFaults, inject
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record, Tap
 

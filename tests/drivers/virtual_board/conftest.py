@@ -4,24 +4,24 @@ from types import SimpleNamespace
 
 import pytest
 
-from rotemina.drivers.mc68hc11 import reports, requests
+from rotemina.drivers.mc68hc11 import board_messages, host_messages
+from rotemina.drivers.mc68hc11.board_messages import Refused, Telemetry
 from rotemina.drivers.mc68hc11.framing import Decoder, Frame, encoded
-from rotemina.drivers.mc68hc11.reports import Refused, Telemetry
 from rotemina.drivers.virtual_board.boards import VirtualBoards
 from rotemina.sim.robot.file import load_robot
 
 _REPORTS = {
     kind.TYPE: kind
     for kind in (
-        reports.Done,
-        reports.Refused,
-        reports.Identity,
-        reports.AxisDescription,
-        reports.Telemetry,
-        reports.Captured,
-        reports.Parameter,
-        reports.Rates,
-        reports.Inputs,
+        board_messages.Done,
+        board_messages.Refused,
+        board_messages.Identity,
+        board_messages.AxisDescription,
+        board_messages.Telemetry,
+        board_messages.Captured,
+        board_messages.Parameter,
+        board_messages.Rates,
+        board_messages.Inputs,
     )
 }
 _STEP_S = 1e-3
@@ -76,8 +76,8 @@ class Host:
         return answer.reason
 
     def telemetry(self, board=1):
-        answer = self.ask(requests.Poll(), board)
-        return answer if isinstance(answer, Telemetry) else self.ask(requests.Poll(), board)
+        answer = self.ask(host_messages.Poll(), board)
+        return answer if isinstance(answer, Telemetry) else self.ask(host_messages.Poll(), board)
 
     def commands(self, board=1):
         return [command for _, command in self.telemetry(board).samples()]
@@ -90,7 +90,7 @@ class Host:
     def patient(self):
         """Let no watchdog bite."""
         for board in self.boards.boards:
-            self.say(requests.Watch(60_000), board.number)
+            self.say(host_messages.Watch(60_000), board.number)
         self.live(0.02)
         return self
 

@@ -2,12 +2,10 @@
 
 import pytest
 
-from rotemina.drivers.mc68hc11 import reports
-from rotemina.drivers.mc68hc11.codes import Ability, Fault, Refusal, State
+from rotemina.drivers.mc68hc11 import board_messages
+from rotemina.drivers.mc68hc11.board_messages import Done, Refused
 from rotemina.drivers.mc68hc11.framing import BROADCAST, RESYNC, Frame, encoded
-from rotemina.drivers.mc68hc11.parameters import fingerprint, parameters_of
-from rotemina.drivers.mc68hc11.reports import Done, Refused
-from rotemina.drivers.mc68hc11.requests import (
+from rotemina.drivers.mc68hc11.host_messages import (
     AskRates,
     Capture,
     ClearFault,
@@ -25,6 +23,8 @@ from rotemina.drivers.mc68hc11.requests import (
     Watch,
     WriteParameter,
 )
+from rotemina.drivers.mc68hc11.parameters import fingerprint, parameters_of
+from rotemina.drivers.mc68hc11.protocol_codes import Ability, Fault, Refusal, State
 from rotemina.sim.errors import InputError
 
 
@@ -43,7 +43,7 @@ def test_boards_say_who_they_are(host, robot):
 def test_axes_and_rates(host, robot):
     for number, axis in enumerate(host.boards.boards[1].axes):
         assert host.ask(DescribeAxis(number), 2) == axis.described(robot)
-    assert host.ask(AskRates()) == reports.Rates(200, 50, 2000, 500, 100, 2000)
+    assert host.ask(AskRates()) == board_messages.Rates(200, 50, 2000, 500, 100, 2000)
 
 
 @pytest.mark.parametrize(
@@ -99,7 +99,7 @@ def test_a_frame_that_is_said_again_is_answered_again_and_not_executed(host):
 def test_a_refusal_is_repeated_too_and_identify_is_always_executed(host):
     assert host.ask(MoveTo(0, 10**6, 1), number=5) == Refused(5, Refusal.BAD_VALUE)
     assert host.ask(MoveTo(0, 276_000, 1), number=5) == Refused(5, Refusal.BAD_VALUE)
-    assert isinstance(host.ask(Identify(1), number=5), reports.Identity)
+    assert isinstance(host.ask(Identify(1), number=5), board_messages.Identity)
 
 
 def test_frames_to_others_and_broken_ones_are_not_answered(host):
@@ -116,7 +116,12 @@ def test_frames_to_others_and_broken_ones_are_not_answered(host):
 def test_every_fourth_poll_tells_what_the_operator_holds(host):
     host.boards.set_inputs((1, 2048, 4095), buttons=2)
     answers = [host.ask(Poll()) for _ in range(8)]
-    assert [isinstance(one, reports.Inputs) for one in answers] == [False, False, False, True] * 2
+    assert [isinstance(one, board_messages.Inputs) for one in answers] == [
+        False,
+        False,
+        False,
+        True,
+    ] * 2
     assert answers[3].readings() == (1, 2048, 4095)
     assert answers[3].buttons == 2
     assert answers[4].switches == 2 << 6
@@ -130,21 +135,21 @@ def test_the_display_shows_what_it_is_told(host):
 def test_parameters_are_kept_over_a_reset_and_their_limits_hold(host):
     before = host.ask(Identify(1)).fingerprint
     assert host.ask(WriteParameter(1, 300_000)) == Done(host.number)
-    assert host.ask(ReadParameter(1)) == reports.Parameter(1, 300_000)
+    assert host.ask(ReadParameter(1)) == board_messages.Parameter(1, 300_000)
     assert host.ask(Identify(1)).fingerprint != before
     assert host.refusal(MoveTo(0, 300_001, 1000)) == Refusal.BAD_VALUE
     host.boards.boards[0].reset(Fault.RESET)
-    assert host.ask(ReadParameter(1)) == reports.Parameter(1, 300_000)
+    assert host.ask(ReadParameter(1)) == board_messages.Parameter(1, 300_000)
 
 
 def test_parameters_hold_at_once_and_are_written_40_ms_each(host):
     host.ask(WriteParameter(1, 300_000), within_s=0.005)
     host.ask(WriteParameter(2, 90_000), within_s=0.005)
-    assert host.ask(ReadParameter(2)) == reports.Parameter(2, 90_000)
+    assert host.ask(ReadParameter(2)) == board_messages.Parameter(2, 90_000)
     assert host.telemetry().state == State.WRITING
     host.boards.boards[0].reset(Fault.RESET)  # after 50 ms: the first one is written
-    assert host.ask(ReadParameter(1)) == reports.Parameter(1, 300_000)
-    assert host.ask(ReadParameter(2)) == reports.Parameter(2, 100_000)
+    assert host.ask(ReadParameter(1)) == board_messages.Parameter(1, 300_000)
+    assert host.ask(ReadParameter(2)) == board_messages.Parameter(2, 100_000)
     host.ask(WriteParameter(2, 90_000))
     assert host.telemetry().state & State.WRITING
     host.live(0.05)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from rotemina.drivers.mc68hc11.requests import BeginStream
-from rotemina.drivers.virtual_board.stream import Stream
+from rotemina.drivers.mc68hc11.host_messages import BeginStream
+from rotemina.drivers.virtual_board.setpoint_stream import Stream
 from rotemina.sim.plant.plant import Plant
 
 TICKS, TICK_S = 10, 5e-4  # of a row

@@ -6,10 +6,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from rotemina.drivers.mc68hc11.codes import Ability, Fault, State
+from rotemina.drivers.mc68hc11.board_messages import Captured, Done, Inputs, Telemetry
 from rotemina.drivers.mc68hc11.framing import BROADCAST, RESYNC, STOP_BYTES, Decoder
-from rotemina.drivers.mc68hc11.reports import Captured, Done, Inputs, Telemetry
-from rotemina.drivers.mc68hc11.requests import (
+from rotemina.drivers.mc68hc11.host_messages import (
     Capture,
     ClearFault,
     Identify,
@@ -18,8 +17,9 @@ from rotemina.drivers.mc68hc11.requests import (
     Poll,
     SetTelemetry,
 )
+from rotemina.drivers.mc68hc11.protocol_codes import Ability, Fault, State
 from rotemina.drivers.virtual_board.clock import BoardClock
-from rotemina.drivers.virtual_board.faults import FaultCommandError, RandomFaults, inject
+from rotemina.drivers.virtual_board.fault_injection import FaultCommandError, RandomFaults, inject
 
 BYTE_S = 80e-6
 

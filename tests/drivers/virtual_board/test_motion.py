@@ -7,11 +7,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from rotemina.drivers.mc68hc11.codes import Fault, Refusal, State
+from rotemina.drivers.mc68hc11.board_messages import Captured, Done, Telemetry
 from rotemina.drivers.mc68hc11.framing import STOP_BYTES
-from rotemina.drivers.mc68hc11.profile_upload import profile_of, segments_of
-from rotemina.drivers.mc68hc11.reports import Captured, Done, Telemetry
-from rotemina.drivers.mc68hc11.requests import (
+from rotemina.drivers.mc68hc11.host_messages import (
     AbortProfile,
     ArmProfile,
     BeginProfile,
@@ -30,7 +28,9 @@ from rotemina.drivers.mc68hc11.requests import (
     TriggerProfile,
     Watch,
 )
-from rotemina.drivers.virtual_board.faults import inject
+from rotemina.drivers.mc68hc11.profile_upload import profile_of, segments_of
+from rotemina.drivers.mc68hc11.protocol_codes import Fault, Refusal, State
+from rotemina.drivers.virtual_board.fault_injection import inject
 
 Z = 400_000  # where z stands at first
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from rotemina.drivers.mc68hc11.codes import Fault
 from rotemina.drivers.mc68hc11.framing import STOP_BYTES
-from rotemina.drivers.mc68hc11.requests import BeginStream, MoveVelocity, SetPoint, Watch
+from rotemina.drivers.mc68hc11.host_messages import BeginStream, MoveVelocity, SetPoint, Watch
+from rotemina.drivers.mc68hc11.protocol_codes import Fault
 from rotemina.drivers.virtual_board.boards import TICK_S
-from rotemina.drivers.virtual_board.faults import inject
+from rotemina.drivers.virtual_board.fault_injection import inject
 
 SPEED = 50_000  # steps/s: 5 mm/s
 BRAKING_S = 5e-3 / 0.2

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.app.calibration.run import Phase, RunState
+from rotemina.app.calibration.calibration_playback import Phase, RunState
 from rotemina.plugins.calibration.words import cycles, progress
 from rotemina.sim.calibration.plan import calibration_motion
 from rotemina.sim.robot.file import load_robot

@@ -9,7 +9,7 @@ from shiboken6 import isValid
 
 from rotemina.app.motion.state import PlaybackFinished
 from rotemina.app.shell.workbench import Run
-from rotemina.plugins.compensation.learning import Learned, learned_from
+from rotemina.plugins.compensation.inverse_training import Learned, learned_from
 from rotemina.plugins.compensation.trial_motion import NAME, Aid, trial_motion, trial_of
 from rotemina.plugins.compensation.words import (
     exceedance_text,
@@ -21,8 +21,8 @@ from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.file import Provenance, write_trained
 from rotemina.sim.compensate.inverse import Exceedance
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.compensate.judgement import Residual
-from rotemina.sim.compensate.model import InverseModel
 from rotemina.sim.compensate.training import Trained
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot

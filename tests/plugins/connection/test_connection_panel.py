@@ -8,7 +8,7 @@ from rotemina.app.motion.state import Connection, Phase
 from rotemina.drivers import registry
 from rotemina.drivers.samples import DeviceState
 from rotemina.drivers.simulator.driver import Simulator
-from rotemina.plugins.connection import device as device_module
+from rotemina.plugins.connection import driver_choice as device_module
 
 LONG_MS = 30_000
 

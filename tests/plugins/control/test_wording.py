@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from rotemina.app.display import axis_scale
+from rotemina.app.display_units import axis_scale
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import SessionState
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.simulator.driver import Simulator
-from rotemina.plugins.control.asking import SETTLE_S, Confirmation
+from rotemina.plugins.control.large_move_confirmation import SETTLE_S, Confirmation
 from rotemina.plugins.control.panel import forbidden
 from rotemina.plugins.control.wording import (
     age_text,

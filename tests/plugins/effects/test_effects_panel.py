@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 
-from rotemina.app.motion.service import Service
+from rotemina.app.motion.device_service import Service
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.effects import panel as panel_module

@@ -1,6 +1,6 @@
 """Words of the model that the effects panel shows: each is marked for translation."""
 
-from rotemina.plugins.effects.meanings import MEANINGS, meaning_of
+from rotemina.plugins.effects.parameter_meanings import MEANINGS, meaning_of
 from rotemina.plugins.effects.words import EFFECTS, FORMULATIONS, STAGES, spoken
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.registry import all_effects

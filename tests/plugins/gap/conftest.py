@@ -14,7 +14,7 @@ from rotemina.app.shell import theme as themes
 from rotemina.app.shell.application import make_application
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.drivers.simulator.driver import Simulator
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.panel import GapPanel
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.evidence import Evidence

@@ -7,8 +7,8 @@ import pytest
 from PySide6.QtCore import Qt
 
 from rotemina.plugins.gap import blind_run
+from rotemina.plugins.gap.blind_figures import BlindResult, step
 from rotemina.plugins.gap.blind_page import BlindPage, title
-from rotemina.plugins.gap.blind_result import BlindResult, step
 from rotemina.sim.errors import InputError
 
 LONG_MS = 30_000

@@ -11,18 +11,18 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from rotemina.app.shell.workbench import Run
-from rotemina.plugins.gap import actions
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap import answer_exports
 from rotemina.plugins.gap.diagnosing import StoppedError, said
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.diagnosis_process import DiagnosisProcess
 from rotemina.plugins.gap.distribution_view import warmth
-from rotemina.plugins.gap.proof import new_motion
 from rotemina.plugins.gap.ranking_view import name_of
+from rotemina.plugins.gap.unseen_motion_result import new_motion
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Experiment
+from rotemina.sim.gap.diagnosis_progress import Progress
 from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.progress import Progress
 from rotemina.sim.gap.ranking import Grade, Standings
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Tap
@@ -125,6 +125,15 @@ def test_diagnose_without_records_asks_for_files_and_goes_on(
     panel.end()
 
 
+def test_diagnose_among_the_first_steps_is_one_click(window, panel, stepwise, record):
+    bench = panel.workbench
+    bench.run_changed.emit(Run("played", compare(bench.robot, record)))
+    for _ in range(2):  # the second finds one that runs
+        window.first_steps.diagnose.click()
+        assert len(stepwise.calls) == 1
+    panel.end()
+
+
 def test_the_last_playback_is_taken_until_something_else_is_chosen(panel, record):
     bench = panel.workbench
     first, second = (Run(name, compare(bench.robot, record)) for name in ("first", "second"))
@@ -149,8 +158,8 @@ def test_files_are_added_and_ticked_by_the_menu(qtbot, window, panel, record, tm
     assert "&lt;b&gt;two" in choice.toolTip()
     assert len(panel.workbench.library.entries) == 2  # another start finds them again
     choice.menu().aboutToShow.emit()
-    actions = choice.menu().actions()
-    next(one for one in actions if one.text().startswith("a && b")).trigger()
+    answer_exports = choice.menu().actions()
+    next(one for one in answer_exports if one.text().startswith("a && b")).trigger()
     assert [each.name for each in panel.records.chosen] == ["<b>two.csv"]
 
 
@@ -467,7 +476,7 @@ def test_the_report_is_written_and_opened(qtbot, window, answered, tmp_path, mon
     def write(_diagnosis, _records, path, names, _run):
         path.write_text(", ".join(names), "utf-8")
 
-    monkeypatch.setattr(actions, "write_report", write)  # which has tests of its own
+    monkeypatch.setattr(answer_exports, "write_report", write)  # which has tests of its own
     monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: opened.append(url) or True)
     answered.actions_of.save_report(answered.answer, tmp_path / "gap.html")
     saved(qtbot, window, tmp_path / "gap.html")
@@ -477,7 +486,7 @@ def test_the_report_is_written_and_opened(qtbot, window, answered, tmp_path, mon
 
 def test_a_report_that_nothing_opens_is_told(qtbot, window, answered, tmp_path, monkeypatch):
     monkeypatch.setattr(QDesktopServices, "openUrl", lambda _url: False)
-    monkeypatch.setattr(actions, "write_report", lambda *_: None)
+    monkeypatch.setattr(answer_exports, "write_report", lambda *_: None)
     answered.actions_of.save_report(answered.answer, tmp_path / "gap.html")
     qtbot.waitUntil(lambda: "open it in a browser" in newest(window), timeout=LONG_MS)
 

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.command_memory import CommandMemory
+from rotemina.app.motion.compared_run import Run
 from rotemina.app.motion.model_in_use import ModelInUse
-from rotemina.app.motion.run import Run
-from rotemina.plugins.gap.advice import advice, readiness
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.heat_cell import parts
-from rotemina.plugins.gap.playing import told
-from rotemina.plugins.gap.proof import Shrunk, new_motion, prove
+from rotemina.plugins.gap.requested_motion import told
+from rotemina.plugins.gap.unseen_motion_result import Shrunk, new_motion, prove
+from rotemina.plugins.gap.verdict_advice import advice, readiness
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.regimes import Regime

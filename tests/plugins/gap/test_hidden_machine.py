@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QMessageBox
 
 from rotemina.app.blind.hidden_machine import HiddenMachine, Secret
 from rotemina.plugins.gap import hidden_machine
-from rotemina.plugins.gap.answer import Answer
+from rotemina.plugins.gap.diagnosis_answer import Answer
 
 LONG_MS = 60_000
 

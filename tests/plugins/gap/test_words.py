@@ -7,7 +7,7 @@ from PySide6.QtCore import QTranslator
 from rotemina.app.cli.language import wording as wording_in
 from rotemina.app.shell.engine_words import WindowWording
 from rotemina.plugins.gap import words
-from rotemina.sim.blind.table import ROWS
+from rotemina.sim.blind.figures_table import ROWS
 from rotemina.sim.gap import wording
 from rotemina.sim.gap.regimes import Regime
 from rotemina.sim.gap.report import words as report

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.plugins.identification.question import Question
+from rotemina.plugins.identification.record_query import Question
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot

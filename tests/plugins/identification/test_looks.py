@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from rotemina.plugins.identification.findings import answered
-from rotemina.plugins.identification.fitted import model_findings
 from rotemina.plugins.identification.frequency import frequency_findings
 from rotemina.plugins.identification.hysteresis import loop_findings
+from rotemina.plugins.identification.low_order_fit import model_findings
 from rotemina.plugins.identification.staircase import step_findings
 from rotemina.plugins.identification.views import LOOKS, View
 from rotemina.sim.records.record import Record, Tap

@@ -9,7 +9,7 @@ from rotemina.app.motion.teleoperation.profile import (
     ProfileError,
 )
 from rotemina.app.settings import Settings
-from rotemina.plugins.inputs.edits import Edited
+from rotemina.plugins.inputs.profile_edits import Edited
 from rotemina.plugins.inputs.profiles import AUTOMATIC, SETTING, ProfileChoice, plain_name
 
 ROBOT = ("x", "y", "z", "thx", "thy", "zn")

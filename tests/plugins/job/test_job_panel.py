@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
+from rotemina.app.motion.compared_run import compared
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
-from rotemina.app.motion.run import compared
 from rotemina.app.motion.state import SessionState
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.job import words
-from rotemina.sim.trajectory.example import example_for
+from rotemina.sim.trajectory.first_trajectory import example_for
 
 PANELS = ("events",)
 LONG_MS = 30_000

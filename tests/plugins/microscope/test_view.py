@@ -10,7 +10,7 @@ from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.status import TipSeen, TipState
 from rotemina.app.microscope.targets import Target
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.requests import Requests
+from rotemina.app.shell.operator_requests import Requests
 from rotemina.app.shell.theme import DARK
 from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.drivers.gate import Gate

@@ -22,9 +22,9 @@ from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.drivers.cameras.settings import CameraSettings, PixelType, Trigger
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.microscope.camera_form import CameraTexts, settings_of, texts_of
+from rotemina.plugins.microscope.cursor_readout import cursor_text, measured_text
 from rotemina.plugins.microscope.feed_notice import against_clicking, feed_notice
 from rotemina.plugins.microscope.overlays import Cross, Layer, Look, Ring, Stroke, shapes
-from rotemina.plugins.microscope.readout import cursor_text, measured_text
 from rotemina.plugins.microscope.scale_bar import scale_bar
 from rotemina.plugins.microscope.words import stage_text, target_text, tip_text
 from rotemina.sim.vision.cell import CellOutline, MembraneAhead

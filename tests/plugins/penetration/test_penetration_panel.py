@@ -14,8 +14,8 @@ from rotemina.app.motion.operation import PENETRATION
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import RunLog, Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
-from rotemina.app.motion.recording.tables import prepare
-from rotemina.app.shell.reports import recording_of
+from rotemina.app.motion.recording.arrow_tables import prepare
+from rotemina.app.shell.report_files import recording_of
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.penetration.cell_view import REAL_MACHINE
 from rotemina.sim.robot.model import AxisEffect

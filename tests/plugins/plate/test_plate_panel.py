@@ -8,11 +8,11 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QImage, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from rotemina.plugins.plate.drawing import View
-from rotemina.plugins.plate.picture import mode_picture, static_picture
-from rotemina.plugins.plate.quantities import QUANTITIES
-from rotemina.plugins.plate.solved import solved
-from rotemina.plugins.plate.solving import Solving
+from rotemina.plugins.plate.background_solution import Solving
+from rotemina.plugins.plate.coloured_quantities import QUANTITIES
+from rotemina.plugins.plate.solution import solved
+from rotemina.plugins.plate.surface_drawing import View
+from rotemina.plugins.plate.surface_picture import mode_picture, static_picture
 from rotemina.plugins.plate.words import EMPTY, MESHES, mode_titles, plate_text, pose_lines
 from rotemina.sim.robot.file import load_robot
 

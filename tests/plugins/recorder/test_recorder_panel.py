@@ -5,9 +5,9 @@ import errno
 import pytest
 from PySide6.QtCore import Qt, QTimer
 
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.drivers.samples import DeviceState
-from rotemina.plugins.recorder.recording import AT_START
+from rotemina.plugins.recorder.recording_controls import AT_START
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.plugins.recorder.recording import room_text, scarce
-from rotemina.plugins.recorder.unfinished_files import Unfinished
+from rotemina.plugins.recorder.interrupted_files import Unfinished
+from rotemina.plugins.recorder.recording_controls import room_text, scarce
 from rotemina.plugins.recorder.words import (
     SpanError,
     span,

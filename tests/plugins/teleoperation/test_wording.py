@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration
-from rotemina.app.motion.teleoperation.devices_view import DevicesView
+from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
@@ -14,8 +14,8 @@ from rotemina.app.motion.teleoperation.profile import OperatorRole
 from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.app.motion.teleoperation.reference import Bounds
 from rotemina.app.motion.teleoperation.scales import LawKind, Scale
-from rotemina.app.motion.teleoperation.views import CoordinateView, TeleoperationState
-from rotemina.app.shell.phase import Tone
+from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView, TeleoperationState
+from rotemina.app.shell.phase_words import Tone
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.plugins.teleoperation import wording
 from rotemina.sim.robot.file import load_robot

@@ -9,10 +9,16 @@ import pytest
 
 from rotemina.sim.blind.case import _beside, draw_case, measured, significant
 from rotemina.sim.blind.catalogue import CATALOGUE
+from rotemina.sim.blind.effect_sizing import (
+    LEAST_BESIDE,
+    LEAST_FLOORS,
+    OVER_REMAINDER,
+    Trial,
+    beyond,
+)
 from rotemina.sim.blind.files import kinds, write_case
 from rotemina.sim.blind.force import draw_force_case
 from rotemina.sim.blind.remainder import LEAST_SHARE, MOST_SHARE
-from rotemina.sim.blind.trial import LEAST_BESIDE, LEAST_FLOORS, OVER_REMAINDER, Trial, beyond
 from rotemina.sim.effects.registry import all_effects
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotemina.sim.blind.figures_table import markdown_table, page, plain_table
 from rotemina.sim.blind.intervals import resampled, share
 from rotemina.sim.blind.picture import draw_confusion
 from rotemina.sim.blind.scoring import (
@@ -18,7 +19,6 @@ from rotemina.sim.blind.scoring import (
     score,
 )
 from rotemina.sim.blind.sealing import SealError, seal
-from rotemina.sim.blind.table import markdown_table, page, plain_table
 
 
 def effect(name, axis="x", from_axis=None, **more):

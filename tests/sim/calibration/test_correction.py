@@ -5,9 +5,9 @@ import pytest
 
 from rotemina.sim.calibration.correction import Correction
 from rotemina.sim.calibration.errors import CalibrationError
-from rotemina.sim.calibration.lag import Lag, lagged, slope_by_lag
 from rotemina.sim.calibration.plan import calibration_motion
 from rotemina.sim.calibration.sensor import SensorModel
+from rotemina.sim.calibration.sensor_lag import Lag, lagged, slope_by_lag
 from rotemina.sim.records.record import Tap
 from rotemina.sim.trajectory.dry_run import dry_run
 

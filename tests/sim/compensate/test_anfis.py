@@ -7,7 +7,7 @@ from rotemina.sim.compensate import anfis
 from rotemina.sim.compensate.anfis import Settings, train
 from rotemina.sim.compensate.errors import ConvergenceError
 from rotemina.sim.compensate.inverse import Inverse
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 
 RADII = np.array([0.1, 0.3])
 

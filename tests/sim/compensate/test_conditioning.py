@@ -8,7 +8,7 @@ import pytest
 from rotemina.sim.compensate.conditioning import conditioning
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance, Inverse
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory.dry_run import dry_run

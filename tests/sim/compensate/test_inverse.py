@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance, Inverse
-from rotemina.sim.compensate.model import InverseModel, Premises
+from rotemina.sim.compensate.inverse_parameters import InverseModel, Premises
 
 SAMPLE_S = 1e-3
 

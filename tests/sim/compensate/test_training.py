@@ -7,8 +7,8 @@ import pytest
 
 from rotemina.sim.compensate import anfis, training
 from rotemina.sim.compensate.errors import CompensationError, ConvergenceError
+from rotemina.sim.compensate.inverse_parameters import KINDS
 from rotemina.sim.compensate.judgement import Residual, reason, recommended, residual
-from rotemina.sim.compensate.model import KINDS
 from rotemina.sim.compensate.samples import Samples
 from rotemina.sim.compensate.training import train
 

@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Inverse, resting_at
-from rotemina.sim.compensate.model import InverseModel
+from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.compensate.trajectory import compensated, on_ticks
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot

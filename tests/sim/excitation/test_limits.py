@@ -8,16 +8,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotemina.sim.excitation.generator import KINDS, excite
-from rotemina.sim.excitation.levels import Prbs, Staircase, Steps
 from rotemina.sim.excitation.quantity import ExcitationError, Share
-from rotemina.sim.excitation.swings import DecayingTriangle, Sweeps, Triangle
-from rotemina.sim.excitation.tones import Chirp, Multisine, Sine
+from rotemina.sim.excitation.sines_and_chirps import Chirp, Multisine, Sine
+from rotemina.sim.excitation.staircase_steps_prbs import Prbs, Staircase, Steps
+from rotemina.sim.excitation.triangles_and_sweeps import DecayingTriangle, Sweeps, Triangle
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot, nominal_robots
-from rotemina.sim.trajectory.validation import TrajectoryError, find_violations
+from rotemina.sim.trajectory.trajectory_excesses import TrajectoryError, find_violations
 
 ROBOTS = {name: load_robot(name) for name in nominal_robots()}
 PERIODIC = (Sine, Triangle, Multisine, Prbs)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from rotemina.sim.excitation.generator import excite
-from rotemina.sim.excitation.levels import Prbs, Staircase, Steps
 from rotemina.sim.excitation.moves import longest_stroke, shortest_duration, trapezoid
 from rotemina.sim.excitation.multisine import odd_lines
 from rotemina.sim.excitation.quantity import Share
-from rotemina.sim.excitation.swings import DecayingTriangle, Sweeps, Triangle
-from rotemina.sim.excitation.tones import Chirp, Multisine, Sine
+from rotemina.sim.excitation.sines_and_chirps import Chirp, Multisine, Sine
+from rotemina.sim.excitation.staircase_steps_prbs import Prbs, Staircase, Steps
+from rotemina.sim.excitation.triangles_and_sweeps import DecayingTriangle, Sweeps, Triangle
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
 

@@ -10,8 +10,8 @@ from rotemina.sim.feedback.axis_loop import AxisLoop
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.gains import Gains, Notch
-from rotemina.sim.feedback.lead import lead_taps
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.feedback.reference_lead import lead_taps
+from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 

@@ -12,7 +12,7 @@ from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.gains import Gains, Notch, OutputLimits
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.robot.model import AxisEffect
 
 H, ZN, THX = 2e-4, 5, 3

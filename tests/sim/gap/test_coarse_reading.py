@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.coarse_reading import grid_width, steps_of
+from rotemina.sim.gap.diagnosis_pipeline import diagnose
 from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.method import diagnose
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.closing import closed
+from rotemina.sim.gap.closed_share import closed
 from rotemina.sim.gap.companions import accompanied
+from rotemina.sim.gap.diagnosis_progress import Account
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import explain, untouched
-from rotemina.sim.gap.progress import Account
-from rotemina.sim.gap.selection import LEAST_SHARE
+from rotemina.sim.gap.forward_selection import LEAST_SHARE
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

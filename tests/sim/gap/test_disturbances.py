@@ -6,7 +6,7 @@ import pytest
 from rotemina.sim.gap.disturbances import Disturbance, power_by_tap, set_aside
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import mean_squares
-from rotemina.sim.gap.wander import wander
+from rotemina.sim.gap.sensor_wander import wander
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -14,7 +14,7 @@ from rotemina.sim.gap.diagnosis import (
     Verdict,
 )
 from rotemina.sim.gap.document import ExperimentFiles, as_json, shares
-from rotemina.sim.gap.reading import read_document
+from rotemina.sim.gap.document_reader import read_document
 from rotemina.sim.records.record import Tap
 
 NAMES = ExperimentFiles("out_experiment_1.csv", {"creep": "c.csv", "hysteresis": "h.csv"})

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from rotemina.sim.gap.method import diagnose
+from rotemina.sim.gap.diagnosis_pipeline import diagnose
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot
 

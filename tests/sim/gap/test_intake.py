@@ -11,8 +11,8 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.effects.registry import all_effects
 from rotemina.sim.gap.diagnosis import Verdict
+from rotemina.sim.gap.diagnosis_pipeline import diagnose
 from rotemina.sim.gap.intake import check
-from rotemina.sim.gap.method import diagnose
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

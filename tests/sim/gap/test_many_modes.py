@@ -6,10 +6,10 @@ from threadpoolctl import threadpool_limits
 
 from rotemina.sim.effects.modes import MODES
 from rotemina.sim.gap.diagnosis import Verdict
+from rotemina.sim.gap.diagnosis_pipeline import diagnose
+from rotemina.sim.gap.diagnosis_progress import Account
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.many_modes import many_modes
-from rotemina.sim.gap.method import diagnose
-from rotemina.sim.gap.progress import Account
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

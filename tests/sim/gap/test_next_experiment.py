@@ -10,9 +10,9 @@ from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination
 from rotemina.sim.gap.explanations import explain
+from rotemina.sim.gap.forward_selection import Selection
 from rotemina.sim.gap.next_experiment import experiments
 from rotemina.sim.gap.rivals import Rival
-from rotemina.sim.gap.selection import Selection
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

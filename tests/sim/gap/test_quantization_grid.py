@@ -8,7 +8,7 @@ import pytest
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.explanations import untouched
-from rotemina.sim.gap.starts import starts
+from rotemina.sim.gap.fit_starts import starts
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.effects import registry
-from rotemina.sim.gap.method import diagnose
+from rotemina.sim.gap.diagnosis_pipeline import diagnose
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -9,9 +9,9 @@ from rotemina.sim.identification.errors import (
     SettingError,
     TooShortError,
 )
+from rotemina.sim.identification.experiment_signals import Signals, signals_of, siso
 from rotemina.sim.identification.multisine import period_spectra, periodic_response
 from rotemina.sim.identification.resonance import fit_resonance
-from rotemina.sim.identification.signals import Signals, signals_of, siso
 from rotemina.sim.identification.welch import welch_response
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.reading import read_record

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotemina.sim.identification.experiment_signals import siso
 from rotemina.sim.identification.model import Orders
 from rotemina.sim.identification.natural_modes import natural_modes
 from rotemina.sim.identification.output_error import identify_oe
-from rotemina.sim.identification.signals import siso
 from rotemina.sim.identification.transfer_function import TransferFunction
 
 RATE_HZ = 2000.0

@@ -10,9 +10,9 @@ from rotemina.sim.identification.errors import (
     SettingError,
     TooShortError,
 )
+from rotemina.sim.identification.experiment_signals import signals_of, siso
 from rotemina.sim.identification.model import Orders, simulate
 from rotemina.sim.identification.output_error import identify_oe
-from rotemina.sim.identification.signals import signals_of, siso
 from rotemina.sim.identification.transfer_function import TransferFunction, stabilised
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap

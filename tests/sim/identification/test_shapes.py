@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from rotemina.sim.identification.errors import ExcitationError, IdentificationError, TooShortError
-from rotemina.sim.identification.loop import amplitude_exponent, loops
-from rotemina.sim.identification.steps import step_metrics
+from rotemina.sim.identification.loop_figures import amplitude_exponent, loops
+from rotemina.sim.identification.step_figures import step_metrics
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 

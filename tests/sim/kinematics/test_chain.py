@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.sim.kinematics.chain import JOINTS, Chain, ChainError
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 CHAIN = Chain.of(ROBOT)

@@ -16,7 +16,7 @@ from rotemina.sim.kinematics.inverse import (
 )
 from rotemina.sim.kinematics.workspace import Workspace
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError, check_target
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError, check_target
 
 ROBOT = load_robot("rotemina")
 CHAIN = Chain.of(ROBOT)

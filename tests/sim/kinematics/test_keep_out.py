@@ -11,7 +11,7 @@ from rotemina.sim.kinematics.chain import ChainError
 from rotemina.sim.kinematics.keep_out import SLOW_SPEED, KeepOutZone
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import KeepOut
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 MIDDLE = np.array([sum(axis.range) / 2 for axis in ROBOT.axes.values()])

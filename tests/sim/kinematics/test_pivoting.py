@@ -9,7 +9,7 @@ from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.pivoting import hold_tip, pivot, recentre
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 CHAIN = Chain.of(load_robot("rotemina"))
 inner = st.lists(st.floats(0.01, 0.99), min_size=6, max_size=6).map(np.array)

@@ -12,7 +12,7 @@ from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.kinematics.inverse import Split, solve_tip
 from rotemina.sim.kinematics.workspace import Workspace
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 CHAIN = Chain.of(ROBOT)

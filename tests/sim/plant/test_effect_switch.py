@@ -7,7 +7,7 @@ import pytest
 
 from rotemina.sim.plant.effect_switch import taken_over
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.plant.randomness import Chance
+from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 

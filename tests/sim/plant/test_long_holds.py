@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.sim.plant import steps
+from rotemina.sim.plant import segment_steps
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.plant.state import Behind
@@ -44,7 +44,7 @@ def test_long_holds_are_as_exact_as_with_short_steps_throughout(
 ):
     robot = with_effect(axis, effect, **parameters)
     quick = response(robot, axis, 1.0)
-    monkeypatch.setattr(steps, "_grows_after", lambda *_: np.inf)
+    monkeypatch.setattr(segment_steps, "_grows_after", lambda *_: np.inf)
     assert quick == pytest.approx(response(robot, axis, 1.0), abs=1e-4 * 1.2e-8)
 
 

@@ -10,7 +10,7 @@ from scipy.spatial import Delaunay
 from skfem import Basis, ElementTriMorley, LinearForm, MeshTri
 
 from rotemina.sim.plate.bending import assemble, factorized
-from rotemina.sim.plate.recovery import at_points
+from rotemina.sim.plate.curvature_recovery import at_points
 
 sys.path.insert(0, str(Path(__file__).parent))  # no test module: the closed forms
 import thin_plates

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.sim.records.source import Limits
+from rotemina.sim.records.file_blocks import Limits
 
 WriteFile = Callable[..., Path]
 

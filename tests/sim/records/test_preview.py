@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from rotemina.sim.records.file_blocks import Limits
 from rotemina.sim.records.preview import preview
 from rotemina.sim.records.record import RecordError
-from rotemina.sim.records.source import Limits
 
 WriteFile = Callable[..., Path]
 

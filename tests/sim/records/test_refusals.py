@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from rotemina.sim.records.file_blocks import Limits
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import RecordError
-from rotemina.sim.records.source import Limits
 from rotemina.sim.robot.model import Robot, StepperAxis
 
 WriteFile = Callable[..., Path]

@@ -10,9 +10,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
 
+from rotemina.sim.records.file_blocks import Limits
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import VOLTAGE_TAPS, Record, RecordError, Tap
-from rotemina.sim.records.source import Limits
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.units import units_of
 

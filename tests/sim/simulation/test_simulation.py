@@ -5,8 +5,8 @@ import pytest
 
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.perturbation import Perturbation
-from rotemina.sim.records.pieces import PIECE_ROWS, join_records
 from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.records.record_pieces import PIECE_ROWS, join_records
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import Simulation, needs_whole, simulate

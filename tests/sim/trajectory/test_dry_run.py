@@ -10,9 +10,9 @@ from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory import prediction
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.limits import OutOfLimitsError
-from rotemina.sim.trajectory.validation import Quantity
+from rotemina.sim.trajectory.trajectory_excesses import Quantity
 
 ROBOT = load_robot("rotemina")
 

@@ -6,7 +6,7 @@ import pytest
 
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
-from rotemina.sim.tuning.problem import TuningProblem
+from rotemina.sim.tuning.search_problem import TuningProblem
 
 RATE_HZ = 5000.0
 

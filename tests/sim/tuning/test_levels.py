@@ -15,13 +15,13 @@ from rotemina.sim.compensate.training import train
 from rotemina.sim.feedback.axis_loop import AxisLoop
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.gains import Gains, Notch
-from rotemina.sim.feedback.lead import lead_taps
+from rotemina.sim.feedback.reference_lead import lead_taps
 from rotemina.sim.feedback.regulation import Regulation
 from rotemina.sim.feedback.stability import check_stability
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import simulate
-from rotemina.sim.tuning.scenario import step_of, triangle_of
+from rotemina.sim.tuning.tuning_scenario import step_of, triangle_of
 
 RATE_HZ, H = 5000.0, 2e-4
 ROBOT = load_robot("rotemina")

@@ -8,9 +8,9 @@ import pytest
 
 from rotemina.sim.tuning.errors import TuningError
 from rotemina.sim.tuning.objectives import Constraints, SecondObjective
-from rotemina.sim.tuning.problem import TuningProblem
-from rotemina.sim.tuning.result import load_tuning, save_tuning, tuning_of
 from rotemina.sim.tuning.search import SearchSettings, generations, objectives_of
+from rotemina.sim.tuning.search_problem import TuningProblem
+from rotemina.sim.tuning.tuning_result import load_tuning, save_tuning, tuning_of
 
 SHORT = SearchSettings(generations=4, population=16, seed=3)
 

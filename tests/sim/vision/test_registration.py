@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from rotemina.sim.vision.drift import background_drift
+from rotemina.sim.vision.background_drift import background_drift
 from rotemina.sim.vision.errors import RegistrationError, VisionError
 from rotemina.sim.vision.image import grey, noise_rms, relative_to
 from rotemina.sim.vision.registration import register

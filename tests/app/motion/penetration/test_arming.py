@@ -12,7 +12,7 @@ from rotemina.drivers.driver import Driver
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import KeepOut
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 

@@ -8,13 +8,13 @@ import pytest
 
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.exporting import export, record_of, record_pieces, trajectory
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.state import PlaybackFinished
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory.limits import OutOfLimitsError
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 
 @pytest.fixture

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from rotemina.app.motion.history import LiveHistory
+from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.recording import recovery
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.replay import Replay
 from rotemina.app.motion.state import CommandRefused, Faulted, Phase, StateChanged
 from rotemina.drivers.errors import ConnectionLostError

@@ -6,7 +6,7 @@ import logging
 import numpy as np
 import pytest
 
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.run_labels import RunLabels
 from rotemina.app.motion.state import Connection, PlaybackFinished
 from rotemina.app.motion.teleoperation.intent import Action, Intent

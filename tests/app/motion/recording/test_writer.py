@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.reading import Recording
+from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.recovery import being_recorded, recover
 
 

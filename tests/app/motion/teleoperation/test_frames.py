@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotemina.app.motion.teleoperation.frames import FrameError
-from rotemina.app.motion.teleoperation.hybrid import HybridFrame, Saturation
 from rotemina.app.motion.teleoperation.linear_rate import LinearRate
+from rotemina.app.motion.teleoperation.micro_nano_axis import HybridFrame, Saturation
 from rotemina.app.motion.teleoperation.modes import Modes
 from rotemina.app.motion.teleoperation.tip_frames import FineFrame, PivotFrame
 from rotemina.sim.kinematics.chain import JOINTS, Chain

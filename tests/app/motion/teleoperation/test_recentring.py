@@ -12,8 +12,8 @@ from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot
+from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.limits import OutOfLimitsError
 
 ROBOT = load_robot("rotemina")
 CHAIN = Chain.of(ROBOT)

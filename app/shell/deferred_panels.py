@@ -1,0 +1,79 @@
+"""When panels are made: what is seen at once, the rest gradually, while nobody waits for it."""
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
+from PySide6.QtWidgets import QDockWidget
+
+from rotemina.app.motion.state import Connection
+from rotemina.app.shell.panel_host import Panels
+from rotemina.app.shell.workbench import Workbench
+
+_BETWEEN_MS = 30  # for what the operator does meanwhile
+_CONNECTING_MS = 1500  # for which they leave the processor to a machine that is being connected
+
+
+class LatePanels(QObject):
+    """Makes the panels of docks.
+
+    One whose dock comes into sight is made at once. The others follow one by one as soon as the
+    window stands, so that a start does not wait for them. They are made before anything is read or
+    compared in the background: none misses a trajectory or a record.
+
+    Signals
+    -------
+    done() : all are made.
+    """
+
+    done = Signal()
+
+    def __init__(
+        self, panels: Panels, docks: Mapping[str, QDockWidget], workbench: Workbench
+    ) -> None:
+        super().__init__(workbench)
+        self._panels, self._docks, self._session = panels, docks, workbench.session
+        self._since = QElapsedTimer()
+        self._look = QTimer(self, singleShot=True, interval=0)
+        self._look.timeout.connect(self.make_seen)
+        self._next = QTimer(self, interval=_BETWEEN_MS)
+        self._next.timeout.connect(self._make_next)
+        for dock in docks.values():
+            dock.visibilityChanged.connect(lambda seen: seen and self._look.start())
+        for name in panels.waiting:
+            if panels.kinds[name].at_once:
+                panels.make(name)
+        workbench.busy_changed.connect(self._before_work)
+        workbench.closing.connect(self._end)
+
+    def start(self) -> None:
+        """Begin to make those that are not seen."""
+        self._since.start()
+        self._next.start()
+
+    def make_seen(self) -> None:
+        """Make those whose docks are in sight; the others wait until these are painted."""
+        for name in self._panels.waiting:
+            dock = self._docks.get(name)
+            if dock is not None and dock.isVisible() and not dock.visibleRegion().isEmpty():
+                self._panels.make(name)
+        if self._next.isActive():
+            self._next.start()
+
+    def _make_next(self) -> None:
+        connecting = self._session.snapshot().connection is Connection.CONNECTING
+        if connecting and self._since.elapsed() < _CONNECTING_MS:
+            return
+        waiting = self._panels.waiting
+        if waiting:
+            self._panels.make(waiting[0])
+        else:
+            self._next.stop()
+            self.done.emit()
+
+    def _before_work(self, doing: str) -> None:
+        if doing and not self._panels.making:  # some read a file of their own when they are made
+            self._panels.make_all()
+
+    def _end(self) -> None:
+        self._look.stop()
+        self._next.stop()

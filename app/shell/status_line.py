@@ -1,0 +1,49 @@
+"""The status line: link, age of the data, latency of stops, owners, work in the background."""
+
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.engine_words import spoken
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.phase_words import driven, word
+from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.sim.quantities import fixed
+
+
+class StatusText(ElidedLabel):
+    """One line that says how the connection stands."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._busy = ""
+        self._session = workbench.session
+        workbench.busy_changed.connect(self._set_busy)
+        workbench.refreshed.connect(self._refresh)
+
+    def _set_busy(self, text: str) -> None:
+        self._busy = text
+
+    def _refresh(self, state: SessionState) -> None:
+        parts = [f"{self._session.driver.name}: {word(state)}"]
+        if state.latched is not None:
+            parts.append(
+                translate("shell", "{latched} active").format(latched=spoken(state.latched))
+            )
+        if state.age_s is not None:
+            parts.append(translate("shell", "data {age} old").format(age=age(state.age_s)))
+        if state.stop_latency is not None:
+            parts.append(
+                translate("shell", "stop latency {ms:.1f} ms (99.9 %)").format(
+                    ms=1e3 * state.stop_latency.most
+                )
+            )
+        if state.stop_latency_s is not None:
+            parts.append(
+                translate("shell", "last stop {ms:.1f} ms").format(ms=1e3 * state.stop_latency_s)
+            )
+        parts += [text for text in (driven(state), self._busy) if text]
+        self.show_text("   ·   ".join(parts))
+
+
+def age(seconds: float) -> str:
+    """Return an age as text: in milliseconds as long as data is fresh."""
+    return f"{fixed(1e3 * seconds, 0)} ms" if seconds < 1.0 else f"{fixed(seconds, 0)} s"

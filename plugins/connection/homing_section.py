@@ -1,0 +1,99 @@
+"""Positions of the axes: homing, doubt, the way back, and owners."""
+
+from PySide6.QtWidgets import QHBoxLayout, QPushButton
+
+from rotemina.app.display_units import label
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.phase_words import driven
+from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.section import Section
+from rotemina.drivers.abilities import Homer
+from rotemina.plugins.connection import unavailable_reasons
+
+
+class PositionSection(Section):
+    """Homing of all axes or of one, confirming, and taking back a move."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(translate("connection", "Position"))
+        self._workbench = workbench
+        self.text = self.add_text()
+        self.home_all = button(translate("connection", "Home all"), workbench.home)
+        self.home: dict[str, QPushButton] = {}
+        self._axes: QHBoxLayout = self.add_row(self.home_all)
+        self.confirm = button(
+            translate("connection", "Confirm position"), workbench.confirm_position
+        )
+        self.back = button(translate("connection", "Back"), workbench.undo)
+        self.add_row(self.confirm, self.back)
+        self.owners = self.add_text()
+
+    def refresh(self, state: SessionState) -> None:
+        """Show a state."""
+        driver = self._workbench.session.driver
+        self._offer(driver.homing_axes if isinstance(driver, Homer) else ())
+        self.text.setText(_known(state))
+        why = unavailable_reasons.against_homing(state, driver)
+        allow(
+            self.home_all,
+            why,
+            translate("connection", "Find the limit switches of all axes with switches"),
+        )
+        for axis, one in self.home.items():
+            allow(
+                one,
+                why,
+                translate("connection", "Find the limit switch of {label}").format(
+                    label=label(axis)
+                ),
+            )
+        allow(
+            self.confirm,
+            unavailable_reasons.against_confirming(state),
+            translate(
+                "connection",
+                "Confirm that the machine has not moved since the connection was lost",
+            ),
+        )
+        allow(
+            self.back,
+            unavailable_reasons.against_going_back(
+                state, undoable=self._workbench.session.undoable
+            ),
+            translate(
+                "connection",
+                "Return to the position before the latest move: up, across, down",
+            ),
+        )
+        self.owners.setText(driven(state) or translate("connection", "No axis is moving."))
+
+    def _offer(self, axes: tuple[str, ...]) -> None:
+        """Have a button for each axis that has a switch."""
+        if tuple(self.home) == axes:
+            return
+        for old in self.home.values():
+            self._axes.removeWidget(old)
+            old.hide()
+            old.deleteLater()
+        self.home = {axis: self._button(axis) for axis in axes}
+        for one in self.home.values():
+            self._axes.addWidget(one)
+
+    def _button(self, axis: str) -> QPushButton:
+        made = button(label(axis), lambda: self._workbench.home((axis,)))
+        made.setAccessibleName(translate("connection", "Home {label}").format(label=label(axis)))
+        return made
+
+
+def _known(state: SessionState) -> str:
+    if state.unhomed:
+        return translate("connection", "Not homed: {axes}").format(
+            axes=", ".join(label(axis) for axis in state.unhomed)
+        )
+    return (
+        translate("connection", "All positions are known.")
+        if state.position_known
+        else translate("connection", "No position is known.")
+    )

@@ -1,0 +1,105 @@
+"""Differences between device parameters and robot file: write or accept them."""
+
+from PySide6.QtWidgets import QHeaderView
+
+from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.section import Section
+from rotemina.app.widgets.table import Table
+from rotemina.drivers.abilities import Parameterised
+from rotemina.drivers.driver import Driver
+from rotemina.plugins.connection import unavailable_reasons
+from rotemina.sim.quantities import rounded
+
+COLUMNS = (
+    marked("connection", "Parameter"),
+    marked("connection", "Device"),
+    marked("connection", "Robot file"),
+)
+_MOST_ROWS_SHOWN = 6
+
+
+class ParameterSection(Section):
+    """A table of the differences, and the two ways to settle them."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__(translate("connection", "Parameters"))
+        self._session = workbench.session
+        self._shown: tuple[str, ...] = ()
+        self.text = self.add_text()
+        self.table = Table(
+            translate("connection", "Parameters that differ"),
+            [translate("connection", name) for name in COLUMNS],
+            row_height=24,
+        )
+        self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        self.table.setVisible(False)
+        self.column.addWidget(self.table)
+        self.write = button(translate("connection", "Write to device"), workbench.write_parameters)
+        self.accept = button(translate("connection", "Accept"), workbench.accept_parameters)
+        self.add_row(self.write, self.accept)
+
+    def refresh(self, state: SessionState) -> None:
+        """Show a state."""
+        driver = self._session.driver
+        if state.differences != self._shown:
+            self._shown = state.differences
+            self._fill(_rows(driver, state.differences))
+        why = unavailable_reasons.against_writing(state, driver)
+        count = len(state.differences)
+        if count:
+            are = (
+                translate("connection", "One parameter differs")
+                if count == 1
+                else translate("connection", "{count} parameters differ").format(count=count)
+            )
+            self.text.setText(
+                translate(
+                    "connection",
+                    "{are} from the robot file; the machine cannot move until you write or "
+                    "accept the values.",
+                ).format(are=are)
+            )
+        else:
+            keeps = isinstance(driver, Parameterised)
+            none = translate("connection", "{name} stores no parameters.").format(name=driver.name)
+            self.text.setText(
+                translate("connection", "The parameters match the robot file.") if keeps else none
+            )
+        allow(
+            self.write,
+            why,
+            translate("connection", "Store the values of the robot file in the device"),
+        )
+        allow(
+            self.accept,
+            why,
+            translate("connection", "Use the values of the device until the next connection"),
+        )
+
+    def _fill(self, rows: list[tuple[str, ...]]) -> None:
+        self.table.show_rows(rows, tips=True)
+        self.table.setVisible(bool(rows))
+        self.table.setFixedHeight(28 + 24 * min(len(rows), _MOST_ROWS_SHOWN))
+
+
+def _rows(driver: Driver, told: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Return name, device and robot file of what was told, as far as the driver still says so."""
+    known = (
+        {str(one): one for one in driver.differences} if isinstance(driver, Parameterised) else {}
+    )
+    rows: list[tuple[str, ...]] = []
+    for text in told:
+        one = known.get(text)
+        rows.append(
+            (text, "", "")
+            if one is None
+            else (
+                one.name,
+                f"{rounded(one.device, 6)} {one.unit}",
+                f"{rounded(one.robot, 6)} {one.unit}",
+            )
+        )
+    return rows

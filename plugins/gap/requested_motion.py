@@ -1,0 +1,88 @@
+"""A motion that the page wants played: asked for, tried, played, and its record handed back."""
+
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtWidgets import QMessageBox, QWidget
+
+from rotemina.app.display_units import axis_scale, label
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.loaded_trajectory import Plan
+from rotemina.app.shell.pending_confirmations import Pending
+from rotemina.app.shell.workbench import Run, Workbench
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.model import Robot
+
+
+class Playing(QObject):
+    """Plays one motion at a time, after a question that says what will move, and how far.
+
+    Signals
+    -------
+    played(Run) : the motion has ended and its record is compared.
+    """
+
+    played = Signal(object)
+
+    def __init__(self, workbench: Workbench, parent: QObject) -> None:
+        super().__init__(parent)
+        self._workbench = workbench
+        #: Name of the motion whose dry run is waited for; who stops meanwhile wants it no more.
+        self._waiting: Pending[str] = Pending(workbench.session)
+        self._under_way: str | None = None
+        workbench.plan_changed.connect(self._planned)
+        workbench.run_changed.connect(self._ran)
+
+    def ask(self, window: QWidget, title: str, name: str, trajectory: Record) -> None:
+        """Ask whether to play a motion, beside a window that can still be used."""
+        question = QMessageBox(window)
+        question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        question.setWindowTitle(title)
+        question.setTextFormat(Qt.TextFormat.PlainText)
+        question.setText(translate("gap", "Play this motion on the machine now?"))
+        question.setInformativeText(told(self._workbench.robot, trajectory))
+        yes, no = QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No
+        question.setStandardButtons(yes | no)
+        question.setDefaultButton(no)
+        question.button(yes).setText(translate("gap", "Play"))
+        question.button(no).setText(translate("gap", "Not now"))
+        question.finished.connect(lambda said: self.play(name, trajectory) if said == yes else None)
+        self._workbench.stopped.connect(question.reject)
+        question.setModal(False)
+        question.show()
+
+    def play(self, name: str, trajectory: Record) -> None:
+        """Try a motion on the model, and play it if it stays inside all limits."""
+        self._waiting.put(name)
+        self._under_way = None
+        self._workbench.plan_trajectory(name, trajectory)
+
+    def _planned(self, plan: Plan) -> None:
+        if plan.name != self._waiting.what:
+            return  # one from before, planned anew for another model
+        self._waiting.take()
+        if plan.dry_run.allowed:
+            self._under_way = plan.name
+            self._workbench.play(self._waiting.permit)
+
+    def _ran(self, run: Run) -> None:
+        if run.name == self._under_way:
+            self._under_way = None
+            if run.completed:
+                self.played.emit(run)
+
+
+def told(robot: Robot, trajectory: Record) -> str:
+    """Return how long a motion lasts, and from where to where it leads each axis."""
+    lasts = translate("gap", "It takes {time:.3g} s after the move to its first row.")
+    lines = [lasts.format(time=trajectory.duration_s)]
+    rests = translate("gap", "rests at {low} {unit}")
+    for axis in trajectory.axes:
+        way = trajectory.signal(axis, Tap.CMD)
+        scale = axis_scale(robot.axes[axis])
+        low, high = scale.number(float(way.min())), scale.number(float(way.max()))
+        moves = (
+            f"{low} … {high} {scale.symbol}"
+            if low != high
+            else rests.format(low=low, unit=scale.symbol)
+        )
+        lines.append(f"{label(axis)}: {moves}")
+    return "\n".join(lines)

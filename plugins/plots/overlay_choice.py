@@ -1,0 +1,150 @@
+"""The choice and time shift of another run beside the present one."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QComboBox
+
+from rotemina.app.motion.recent_history import LiveWindow
+from rotemina.app.panel import Panel
+from rotemina.app.records.entry import Entry
+from rotemina.app.records.library import read
+from rotemina.app.shell.language import translate
+from rotemina.app.shell.record_chooser import ask_records
+from rotemina.app.shell.workbench import Level, Run
+from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.plots.overlay_data import OtherRun, alignment
+from rotemina.sim.records.record import Record
+
+_ALONE, _KEPT, _IN_HAND, _RECORD = "alone", "kept", "run", "record"
+
+
+class RunBeside(QComboBox):
+    """The choice of a run to be drawn beside the present one.
+
+    ``other`` is that run, or None, and ``shift_s`` what is added to its times. ``shown`` returns
+    what is drawn at present, and ``whole`` all that may be.
+
+    Signals
+    -------
+    changed() : another run, or none, is to be drawn, or the same at other times.
+    """
+
+    changed = Signal()
+
+    def __init__(
+        self, panel: Panel, shown: Callable[[], LiveWindow], whole: Callable[[], LiveWindow]
+    ) -> None:
+        super().__init__()
+        self.other: OtherRun | None = None
+        self.shift_s = 0.0
+        self._panel, self._shown, self._whole = panel, shown, whole
+        self._workbench = panel.workbench
+        for choice, text in (
+            (_ALONE, translate("plots", "No other run")),
+            (_KEPT, translate("plots", "Keep this run")),
+            (_IN_HAND, translate("plots", "Latest run")),
+            (_RECORD, translate("plots", "Record …")),
+        ):
+            self.addItem(text, choice)
+        self.setAccessibleName(translate("plots", "Another run beside the present one"))
+        self.setToolTip(
+            plain_tip(
+                translate("plots", "Keep this run: displays it next to the following one."),
+                translate("plots", "Latest run: the record that was opened or played last."),
+                translate("plots", "Record …: one of the library."),
+            )
+        )
+        self.activated.connect(lambda _: self._choose())
+        self._workbench.run_changed.connect(self._take_run)
+
+    def align(self) -> None:
+        """Move the other run in time to where its commands are those that are shown."""
+        if self.other is None:
+            self._workbench.notify(
+                Level.WARNING,
+                translate("plots", "There is no second run to align: choose one."),
+                about=self._panel,
+            )
+            return
+        window = self._whole()
+        shift = alignment(window, self.other)
+        if shift is None and len(window):
+            self._workbench.notify(
+                Level.INFO,
+                translate(
+                    "plots", "{name} has no motion to align by: the ends are aligned."
+                ).format(name=self.other.name),
+            )
+            shift = float(window.device_time_s[-1] - self.other.time_s[-1])
+        self.shift_s = shift or 0.0
+        self.changed.emit()
+
+    def _choose(self) -> None:
+        chosen = self.currentData()
+        if chosen == _IN_HAND:
+            self._take_run(self._workbench.run)
+            return
+        self.other = None
+        if chosen == _RECORD:
+            _ask_run(self._panel, self._use)
+        if chosen == _KEPT:
+            window = self._shown()
+            self._workbench.ask(lambda: self._keep(window))
+        self._show_choice()
+        self.changed.emit()
+
+    def _keep(self, window: LiveWindow) -> None:
+        self.other = OtherRun.of_window(translate("plots", "The kept run"), window)
+        self.shift_s = 0.0
+
+    def _use(self, other: OtherRun) -> None:
+        """Draw a record of the library beside the present run."""
+        self.other = other
+        self.setCurrentIndex(self.findData(_RECORD))
+        self.align()
+
+    def _take_run(self, run: Run | None) -> None:
+        """Put the run in hand beside the present one, where that is chosen."""
+        if self.currentData() != _IN_HAND:
+            return
+        self.other = None
+        if run is None:
+            self._workbench.notify(
+                Level.WARNING,
+                translate("plots", "There is no latest run: open or play one."),
+                about=self._panel,
+            )
+            self._show_choice()
+            self.changed.emit()
+        else:
+            self.other = OtherRun.of_record(run.name, run.record, self._workbench.robot)
+            self.align()
+
+    def _show_choice(self) -> None:
+        if self.other is None:
+            self.setCurrentIndex(0)
+
+
+def _ask_run(panel: Panel, use: Callable[[OtherRun], None]) -> None:
+    """Ask for a record, read it, and hand it on."""
+    bench = panel.workbench
+
+    def done(entry: Entry, record: Record) -> None:
+        use(OtherRun.of_record(entry.name, record, bench.robot))
+
+    def take(chosen: tuple[Entry, ...]) -> None:
+        entry = chosen[0]
+        bench.work(
+            "run beside",
+            translate("plots", "Reading {name} …").format(name=entry.name),
+            lambda: read(entry, bench.robot),
+            lambda record: done(entry, record),
+        )
+
+    def nothing_there() -> None:
+        text = translate("plots", "The library has no records: play or record a motion first.")
+        bench.notify(Level.WARNING, text, about=panel)
+
+    title = translate("plots", "Record beside the present run")
+    ask_records(panel.main_window, bench, title, take, nothing_there)

@@ -1,0 +1,33 @@
+"""Records too poor to tell causes apart."""
+
+import numpy as np
+
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.excitation_richness import is_poor
+from rotemina.sim.records.record import Record, Tap
+from rotemina.sim.robot.file import load_robot
+from rotemina.sim.simulation.simulation import simulate
+
+ROBOT = load_robot("emps")
+
+
+def moved(robot, command, seed=0):
+    time_s = np.arange(len(command)) * 1e-3
+    commands = Record.from_signals(
+        time_s, {("q", Tap.CMD): command}, {"q": "m"}, {"mode": "closed_loop"}
+    )
+    answer = simulate(robot, robot.effects, commands)
+    noise = 3e-3 * np.random.default_rng(seed).standard_normal(len(command))
+    signals = {("q", Tap.CMD): command, ("q", Tap.U): answer.signal("q", Tap.U) + noise}
+    return Record.from_signals(time_s, signals, {"q": "m"}, {"mode": "closed_loop"})
+
+
+def test_there_and_back_in_few_moves_is_no_sine():
+    time_s = np.arange(20_000) * 1e-3
+    ramp = np.clip(1.5 - np.abs(time_s % 5.0 - 2.5), 0.0, 1.0)
+    small = 0.1 + 0.05 * ramp
+    assert not is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, small)]))
+    sine = 0.1 + 0.02 * np.sin(2.0 * np.pi * 0.2 * time_s)
+    assert is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, sine)]))
+    wide = 0.125 + 0.08 * np.sin(2.0 * np.pi * 0.2 * time_s)
+    assert not is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, wide)]))
