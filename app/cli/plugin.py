@@ -56,7 +56,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 def new(options: argparse.Namespace) -> int:
     """Write a package, and print the next steps."""
-    from rotemina.app.plugin_kit.kinds import Kind  # the kinds take their time to import
+    from rotemina.app.plugin_kit.plugin_kinds import Kind  # the kinds take their time to import
     from rotemina.app.plugin_kit.writing import new_plugin
 
     place = new_plugin(Kind(options.kind), options.name, options.folder)
@@ -72,7 +72,7 @@ def new(options: argparse.Namespace) -> int:
 
 def list_plugins(options: argparse.Namespace) -> int:
     """Print a line for each plugin: kind, name, package, version, interface, state."""
-    from rotemina.app.plugin_kit.kinds import Kind, installed_plugins
+    from rotemina.app.plugin_kit.plugin_kinds import Kind, installed_plugins
 
     wording = options.wording
     head = [
@@ -103,7 +103,7 @@ def list_plugins(options: argparse.Namespace) -> int:
 def check(options: argparse.Namespace) -> int:
     """Check the plugins of a name; status 1 if something failed."""
     from rotemina.app.plugin_kit.checking import check_plugin
-    from rotemina.app.plugin_kit.kinds import named_points
+    from rotemina.app.plugin_kit.plugin_kinds import named_points
     from rotemina.drivers.conformance.check import Verdict
 
     points = [

@@ -6,7 +6,7 @@ from importlib.metadata import EntryPoint
 
 from rotemina.app.plugin_kit.camera_check import check_cameras
 from rotemina.app.plugin_kit.input_check import check_inputs
-from rotemina.app.plugin_kit.kinds import Kind, Plugin, installed_plugins
+from rotemina.app.plugin_kit.plugin_kinds import Kind, Plugin, installed_plugins
 from rotemina.drivers.conformance.bench import bench_of
 from rotemina.drivers.conformance.check import Result, Verdict
 from rotemina.drivers.conformance.suite import run_checks

@@ -10,7 +10,7 @@ from uuid import uuid4
 
 from jinja2 import BaseLoader, Environment, StrictUndefined, TemplateNotFound
 
-from rotemina.app.plugin_kit.kinds import Kind
+from rotemina.app.plugin_kit.plugin_kinds import Kind
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 

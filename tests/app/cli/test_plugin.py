@@ -4,7 +4,7 @@ import pytest
 
 from rotemina.app.cli.main import main
 from rotemina.app.plugin_kit import checking, kinds
-from rotemina.app.plugin_kit.kinds import Kind
+from rotemina.app.plugin_kit.plugin_kinds import Kind
 from rotemina.drivers import registry
 from rotemina.drivers.cameras.source import CameraSource
 from rotemina.drivers.conformance.check import Result, Verdict

@@ -5,7 +5,7 @@ from textwrap import dedent
 
 import pytest
 
-from rotemina.app.plugin_kit.kinds import Kind
+from rotemina.app.plugin_kit.plugin_kinds import Kind
 from rotemina.drivers import registry
 from rotemina.sim import plugin_points
 from rotemina.sim.effects import registry as effects

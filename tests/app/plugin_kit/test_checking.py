@@ -3,7 +3,7 @@
 import pytest
 
 from rotemina.app.plugin_kit.checking import check_plugin
-from rotemina.app.plugin_kit.kinds import Kind, named_points
+from rotemina.app.plugin_kit.plugin_kinds import Kind, named_points
 from rotemina.sim import plugin_import
 from rotemina.sim.robot.file import load_robot
 

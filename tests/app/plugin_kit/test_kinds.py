@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.app.plugin_kit.kinds import Kind, installed_plugins, named_points
+from rotemina.app.plugin_kit.plugin_kinds import Kind, installed_plugins, named_points
 from rotemina.sim import plugin_points
 from rotemina.sim.plugin_points import API_VERSIONS
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from rotemina.app.plugin_kit.kinds import Kind
+from rotemina.app.plugin_kit.plugin_kinds import Kind
 from rotemina.app.plugin_kit.writing import new_plugin
 
 ROOT = Path(__file__).parents[3]
