@@ -23,7 +23,7 @@ from serial.tools.list_ports import comports
 from rotemina.app import system_check
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputSource
-from rotemina.drivers.inputs.hid.source import HidSource
+from rotemina.drivers.inputs.hid.hid_discovery import HidSource
 from rotemina.sim.messages import Message, joined, message
 from rotemina.sim.quantities import amount, fixed
 

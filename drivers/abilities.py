@@ -21,7 +21,7 @@ from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.axis_limits import is_finite
 from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory, accepted
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
 LONGEST_LEASE_S = 1.0
 DISPLAY_ROWS, DISPLAY_COLUMNS = 2, 20

@@ -10,7 +10,7 @@ from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
 if TYPE_CHECKING:
     from rotemina.app.motion.compensation import NamedInverse

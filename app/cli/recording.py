@@ -10,7 +10,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import scale_in
 from rotemina.sim.records.writing import write_record
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
 _TOLD = ("began", "program", "robot", "robot_sha256", "driver", "driver_settings")
 _TOLD_IF_GIVEN = ("model", "effects", "run", "operator", "sample")

@@ -10,7 +10,7 @@ from rotemina.app.cameras.feed import CameraFeed
 from rotemina.app.microscope.adjustments import FOCUS, Adjustments
 from rotemina.app.microscope.camera_in_use import CameraInUse
 from rotemina.app.microscope.camera_memory import CameraMemory
-from rotemina.app.microscope.click_to_move import PlannedMove
+from rotemina.app.microscope.click_target import PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.frame_recording import FrameRecording
 from rotemina.app.microscope.optical_setup import OpticalSetup

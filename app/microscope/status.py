@@ -6,8 +6,8 @@ from enum import StrEnum
 from rotemina.app.cameras.feed import FeedView
 from rotemina.app.microscope.calibration_file import MicroscopeCalibration
 from rotemina.app.microscope.calibration_run import CalibrationStatus
-from rotemina.app.microscope.click_run import VisitStatus
-from rotemina.app.microscope.click_to_move import PlannedMove
+from rotemina.app.microscope.click_corrections import VisitStatus
+from rotemina.app.microscope.click_target import PlannedMove
 from rotemina.app.microscope.focus_run import FocusStatus
 from rotemina.app.microscope.stack_run import StackStatus
 from rotemina.app.microscope.targets import Target

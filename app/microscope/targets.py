@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rotemina.app.microscope.click_run import ClickRun, Visit
+from rotemina.app.microscope.click_corrections import ClickRun, Visit
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message

@@ -3,8 +3,8 @@
 import numpy as np
 
 from rotemina.app.microscope.camera_in_use import CameraInUse
-from rotemina.app.microscope.click_run import ClickRun
-from rotemina.app.microscope.click_to_move import ClickToMove, PlannedMove
+from rotemina.app.microscope.click_corrections import ClickRun
+from rotemina.app.microscope.click_target import ClickToMove, PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.runs import Runs

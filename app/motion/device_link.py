@@ -16,7 +16,7 @@ from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Gate, Permit, Purpose
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import fixed
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
 _EXCHANGED = message("engine", "another device is being connected; wait")
 

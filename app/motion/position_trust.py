@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from rotemina.app.motion.position_watch import PositionWatch
+from rotemina.app.motion.following_error_watch import PositionWatch
 from rotemina.drivers.samples import Samples
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot

@@ -10,7 +10,6 @@ from dataclasses import replace
 
 from rotemina.app.motion.device_report import with_samples, with_status
 from rotemina.app.motion.executor import Executor
-from rotemina.app.motion.following_error import ReadingDeviation
 from rotemina.app.motion.held_inverses import HeldInverses
 from rotemina.app.motion.live_models import LiveModels, ModelOutputs, PreparedModel
 from rotemina.app.motion.lock_reasons import NOT_CONNECTED, lock_reason
@@ -29,6 +28,7 @@ from rotemina.app.motion.model_in_use import Machine, ModelInUse
 from rotemina.app.motion.ownership import Ownership
 from rotemina.app.motion.playback_notes import PlaybackNotes
 from rotemina.app.motion.position_trust import LOST, PositionTrust
+from rotemina.app.motion.recent_deviation import ReadingDeviation
 from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.sample_portions import SamplePortions
 from rotemina.app.motion.sensor_corrections import SensorCorrections

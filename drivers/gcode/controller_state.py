@@ -12,7 +12,7 @@ from rotemina.drivers.errors import ConnectionLostError
 from rotemina.drivers.gate import GateError, Permit
 from rotemina.drivers.gcode.coordinates import StageAxis
 from rotemina.drivers.gcode.dialogue import HOLD, JOG_CANCEL, RESET, Dialogue
-from rotemina.drivers.gcode.reports import (
+from rotemina.drivers.gcode.grbl_reports import (
     CRITICAL,
     POSITION_KEPT,
     Alarm,

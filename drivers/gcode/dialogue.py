@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.gcode.reports import Answer, Message, Status, parse_report
+from rotemina.drivers.gcode.grbl_reports import Answer, Message, Status, parse_report
 from rotemina.drivers.line_quality import LinkQuality
 from rotemina.drivers.mc68hc11.port import Port
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import DriverTimeoutError, ProtocolError
 from rotemina.drivers.gcode.dialogue import HOLD, RESET, Dialogue
-from rotemina.drivers.gcode.reports import Answer, Message, Note, Setting, Status, Welcome
+from rotemina.drivers.gcode.grbl_reports import Answer, Message, Note, Setting, Status, Welcome
 from rotemina.sim.messages import marked, message
 
 _STEP_S = 0.01

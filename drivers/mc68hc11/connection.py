@@ -20,7 +20,7 @@ from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot, StepperAxis
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
 _BUSY = (DeviceState.HOMING, DeviceState.PLAYING, DeviceState.MOVING)
 

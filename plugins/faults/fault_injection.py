@@ -19,7 +19,7 @@ from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.wheel_safe import SteadyChoice, SteadyNumber
 from rotemina.plugins.faults.board_process import TAKES_COMMANDS, BoardProcess
-from rotemina.plugins.faults.fault_commands import Fault, Number, Pick, faults
+from rotemina.plugins.faults.fault_catalogue import Fault, Number, Pick, faults
 from rotemina.sim.robot.model import StepperAxis
 
 _ABOUT = marked(

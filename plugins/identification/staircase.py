@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from rotemina.app.shell.language import marked
-from rotemina.plugins.identification.cycle_statistics import HEAD, Figure, largest
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import Curve, Findings, Picture, ratio_scale
 from rotemina.plugins.identification.nominal_response import ABSENT, nominal_record
 from rotemina.plugins.identification.record_query import Question
+from rotemina.plugins.identification.step_statistics import HEAD, Figure, largest
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.errors import InputError
 from rotemina.sim.identification.step_figures import StepMetrics, step_metrics

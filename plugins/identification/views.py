@@ -7,7 +7,7 @@ from rotemina.app.shell.language import marked
 from rotemina.plugins.identification.findings import Findings
 from rotemina.plugins.identification.frequency import frequency_findings
 from rotemina.plugins.identification.health_card import health_findings
-from rotemina.plugins.identification.hysteresis import loop_findings
+from rotemina.plugins.identification.hysteresis_loop import loop_findings
 from rotemina.plugins.identification.low_order_fit import model_findings
 from rotemina.plugins.identification.record_query import Question
 from rotemina.plugins.identification.staircase import step_findings

@@ -5,7 +5,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.microscope.click_run import Visit
+from rotemina.app.microscope.click_corrections import Visit
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate

@@ -6,7 +6,7 @@ import numpy as np
 
 from rotemina.app.microscope.calibration_file import StageCalibration
 from rotemina.app.microscope.calibration_run import CalibrationStatus, Phase
-from rotemina.app.microscope.click_run import Visit, VisitStatus
+from rotemina.app.microscope.click_corrections import Visit, VisitStatus
 from rotemina.app.microscope.focus_run import FocusStatus, Search
 from rotemina.app.microscope.status import (
     DriftSeen,

@@ -11,8 +11,8 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
+from rotemina.plugins.penetration.parameter_quantities import TypedError
 from rotemina.plugins.penetration.plan_preview import way_text
-from rotemina.plugins.penetration.quantities import TypedError
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.quantities import parsed, rounded
 from rotemina.sim.robot.model import AxisEffect, Robot

@@ -27,8 +27,13 @@ from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.wheel_safe import SteadyChoice
-from rotemina.plugins.penetration.parameter_fields import NumberField
-from rotemina.plugins.penetration.quantities import QUANTITIES, Group, TypedError, in_group
+from rotemina.plugins.penetration.form_fields import NumberField
+from rotemina.plugins.penetration.parameter_quantities import (
+    QUANTITIES,
+    Group,
+    TypedError,
+    in_group,
+)
 from rotemina.plugins.penetration.thrust_table_text import EXAMPLE, read_table, table_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import Robot

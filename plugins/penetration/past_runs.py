@@ -9,8 +9,8 @@ from rotemina.app.motion.penetration.parameters import BOUNDS
 from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.penetration.parameter_quantities import QUANTITIES
 from rotemina.plugins.penetration.plan_preview import UNKNOWN, speed_text, way_text
-from rotemina.plugins.penetration.quantities import QUANTITIES
 from rotemina.sim.quantities import fixed, rounded
 
 MOST = 50

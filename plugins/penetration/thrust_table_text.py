@@ -4,7 +4,7 @@ from itertools import pairwise
 
 from rotemina.app.motion.penetration.parameters import MOST_POINTS
 from rotemina.app.shell.language import translate
-from rotemina.plugins.penetration.quantities import TypedError
+from rotemina.plugins.penetration.parameter_quantities import TypedError
 from rotemina.sim.quantities import POINT, parsed
 
 Table = tuple[tuple[float, float], ...]

@@ -19,7 +19,7 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 from rotemina.sim.trajectory.dry_run import dry_run
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 from rotemina.sim.trajectory.trajectory_excesses import Quantity, Violation
 
 _PER_RESONANCE = 4.0  # rows in a period of the fastest resonance, at the default rate

@@ -1,7 +1,7 @@
 """A sampled PI or PID controller with notch, low-pass, feed-forward and limits.
 
-One recurrence (:func:`rotemina.sim.feedback.kernel.control`) serves the simulated loop, the live
-one, and the analysis of stability.
+One recurrence (:func:`rotemina.sim.feedback.controller_kernel.control`) serves the simulated loop,
+the live one, and the analysis of stability.
 """
 
 from math import exp, isfinite
@@ -9,7 +9,7 @@ from math import exp, isfinite
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray
-from rotemina.sim.feedback import kernel
+from rotemina.sim.feedback import controller_kernel
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.filters import THROUGH, Biquad, low_pass, notch
@@ -48,7 +48,7 @@ class Controller:
         #: Of the recurrence, and what it remembers, which it moves on.
         self.numbers = numbers_of(gains, interval_s, limits)
         self._limits = limits.low, limits.high
-        self.memory = np.zeros(kernel.MEMORY)
+        self.memory = np.zeros(controller_kernel.MEMORY)
         self.feed_forward = feed_forward or FeedForward()
         self.interval_s = interval_s
         #: What the integral added when it began, m or rad; for how many samples now the sensor has
@@ -71,14 +71,14 @@ class Controller:
         A reading that is farther from the reference is not answered at all.
         """
         low, high = self._limits
-        self.numbers[kernel.LOW] = max(low, self.output - most)
-        self.numbers[kernel.HIGH] = min(high, self.output + most)
-        self.numbers[kernel.BELIEVED] = most
+        self.numbers[controller_kernel.LOW] = max(low, self.output - most)
+        self.numbers[controller_kernel.HIGH] = min(high, self.output + most)
+        self.numbers[controller_kernel.BELIEVED] = most
 
     def lead(self) -> None:
         """Let the output go as far as the limits allow again."""
-        self.numbers[kernel.LOW], self.numbers[kernel.HIGH] = self._limits
-        self.numbers[kernel.BELIEVED] = _ANY
+        self.numbers[controller_kernel.LOW], self.numbers[controller_kernel.HIGH] = self._limits
+        self.numbers[controller_kernel.BELIEVED] = _ANY
 
     def step(self, reference: float, measured: float) -> float:
         """Return the output of this sample, m or rad, held until the next.
@@ -106,29 +106,29 @@ class Controller:
         """
         feed = self.feed_forward.step(reference)
         error = reference - measured
-        if not (abs(error) <= self.numbers[kernel.BELIEVED] and isfinite(feed)):
+        if not (abs(error) <= self.numbers[controller_kernel.BELIEVED] and isfinite(feed)):
             return self.output
-        return float(kernel.control(self.numbers, self.memory, error, feed))
+        return float(controller_kernel.control(self.numbers, self.memory, error, feed))
 
     @property
     def output(self) -> float:
         """The last output, m or rad."""
-        return float(self.memory[kernel.OUTPUT])
+        return float(self.memory[controller_kernel.OUTPUT])
 
     @property
     def limited(self) -> bool:
         """Whether a limit cut the last output off."""
-        return bool(self.memory[kernel.OUTPUT] != self.memory[kernel.ASKED])
+        return bool(self.memory[controller_kernel.OUTPUT] != self.memory[controller_kernel.ASKED])
 
     def within(self, output: FloatArray) -> BoolArray:
         """Return which outputs (n,) lie inside the limits, and not at them."""
-        low, high = self.numbers[kernel.LOW], self.numbers[kernel.HIGH]
+        low, high = self.numbers[controller_kernel.LOW], self.numbers[controller_kernel.HIGH]
         return np.asarray((output > low) & (output < high))
 
     @property
     def integral(self) -> float:
         """What the integral adds to the output, m or rad."""
-        return float(self.memory[kernel.INTEGRAL])
+        return float(self.memory[controller_kernel.INTEGRAL])
 
 
 def numbers_of(gains: Gains, interval_s: float, limits: OutputLimits) -> FloatArray:
@@ -140,20 +140,22 @@ def numbers_of(gains: Gains, interval_s: float, limits: OutputLimits) -> FloatAr
             )
         )
     pole = _pole(gains, interval_s)
-    numbers = np.zeros(kernel.NUMBERS)
-    numbers[kernel.P] = gains.proportional
-    numbers[kernel.I_STEP] = gains.integral * interval_s
-    numbers[kernel.J_STEP] = gains.double_integral * interval_s**2
-    numbers[kernel.D_STEP] = gains.derivative * (1.0 - pole) / interval_s
-    numbers[kernel.D_POLE] = pole
+    numbers = np.zeros(controller_kernel.NUMBERS)
+    numbers[controller_kernel.P] = gains.proportional
+    numbers[controller_kernel.I_STEP] = gains.integral * interval_s
+    numbers[controller_kernel.J_STEP] = gains.double_integral * interval_s**2
+    numbers[controller_kernel.D_STEP] = gains.derivative * (1.0 - pole) / interval_s
+    numbers[controller_kernel.D_POLE] = pole
     integrates = gains.integral > 0.0 or gains.double_integral > 0.0
-    numbers[kernel.BACK] = min(interval_s / gains.tracking_s, 1.0) if integrates else 0.0
-    numbers[kernel.CONDITIONAL] = gains.anti_windup is AntiWindup.CONDITIONAL
-    numbers[kernel.LOW], numbers[kernel.HIGH] = limits.low, limits.high
-    numbers[kernel.MOST] = limits.rate * interval_s
-    numbers[kernel.BELIEVED] = _ANY
+    numbers[controller_kernel.BACK] = min(interval_s / gains.tracking_s, 1.0) if integrates else 0.0
+    numbers[controller_kernel.CONDITIONAL] = gains.anti_windup is AntiWindup.CONDITIONAL
+    numbers[controller_kernel.LOW], numbers[controller_kernel.HIGH] = limits.low, limits.high
+    numbers[controller_kernel.MOST] = limits.rate * interval_s
+    numbers[controller_kernel.BELIEVED] = _ANY
     for place, biquad in zip(
-        (kernel.NOTCH, kernel.LOW_PASS), _filters(gains, interval_s), strict=True
+        (controller_kernel.NOTCH, controller_kernel.LOW_PASS),
+        _filters(gains, interval_s),
+        strict=True,
     ):
         numbers[place : place + len(biquad)] = biquad
     return numbers
@@ -161,10 +163,10 @@ def numbers_of(gains: Gains, interval_s: float, limits: OutputLimits) -> FloatAr
 
 def rested(numbers: FloatArray, feed: float, output: float) -> FloatArray:
     """Return the memory of a controller at rest, with ``output`` within its limits."""
-    state = np.zeros(kernel.MEMORY)
-    output = min(max(output, numbers[kernel.LOW]), numbers[kernel.HIGH])
-    state[kernel.INTEGRAL] = output - feed
-    state[kernel.OUTPUT] = state[kernel.ASKED] = output
+    state = np.zeros(controller_kernel.MEMORY)
+    output = min(max(output, numbers[controller_kernel.LOW]), numbers[controller_kernel.HIGH])
+    state[controller_kernel.INTEGRAL] = output - feed
+    state[controller_kernel.OUTPUT] = state[controller_kernel.ASKED] = output
     return state
 
 

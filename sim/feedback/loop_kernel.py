@@ -6,7 +6,7 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray, IntArray
-from rotemina.sim.feedback.kernel import ASKED, BELIEVED, OUTPUT, control
+from rotemina.sim.feedback.controller_kernel import ASKED, BELIEVED, OUTPUT, control
 from rotemina.sim.plant.kernel import Given, State, Steps, Taken, run
 from rotemina.sim.plant.plant_arrays import Machine
 

@@ -12,7 +12,7 @@ from math import degrees, inf, pi
 import numpy as np
 
 from rotemina.sim.arrays import ComplexArray, FloatArray
-from rotemina.sim.feedback import kernel
+from rotemina.sim.feedback import controller_kernel
 from rotemina.sim.feedback.controller import NO_LIMITS, numbers_of, response
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.gains import Gains
@@ -180,17 +180,17 @@ def controller_matrices(
     Found by running its recurrence once for each state and once for the input.
     """
     numbers = numbers_of(gains, interval_s, NO_LIMITS)
-    size = kernel.LINEAR
+    size = controller_kernel.LINEAR
     columns, outputs = np.zeros((size, size + 1)), np.zeros(size + 1)
     for column in range(size + 1):
-        memory = np.zeros(kernel.MEMORY)
+        memory = np.zeros(controller_kernel.MEMORY)
         memory[:size] = np.eye(1, size, column)[0]
-        outputs[column] = kernel.control(numbers, memory, float(column == size), 0.0)
+        outputs[column] = controller_kernel.control(numbers, memory, float(column == size), 0.0)
         columns[:, column] = memory[:size]
     # An integral that nothing is added to would stand as a pole at 1.
     kept = np.ones(size, dtype=np.bool_)
-    kept[kernel.INTEGRAL] = gains.integral > 0.0 or gains.double_integral > 0.0
-    kept[kernel.DRIFT] = gains.double_integral > 0.0
+    kept[controller_kernel.INTEGRAL] = gains.integral > 0.0 or gains.double_integral > 0.0
+    kept[controller_kernel.DRIFT] = gains.double_integral > 0.0
     matrix = columns[np.ix_(kept, np.append(kept, False))]
     return matrix, columns[kept, size], outputs[:size][kept], float(outputs[size])
 

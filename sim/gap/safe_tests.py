@@ -22,7 +22,7 @@ from rotemina.sim.quantities import rounded
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import KeepOut, Robot, StepperAxis
 from rotemina.sim.trajectory.dry_run import mode_of
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S
+from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
 LONGEST_S = 25.0
 RICH = message("gap", "decaying triangle")  # the test of many amplitudes and speeds

@@ -18,8 +18,12 @@ from rotemina.sim.trajectory.axis_limits import (
     voltage_bounds,
 )
 from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
-from rotemina.sim.trajectory.kinematics import SETPOINT_PERIOD_S, accelerations, jump_speeds
 from rotemina.sim.trajectory.prediction import TrackingError, predict
+from rotemina.sim.trajectory.speed_and_acceleration import (
+    SETPOINT_PERIOD_S,
+    accelerations,
+    jump_speeds,
+)
 from rotemina.sim.trajectory.trajectory_excesses import Violation, find_violations
 
 

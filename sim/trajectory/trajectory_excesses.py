@@ -1,7 +1,7 @@
 """What a whole trajectory exceeds: range, voltage, speed and acceleration of each axis.
 
 A trajectory is judged as a device plays it, holding each row until the next
-(:mod:`rotemina.sim.trajectory.kinematics`).
+(:mod:`rotemina.sim.trajectory.speed_and_acceleration`).
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ from rotemina.sim.trajectory.axis_limits import (
     voltage_bounds,
     voltage_slack,
 )
-from rotemina.sim.trajectory.kinematics import (
+from rotemina.sim.trajectory.speed_and_acceleration import (
     SETPOINT_PERIOD_S,
     accelerations,
     held_rows,

@@ -23,7 +23,7 @@ from rotemina.app.motion.teleoperation.intent import Action, Intent
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.teleoperation_loop import Teleoperator
 from rotemina.drivers.clock import VirtualClock
-from rotemina.drivers.inputs.hid.source import HidSource
+from rotemina.drivers.inputs.hid.hid_discovery import HidSource
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.mc68hc11.framing import Decoder
 from rotemina.drivers.mc68hc11.host_messages import MoveVelocity

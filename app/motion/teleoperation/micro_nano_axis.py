@@ -19,7 +19,7 @@ import scipy
 
 from rotemina.app.motion.teleoperation.frames import Coordinate, Values
 from rotemina.app.motion.teleoperation.reference import Bounds
-from rotemina.app.motion.teleoperation.tip_frames import TIP, Anchor, ChainFrame, reserve_of
+from rotemina.app.motion.teleoperation.tip_pivot_modes import TIP, Anchor, ChainFrame, reserve_of
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.chain import JOINTS, NANO, Chain
 from rotemina.sim.kinematics.forward import tip_from_pivot, tip_jacobian

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from rotemina.app.motion.teleoperation.frames import AxesFrame, Frame, FrameError, Values
 from rotemina.app.motion.teleoperation.micro_nano_axis import HybridFrame
-from rotemina.app.motion.teleoperation.tip_frames import FineFrame, PivotFrame
+from rotemina.app.motion.teleoperation.tip_pivot_modes import FineFrame, PivotFrame
 from rotemina.sim.kinematics.chain import Chain, ChainError
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot

@@ -18,7 +18,7 @@ from rotemina.app.microscope.calibration_file import (
     View,
 )
 from rotemina.app.microscope.calibration_run import CalibrationRun, Phase
-from rotemina.app.microscope.click_run import Visit
+from rotemina.app.microscope.click_corrections import Visit
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import TipState
 from rotemina.app.motion.session import MotionSession

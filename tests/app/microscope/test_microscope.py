@@ -8,7 +8,7 @@ import pytest
 
 from rotemina.app.microscope.calibration_run import Phase
 from rotemina.app.microscope.camera_in_use import CameraInUse
-from rotemina.app.microscope.click_run import Visit
+from rotemina.app.microscope.click_corrections import Visit
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import Search
 from rotemina.app.microscope.recorded_reference import recorded_reference

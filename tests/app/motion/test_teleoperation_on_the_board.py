@@ -23,7 +23,7 @@ from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Faulted, Phase, PlaybackFinished
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.scales import LawKind
-from rotemina.drivers.inputs.hid.source import HidSource
+from rotemina.drivers.inputs.hid.hid_discovery import HidSource
 from rotemina.drivers.mc68hc11.driver import MC68HC11
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.record import Tap

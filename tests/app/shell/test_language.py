@@ -18,7 +18,7 @@ from rotemina.app.shell.help_topics import explained
 from rotemina.app.shell.language import SETTING, chosen, translate
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.errors import DriverError
-from rotemina.drivers.gcode.reports import Alarm
+from rotemina.drivers.gcode.grbl_reports import Alarm
 from rotemina.drivers.registry import driver_named
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.document_reader import read_document

@@ -4,7 +4,7 @@ from collections import deque
 
 import pytest
 
-from rotemina.drivers.inputs.hid.source import HidSource
+from rotemina.drivers.inputs.hid.hid_discovery import HidSource
 
 
 def described(text):

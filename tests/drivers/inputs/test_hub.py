@@ -9,7 +9,7 @@ from rotemina.drivers import registry
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs import hub as hub_module
 from rotemina.drivers.inputs.device import InputIdentity, InputLostError, InputSource
-from rotemina.drivers.inputs.hid.source import HidSource
+from rotemina.drivers.inputs.hid.hid_discovery import HidSource
 from rotemina.drivers.inputs.hub import Changes, InputHub
 from rotemina.drivers.inputs.pad import Pad
 
@@ -203,7 +203,7 @@ def installed(monkeypatch):
     return install
 
 
-HID = "rotemina.drivers.inputs.hid.source:HidSource"
+HID = "rotemina.drivers.inputs.hid.hid_discovery:HidSource"
 
 
 def test_installed_sources_are_made_with_the_clock(installed, pad, clock):

@@ -10,6 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
+from rotemina.app.shell.first_steps import FirstSteps
 from rotemina.app.shell.workbench import Run
 from rotemina.plugins.gap import answer_exports
 from rotemina.plugins.gap.diagnosing import StoppedError, said
@@ -125,13 +126,17 @@ def test_diagnose_without_records_asks_for_files_and_goes_on(
     panel.end()
 
 
-def test_diagnose_among_the_first_steps_is_one_click(window, panel, stepwise, record):
+def test_diagnose_among_the_first_steps_is_one_click(qtbot, panel, stepwise, record):
     bench = panel.workbench
     bench.run_changed.emit(Run("played", compare(bench.robot, record)))
+    card = FirstSteps(bench)
+    qtbot.addWidget(card)
     for _ in range(2):  # the second finds one that runs
-        window.first_steps.diagnose.click()
-        assert len(stepwise.calls) == 1
+        card.diagnose.click()
+        assert panel.diagnosing.running
+    qtbot.waitUntil(lambda: bool(stepwise.calls), timeout=LONG_MS)
     panel.end()
+    assert len(stepwise.calls) == 1
 
 
 def test_the_last_playback_is_taken_until_something_else_is_chosen(panel, record):

@@ -5,7 +5,7 @@ import pytest
 
 from rotemina.plugins.identification.findings import answered
 from rotemina.plugins.identification.frequency import frequency_findings
-from rotemina.plugins.identification.hysteresis import loop_findings
+from rotemina.plugins.identification.hysteresis_loop import loop_findings
 from rotemina.plugins.identification.low_order_fit import model_findings
 from rotemina.plugins.identification.staircase import step_findings
 from rotemina.plugins.identification.views import LOOKS, View

@@ -11,7 +11,7 @@ from rotemina.app.microscope.calibration_file import (
     StageCalibration,
     View,
 )
-from rotemina.app.microscope.click_to_move import PlannedMove
+from rotemina.app.microscope.click_target import PlannedMove
 from rotemina.app.microscope.status import MicroscopeStatus, ScaleSource
 from rotemina.drivers.cameras.camera import CameraIdentity
 from rotemina.drivers.cameras.frame import Frame, Region

@@ -8,7 +8,7 @@ import tifffile
 from PySide6.QtCore import QPointF, Qt
 
 from rotemina.app.cameras.feed import FeedState
-from rotemina.app.microscope.click_run import Visit
+from rotemina.app.microscope.click_corrections import Visit
 from rotemina.app.microscope.status import Activity, ScaleSource, TipState
 from rotemina.plugins.microscope.picture_view import PointerTool
 from rotemina.sim.kinematics.chain import Chain

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.cameras.feed import FeedState
-from rotemina.app.microscope.click_run import Visit
-from rotemina.app.microscope.click_to_move import PlannedMove
+from rotemina.app.microscope.click_corrections import Visit
+from rotemina.app.microscope.click_target import PlannedMove
 from rotemina.app.microscope.status import (
     CellSeen,
     Measured,

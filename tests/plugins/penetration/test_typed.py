@@ -5,7 +5,12 @@ from dataclasses import fields
 import pytest
 
 from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParameters
-from rotemina.plugins.penetration.quantities import QUANTITIES, Group, TypedError, in_group
+from rotemina.plugins.penetration.parameter_quantities import (
+    QUANTITIES,
+    Group,
+    TypedError,
+    in_group,
+)
 from rotemina.plugins.penetration.thrust_table_text import EXAMPLE, read_table, table_text
 
 CHOICES = {"axis", "direction", "shape", "shaping", "table"}

@@ -8,9 +8,9 @@ import pytest
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.resampling import resample
 from rotemina.sim.robot.file import load_robot
-from rotemina.sim.trajectory import kinematics
+from rotemina.sim.trajectory import speed_and_acceleration
 from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
-from rotemina.sim.trajectory.kinematics import window_rows
+from rotemina.sim.trajectory.speed_and_acceleration import window_rows
 from rotemina.sim.trajectory.trajectory_excesses import (
     Quantity,
     TrajectoryError,
@@ -193,7 +193,7 @@ def test_a_long_trajectory_is_judged_piece_by_piece_as_a_whole(monkeypatch, rate
     rng = np.random.default_rng(3)
     record = trajectory("x", 0.02 + 1e-5 * rng.standard_normal(2000).cumsum(), rate_hz=rate_hz)
     whole = find_violations(ROBOT, record)
-    monkeypatch.setattr(kinematics, "_BLOCK", 400)
+    monkeypatch.setattr(speed_and_acceleration, "_BLOCK", 400)
     assert find_violations(ROBOT, record) == whole
     assert whole
 

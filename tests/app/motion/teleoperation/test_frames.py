@@ -11,7 +11,7 @@ from rotemina.app.motion.teleoperation.frames import FrameError
 from rotemina.app.motion.teleoperation.linear_rate import LinearRate
 from rotemina.app.motion.teleoperation.micro_nano_axis import HybridFrame, Saturation
 from rotemina.app.motion.teleoperation.modes import Modes
-from rotemina.app.motion.teleoperation.tip_frames import FineFrame, PivotFrame
+from rotemina.app.motion.teleoperation.tip_pivot_modes import FineFrame, PivotFrame
 from rotemina.sim.kinematics.chain import JOINTS, Chain
 from rotemina.sim.kinematics.forward import tip_position
 from rotemina.sim.robot.file import load_robot

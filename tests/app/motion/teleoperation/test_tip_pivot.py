@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from rotemina.app.motion.teleoperation import tip_frames
+from rotemina.app.motion.teleoperation import tip_pivot_modes
 from rotemina.app.motion.teleoperation.linear_rate import LinearRate
-from rotemina.app.motion.teleoperation.tip_frames import PivotFrame
+from rotemina.app.motion.teleoperation.tip_pivot_modes import PivotFrame
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.virtual_board.axis_drive import AxisDrive
 from rotemina.sim.kinematics.chain import JOINTS, Chain
@@ -113,5 +113,5 @@ def test_one_tilt_alone_strays_less():
 
 def test_faster_the_true_tip_would_stray_farther(monkeypatch):
     """At 11 µm/s a table steps at the rate at which it rings."""
-    monkeypatch.setattr(tip_frames, "PIVOT_TABLE_SPEED", 11e-6)
+    monkeypatch.setattr(tip_pivot_modes, "PIVOT_TABLE_SPEED", 11e-6)
     assert strayed(1.0, True, -6) > 200e-9

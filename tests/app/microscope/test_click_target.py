@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.microscope.calibration_file import MICRO, NANO
-from rotemina.app.microscope.click_run import ClickRun, Visit
-from rotemina.app.microscope.click_to_move import ClickToMove
+from rotemina.app.microscope.click_corrections import ClickRun, Visit
+from rotemina.app.microscope.click_target import ClickToMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.targets import TargetSequence
 from rotemina.app.motion.mailbox import RefusedError

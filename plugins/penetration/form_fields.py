@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QLabel, QLineEdit
 
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.widgets.controls import plain_tip, set_property
-from rotemina.plugins.penetration.quantities import Quantity, TypedError
+from rotemina.plugins.penetration.parameter_quantities import Quantity, TypedError
 
 
 class NumberField(QObject):

@@ -8,8 +8,8 @@ import pytest
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.device import InputLostError
 from rotemina.drivers.inputs.hid import hidapi as border
+from rotemina.drivers.inputs.hid.hid_discovery import HidSource, port_of
 from rotemina.drivers.inputs.hid.items import DescriptorError
-from rotemina.drivers.inputs.hid.source import HidSource, port_of
 
 STICK = b"/dev/hidraw0"
 

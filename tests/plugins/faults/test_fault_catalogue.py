@@ -4,7 +4,7 @@ import pytest
 
 from rotemina.drivers.virtual_board.boards import VirtualBoards
 from rotemina.drivers.virtual_board.fault_injection import inject
-from rotemina.plugins.faults.fault_commands import Number, Pick, faults
+from rotemina.plugins.faults.fault_catalogue import Number, Pick, faults
 from rotemina.sim.robot.file import load_robot
 
 ROBOT = load_robot("rotemina")

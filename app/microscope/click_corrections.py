@@ -6,7 +6,7 @@ from enum import StrEnum
 import numpy as np
 
 from rotemina.app.microscope.calibration_file import NANO
-from rotemina.app.microscope.click_to_move import ClickToMove, PlannedMove
+from rotemina.app.microscope.click_target import ClickToMove, PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.settled_frame import Newest, SettledFrame, SettledFrameGrabber
 from rotemina.drivers.gate import Permit

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from rotemina.app.panel import Panel
 from rotemina.drivers.cameras.sequence import ImageSequences
-from rotemina.drivers.inputs.hid.source import HidSource
+from rotemina.drivers.inputs.hid.hid_discovery import HidSource
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.effects.delay import DELAY
 
