@@ -10,7 +10,7 @@ import numpy as np
 
 from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.model_deviation import DeviationWatch, Excess, Gap
+from rotemina.app.motion.model_deviation_watch import DeviationWatch, Excess, Gap
 from rotemina.app.motion.retiming import Piece, check_speed, piece
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged

@@ -10,7 +10,7 @@ from PySide6.QtCore import QTimer, Signal
 
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.motion.compared_run import Run, compared, compared_again
-from rotemina.app.motion.model_deviation import Excess
+from rotemina.app.motion.model_deviation_watch import Excess
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.ownership import OPERATOR

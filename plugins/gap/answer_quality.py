@@ -4,7 +4,7 @@ from enum import StrEnum
 
 from rotemina.app.shell.language import translate
 from rotemina.plugins.gap.diagnosis_answer import Answer
-from rotemina.plugins.gap.unseen_motion_result import Shrunk
+from rotemina.plugins.gap.unseen_motion_reduction import Shrunk
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.records.record import Tap
 

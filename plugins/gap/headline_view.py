@@ -11,7 +11,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.plugins.gap.answer_quality import TONES, Tone, change, why_worse
 from rotemina.plugins.gap.diagnosis_answer import Answer
-from rotemina.plugins.gap.unseen_motion_result import Proof
+from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.words import VERDICTS
 from rotemina.sim.gap.wording import details, findings
 

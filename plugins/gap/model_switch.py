@@ -10,7 +10,7 @@ from rotemina.app.motion.model_in_use import CONTACT_LIKE, NOTED, ModelInUse
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.gap.diagnosis_answer import Answer
-from rotemina.plugins.gap.unseen_motion_result import Proof
+from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.words import all_of, effect_word
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Tap

@@ -27,7 +27,7 @@ from rotemina.plugins.gap.records import Records
 from rotemina.plugins.gap.result_section import ResultSection, unfound
 from rotemina.plugins.gap.start_section import StartSection
 from rotemina.plugins.gap.unseen_motion import UnseenMotion
-from rotemina.plugins.gap.unseen_motion_result import Proof
+from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.words import stage_name
 
 _HEIGHT = 240

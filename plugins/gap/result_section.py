@@ -23,7 +23,7 @@ from rotemina.plugins.gap.distribution_view import DistributionView
 from rotemina.plugins.gap.headline_view import Headline
 from rotemina.plugins.gap.progress_view import ProgressView
 from rotemina.plugins.gap.shrinkage_view import ShrinkageView
-from rotemina.plugins.gap.unseen_motion_result import Proof
+from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.unseen_motion_view import ProofView
 from rotemina.plugins.gap.verdict_advice import readiness
 

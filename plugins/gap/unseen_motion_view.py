@@ -12,7 +12,7 @@ from rotemina.app.widgets.labels import hint
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.answer_quality import change
 from rotemina.plugins.gap.trace_view import TraceView
-from rotemina.plugins.gap.unseen_motion_result import SAME, Proof, Shrunk
+from rotemina.plugins.gap.unseen_motion_reduction import SAME, Proof, Shrunk
 from rotemina.plugins.gap.verdict_advice import NO_PROOF
 from rotemina.sim.comparison.gap import gap_text
 from rotemina.sim.quantities import rounded

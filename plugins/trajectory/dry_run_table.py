@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from rotemina.app.motion.model_deviation import Gap
+from rotemina.app.motion.model_deviation_watch import Gap
 from rotemina.app.shell.language import marked, translate
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import Scale, fixed, parsed, scale_in, scale_of

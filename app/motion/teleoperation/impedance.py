@@ -3,7 +3,7 @@
     F = z φ,      M ẍ + D ẋ + K (x − x0) = F + R
 
 (the paper's F_i = z_i φ_j,i), with R what a contact is felt by
-(:mod:`rotemina.app.motion.teleoperation.contact_force`).
+(:mod:`rotemina.app.motion.teleoperation.force_feedback`).
 
 **Passivity.** With E = M v²/2 + K (x − x0)²/2, exactly E' − E + losses = (F + R)(x' − x) in each
 step. Bounds of speed and range only take energy. A bound of acceleration could give some: it makes
@@ -11,7 +11,7 @@ the mechanism brake later than it would by itself. So M must be great enough tha
 forces reaches it; coarser scales are cut to the force at which that holds.
 """
 
-from rotemina.app.motion.teleoperation.contact_force import Contact
+from rotemina.app.motion.teleoperation.force_feedback import Contact
 from rotemina.app.motion.teleoperation.reference import Bounds, Motion, ScalingError
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance

@@ -15,7 +15,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from rotemina.app.motion.teleoperation.contact_force import Contact
+from rotemina.app.motion.teleoperation.force_feedback import Contact
 from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.linear_position import LinearPosition

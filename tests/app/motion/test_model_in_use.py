@@ -10,7 +10,7 @@ from rotemina.app.motion.command_memory import CommandMemory
 from rotemina.app.motion.live_model import LiveModel
 from rotemina.app.motion.live_models import PreparedModel
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.model_deviation import DeviationWatch
+from rotemina.app.motion.model_deviation_watch import DeviationWatch
 from rotemina.app.motion.model_in_use import Machine, ModelError, ModelInUse
 from rotemina.app.motion.playback import Playback
 from rotemina.app.motion.recording.recording_reader import Recording

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication
 from rotemina.app.shell.theme import DARK
 from rotemina.app.shell.workbench import Run
 from rotemina.plugins.gap.records import Records
-from rotemina.plugins.gap.unseen_motion_result import Proof, prove
+from rotemina.plugins.gap.unseen_motion_reduction import Proof, prove
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.comparison.gap import gap_text
 from rotemina.sim.records.record import Record, Tap

@@ -18,7 +18,7 @@ from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.diagnosis_process import DiagnosisProcess
 from rotemina.plugins.gap.distribution_view import warmth
 from rotemina.plugins.gap.ranking_view import name_of
-from rotemina.plugins.gap.unseen_motion_result import new_motion
+from rotemina.plugins.gap.unseen_motion_reduction import new_motion
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Experiment
 from rotemina.sim.gap.diagnosis_progress import Progress

@@ -12,7 +12,7 @@ from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.heat_cell import parts
 from rotemina.plugins.gap.requested_motion import told
-from rotemina.plugins.gap.unseen_motion_result import Shrunk, new_motion, prove
+from rotemina.plugins.gap.unseen_motion_reduction import Shrunk, new_motion, prove
 from rotemina.plugins.gap.verdict_advice import advice, readiness
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Verdict

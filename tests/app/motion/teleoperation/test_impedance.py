@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from rotemina.app.motion.teleoperation.contact_force import Contact
+from rotemina.app.motion.teleoperation.force_feedback import Contact
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.reference import Bounds, ScalingError
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance

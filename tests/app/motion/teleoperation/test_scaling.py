@@ -6,7 +6,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from rotemina.app.motion.teleoperation.contact_force import Contact
+from rotemina.app.motion.teleoperation.force_feedback import Contact
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.linear_position import LinearPosition
 from rotemina.app.motion.teleoperation.linear_rate import LinearRate

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotemina.app.motion.model_deviation import DeviationWatch
+from rotemina.app.motion.model_deviation_watch import DeviationWatch
 from rotemina.drivers.samples import Samples
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.file import load_robot
