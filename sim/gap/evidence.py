@@ -5,6 +5,7 @@ The constant part of a difference is not evidence: the offset of a record is a n
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -197,6 +198,9 @@ class Evidence:
                 floor = observation.floor[tap]
                 gap, *memory = (self._without_nuisance(number, tap, x / floor) for x in apart)
                 gap = beside(memory, gap)
+                if tap is Tap.U and not self._by_force:
+                    own = partial(self._without_nuisance, number, tap)
+                    gap = within_a_row(gap, answer[tap] / floor, own)
                 if tap in observation.cell:
                     half = 0.5 * observation.cell[tap] / floor
                     gap = beyond(gap, half, observation.kept.get(tap))
@@ -220,14 +224,19 @@ class Evidence:
             gap = gap * weight
         return np.asarray(gap - basis @ (basis.T @ gap) + self._constant(tap, gap))
 
+    @property
+    def _by_force(self) -> bool:
+        """Whether the axis is moved by a force, which its controller computes from a reading."""
+        return isinstance(self.robot.axes[self.axis], ForceAxis)
+
     def _constant(self, tap: Tap, gap: FloatArray) -> float:
         """Return how much of a constant gap is held against the model after all.
 
         At the effort of a controller it is no offset of a sensor but a constant force. Friction
         that differs by direction could play its part, but is not to where nothing speaks for it.
         """
-        by_force = tap is Tap.U and isinstance(self.robot.axes[self.axis], ForceAxis)
-        return _CONSTANT_FORCE * float(gap.mean()) if by_force else 0.0
+        of_force = tap is Tap.U and self._by_force
+        return _CONSTANT_FORCE * float(gap.mean()) if of_force else 0.0
 
     def response(
         self, effects: Sequence[AxisEffect] = (), only: Sequence[int] | None = None
@@ -317,12 +326,13 @@ class Evidence:
         """Return real minus model of each record and tap, without its mean, over the floor."""
         gaps: list[Signals] = []
         for observation, answer in zip(self.observations, self.response(effects), strict=True):
-            gaps.append(
-                {
-                    tap: _centred(real - answer[tap]) / observation.floor[tap]
-                    for tap, real in observation.real.items()
-                }
-            )
+            found = {}
+            for tap, real in observation.real.items():
+                floor = observation.floor[tap]
+                found[tap] = _centred(real - answer[tap]) / floor
+                if tap is Tap.U and not self._by_force:
+                    found[tap] = within_a_row(found[tap], answer[tap] / floor, _centred)
+            gaps.append(found)
         return gaps
 
     def _run(self, number: int, plant: Plant) -> Run:
@@ -380,6 +390,24 @@ def _amounts(signals: Sequence[FloatArray], gap: FloatArray) -> FloatArray:
     known = np.vstack([np.stack(signals, axis=1), np.eye(len(signals))])
     q, r = np.linalg.qr(known)
     return np.asarray(np.linalg.solve(r, q[: len(gap)].T @ gap))
+
+
+def within_a_row(
+    gap: FloatArray, answer: FloatArray, own: Callable[[FloatArray], FloatArray]
+) -> FloatArray:
+    """Return the gap (n,) of an amplifier's output that is read up to a row earlier or later.
+
+    A command makes the output leap as a row begins, and whether a recorder reads it just before,
+    just after or on the way tells nothing of the machine. ``answer`` (n,) is the model's output;
+    ``own`` takes what is the record's own out of a signal. All in floors.
+    """
+    read = [gap]
+    for moved in (np.diff(answer, append=answer[-1:]), -np.diff(answer, prepend=answer[:1])):
+        one = own(moved)
+        size = float(one @ one)
+        if size > 0.0:
+            read.append(gap - min(max(float(one @ gap) / size, 0.0), 1.0) * one)
+    return min(read, key=lambda left: float(left @ left))
 
 
 def _own_signals(
