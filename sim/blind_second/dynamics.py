@@ -79,7 +79,7 @@ def _force(row: FloatArray, q: float, v: float, bristle: FloatArray, step_s: flo
     """Return the force of one effect on an axis.
 
     Friction after Bliman and Sorine (1995): two bristles of opposite sign whose strain decays with
-    the distance gone; contact: a softly met cubic spring; stiffening: a hyperbolic sine.
+    the distance gone; contact: a softly met quadratic spring; stiffening: a hyperbolic sine.
     """
     kind = row[0]
     if kind == FRICTION:

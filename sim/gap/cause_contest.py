@@ -55,22 +55,28 @@ def contested(
     aside: Mapping[Tap, float],
     *,
     wanders: bool,
+    disturbed: bool,
 ) -> tuple[Explanation, Ranking]:
     """Return the explanation by the causes that stand, and the rivals of each.
 
     A rival that does about as well with fewer parameters takes a cause's place. A cause in whose
     place several others would do as well is none, as it stands for what the rest leaves; nor is
     one that closes little where the sensor ``wanders``. ``aside`` is the power at each tap, in its
-    floors squared, of what was set aside: a cause beside it closes a share of the whole.
+    floors squared, of what was set aside: beside more than the gap, a cause closes a share of the
+    whole. ``disturbed`` tells that a disturbance is a cause, beside which any other is a further.
     """
     best, ranked = _with_the_likeliest(evidence, selection, best)
     unsure = wanders or max(aside.values(), default=0.0) > selection.raw
+    beside_others = unsure or disturbed
     # What nothing that was found explains: one that does not stand may still take a part of it.
     more = [one for one in selection.tried if set(one.ids) >= set(best.ids)]
     fullest = min([best, *more], key=lambda one: one.score).by_tap
-    remains = {tap: max(left - 1.0, 0.0) + aside.get(tap, 0.0) for tap, left in fullest.items()}
+    remains = {
+        tap: max(left - 1.0, 0.0) + (aside.get(tap, 0.0) if unsure else 0.0)
+        for tap, left in fullest.items()
+    }
     once: set[Key] = set()  # a re-tuned parameter may come back in what the others leave
-    while len(best.causes) > 1 or (best.causes and unsure):
+    while len(best.causes) > 1 or (best.causes and beside_others):
         doubted = {
             key: weight
             for key in best.ids

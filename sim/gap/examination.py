@@ -96,7 +96,14 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     drift = wander(evidence, best.fit.residual)
     disturbances = _counting(whole, plain, shown(best), aside, drift)
     found, aside_at = best, _aside_at(whole, evidence, disturbances)
-    best, ranked = contested(evidence, selection, best, aside_at, wanders=drift is not None)
+    best, ranked = contested(
+        evidence,
+        selection,
+        best,
+        aside_at,
+        wanders=drift is not None,
+        disturbed=bool(disturbances),
+    )
     if best is not found:
         # What a cause that does not stand had bent away of it is the sensor's wander as well.
         drift = wander(evidence, best.fit.residual) or drift

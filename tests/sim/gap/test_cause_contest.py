@@ -65,7 +65,7 @@ def test_a_doubted_cause_that_comes_back_in_what_is_left_ends_the_contest(monkey
     monkeypatch.setattr(cause_contest, "_doubt", lambda *_: 0.2)
     monkeypatch.setattr(cause_contest, "_with_only", lambda *_: next(returns))
     best, _ = cause_contest.contested(
-        None, SimpleNamespace(raw=9.0, tried=()), whole, {}, wanders=False
+        None, SimpleNamespace(raw=9.0, tried=()), whole, {}, wanders=False, disturbed=False
     )
     assert best is whole  # which has come back once, and would for ever
 
@@ -89,7 +89,7 @@ def test_of_two_that_are_doubted_the_less_likely_one_goes_first(monkeypatch):
     monkeypatch.setattr(cause_contest, "_doubt", lambda *asked: weights[asked[4]])
     monkeypatch.setattr(cause_contest, "_with_only", with_only)
     best, _ = cause_contest.contested(
-        None, SimpleNamespace(raw=9.0, tried=()), both, {}, wanders=False
+        None, SimpleNamespace(raw=9.0, tried=()), both, {}, wanders=False, disturbed=False
     )
     assert best.ids == keys[1:]
 
