@@ -21,7 +21,7 @@ def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
 LEADSCREW_ERROR = Effect(
     id="leadscrew_error",
     title="Lead screw error",
-    summary="Periodic in position, once a turn: its frequency grows with speed.",
+    summary="Periodic in position, once per turn: its frequency grows with speed.",
     stage=Stage.MECHANICS,
     kinds=frozenset({"stepper", "force"}),
     identification=Identification(

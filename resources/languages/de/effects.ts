@@ -272,7 +272,7 @@
         <translation>Spindelfehler</translation>
     </message>
     <message>
-        <source>Periodic in position, once a turn: its frequency grows with speed.</source>
+        <source>Periodic in position, once per turn: its frequency grows with speed.</source>
         <translation>Periodisch in der Position, einmal je Umdrehung: die Frequenz wächst mit der Geschwindigkeit.</translation>
     </message>
     <message>
