@@ -235,7 +235,7 @@ def test_frames_and_lateness():
         f"{FRAMES:.0f}); load of the machine {found['load_before']} to {found['load_after']}"
     )
     print(f"with the 3-D view: {found['beside_3d']} (limit {FRAMES_BESIDE_3D:.0f})")
-    for lasted_s, calls in used["stalls"]:
+    for lasted_s, calls in sorted(used["stalls"], reverse=True)[:5]:
         print(f"  {lasted_s} s in", *calls, sep="\n  ")
 
 

@@ -19,7 +19,11 @@ HEAD = """# Benchmarks
 
 `make bench` writes this page: nothing in it was copied by hand. What is not in it was not among the
 benchmarks of that run. A range in brackets is the spread over the repetitions beside it; a limit is
-what the benchmark demands.
+what the benchmark demands. Run one file of them on an idle machine:
+
+<!-- not run: a measurement -->
+
+    .venv/bin/pytest -s --override-ini python_files='bench_*.py' tests/benchmarks/bench_boards.py
 
 | | |
 |---|---|
