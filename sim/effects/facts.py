@@ -41,6 +41,8 @@ class Facts:
         A force (N, or N m) that the axis notices.
     pitch, full_step : float
         Of the screw.
+    has_pitch : bool
+        Whether the robot file declares the pitch.
     noise : float
         Declared noise floor of the sensor; a hundred-thousandth of the range without.
     """
@@ -64,6 +66,7 @@ class Facts:
     force: float
     pitch: float
     full_step: float
+    has_pitch: bool
     noise: float
 
     @property
@@ -82,7 +85,7 @@ class Facts:
         rate = sqrt(stiffness / mass) if mass > 0.0 else 0.0
         pitch = axis.pitch if isinstance(axis, StepperAxis) else None
         steps = axis.steps_per_rev if isinstance(axis, StepperAxis) else None
-        pitch = pitch or (high - low) / _PITCHES
+        declared, pitch = pitch is not None, pitch or (high - low) / _PITCHES
         return cls(
             kind=axis.kind,
             unit=axis.unit or "m",
@@ -103,6 +106,7 @@ class Facts:
             force=_force(axis, stiffness, inputs),
             pitch=pitch,
             full_step=pitch / (steps or _STEPS_PER_PITCH),
+            has_pitch=declared,
             noise=(axis.sensor.noise_floor if axis.sensor else 0.0) or _NOISE_SHARE * (high - low),
         )
 

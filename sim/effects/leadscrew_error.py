@@ -1,5 +1,6 @@
 """Error of the lead screw: the table runs ahead and behind once a turn."""
 
+from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     Effect,
     Formulation,
@@ -9,13 +10,26 @@ from rotemina.sim.effects.formulation import (
     Trait,
 )
 from rotemina.sim.effects.harmonics import from_mid_range, moved, two_harmonics
-from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.identification import Extent, Identification, Interval, Values
 from rotemina.sim.effects.kinship import Family, Kinship
 from rotemina.sim.effects.starts import periods
+
+_SLACK = 0.02  # of a period, by which it may differ from a turn, or a whole fraction of one
 
 
 def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
     return Parameter(name, meaning, "q", -0.02, 0.02, typical, per="pitch", linear=True)
+
+
+def _of_a_turn(values: Values, facts: Facts, bounds: Interval, extent: Extent) -> Interval:
+    """Return periods near a turn, or the whole fraction of one, where a robot file names the pitch.
+
+    What repeats otherwise along the way is not the screw's.
+    """
+    if not facts.has_pitch:
+        return bounds
+    nearest = facts.pitch / max(round(facts.pitch / values["period"]), 1)
+    return nearest * (1.0 - _SLACK), nearest * (1.0 + _SLACK)
 
 
 LEADSCREW_ERROR = Effect(
@@ -25,7 +39,9 @@ LEADSCREW_ERROR = Effect(
     stage=Stage.MECHANICS,
     kinds=frozenset({"stepper", "force"}),
     identification=Identification(
-        starts=periods(1.0), moved=moved(("sine", "cosine"), ("sine_2", "cosine_2"))
+        starts=periods(1.0),
+        domain={"period": _of_a_turn},
+        moved=moved(("sine", "cosine"), ("sine_2", "cosine_2")),
     ),
     kinship=Kinship(family=Family.PERIOD),
     formulations=(

@@ -94,6 +94,23 @@ def test_of_two_that_are_doubted_the_less_likely_one_goes_first(monkeypatch):
     assert best.ids == keys[1:]
 
 
+@pytest.mark.parametrize("disturbed", [False, True])
+def test_beside_a_disturbance_a_single_cause_is_one_of_several(monkeypatch, disturbed):
+    curve = AxisEffect(axis="z", id="static_nonlinearity")
+    alone = SimpleNamespace(causes=(curve,), ids=((curve.id, None),), by_tap={}, score=1.0)
+    rival = SimpleNamespace(effect=curve.id, from_axis=None, probability=1.0)
+    nothing = SimpleNamespace(causes=(), ids=())
+    monkeypatch.setattr(
+        cause_contest, "rivals_of", lambda _e, _s, best: dict.fromkeys(best.ids, (rival,))
+    )
+    monkeypatch.setattr(cause_contest, "_doubt", lambda *_: 0.2)
+    monkeypatch.setattr(cause_contest, "_with_only", lambda *_: nothing)
+    best, _ = cause_contest.contested(
+        None, SimpleNamespace(raw=9.0, tried=()), alone, {}, wanders=False, disturbed=disturbed
+    )
+    assert best is (nothing if disturbed else alone)
+
+
 @pytest.mark.parametrize("off", [-0.03, -0.18])
 def test_a_load_that_rings_as_slow_as_a_retuned_resonance(off):
     robot = load_robot("rotemina")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.evidence import beside
+from rotemina.sim.gap.evidence import beside, within_a_row
 
 sys.path.insert(0, str(Path(__file__).parent))  # no test module: the records
 from short_records import LATE, evidence
@@ -39,3 +39,22 @@ def test_evidence_is_sent_without_its_caches_and_listeners():
     assert sent.heartbeat is not seen.heartbeat
     assert not sent._runs
     np.testing.assert_allclose(sent.residual(), residual)
+
+
+def centred(signal):
+    return signal - signal.mean()
+
+
+@pytest.mark.parametrize("rows", [-1.0, -0.4, 0.0, 0.7, 1.0])
+def test_when_within_its_row_an_output_was_read_is_no_gap(rows):
+    output = np.cumsum(np.sin(np.linspace(0.0, 40.0, 2000)))
+    real = np.interp(np.arange(2000) + rows, np.arange(2000), output)
+    left = within_a_row(centred(real - output), output, centred)
+    assert np.abs(left).max() < 0.01 * np.abs(np.diff(output)).max()
+
+
+def test_an_output_that_is_late_by_rows_is_a_gap_all_the_same():
+    output = np.cumsum(np.sin(np.linspace(0.0, 40.0, 2000)))
+    gap = centred(np.interp(np.arange(2000) - 5, np.arange(2000), output) - output)
+    left = within_a_row(gap, output, centred)
+    assert np.linalg.norm(left) == pytest.approx(0.8 * np.linalg.norm(gap), rel=0.01)

@@ -1,5 +1,7 @@
 """How far a fit may take a parameter, by what its records cover."""
 
+from dataclasses import replace
+
 import pytest
 
 from rotemina.sim.effects.attachment import Attached
@@ -26,3 +28,21 @@ def test_a_contact_lies_beyond_the_first_part_of_the_way():
     low, high = tolerance(attached, place, Extent((0.01, 0.02), 10.0))
     assert low == pytest.approx(0.013)
     assert high == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize(("seen", "turns"), [(1.03e-3, 1.0), (0.8e-3, 1.0), (0.31e-3, 1.0 / 3.0)])
+def test_what_a_screw_repeats_is_a_turn_or_a_whole_fraction_of_one(seen, turns):
+    pitch = ROBOT.axes["x"].pitch
+    asked = AxisEffect(axis="x", id="leadscrew_error", parameters={"period": seen / 1e-3 * pitch})
+    attached = Attached.of(ROBOT, asked)
+    period = attached.formulation.parameter("period")
+    low, high = tolerance(attached, period, Extent((0.0, 0.05), 10.0))
+    assert low < turns * pitch < high < 1.05 * low
+
+
+def test_without_a_declared_pitch_any_period_may_be_the_screw_s():
+    robot = replace(ROBOT, axes={"x": replace(ROBOT.axes["x"], pitch=None, steps_per_rev=None)})
+    attached = Attached.of(robot, AxisEffect(axis="x", id="leadscrew_error"))
+    period = attached.formulation.parameter("period")
+    found = tolerance(attached, period, Extent((0.0, 0.05), 10.0))
+    assert found == period.bounds(attached.facts)
