@@ -119,7 +119,9 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     )
     bare = selection.bare if plain is evidence else untouched(plain)
     black_box = probed(plain, plain.residual())
-    closing = _closing(bare, shown(best), black_box, disturbances, drift)
+    steady = [one for one in disturbances if one.sign is not Sign.WANDER]
+    aside_at = _aside_at(whole, evidence, steady)
+    closing = _closing(bare, shown(best), black_box, disturbances, aside_at, drift)
     verdict = decide(closing, list(alike.values()), poor=poor, sure=sure)
     if verdict in CORRECTING and drift is None:
         best = with_retained(evidence, best, _fullest(selection, best), account, jobs=jobs)
@@ -148,6 +150,7 @@ def _closing(
     best: Explanation,
     black_box: Probe,
     disturbances: Sequence[Disturbance],
+    aside_at: Mapping[Tap, float],
     drift: Disturbance | None,
 ) -> Closing:
     """Return how far the gap closes, a wander and what else was set aside taken into account."""
@@ -158,7 +161,10 @@ def _closing(
         bare.score + power,
         max(best.score - wandered, 1.0),
         black_box.score,
-        max(closed(raw, best.by_tap[tap]) for tap, raw in bare.by_tap.items()),
+        max(
+            closed(raw + aside_at.get(tap, 0.0), best.by_tap[tap])
+            for tap, raw in bare.by_tap.items()
+        ),
     )
 
 
