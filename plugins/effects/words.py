@@ -57,7 +57,7 @@ EFFECTS = (
     marked("effects", "Friction"),
     marked("effects", "Spikes at reversals, stick-slip at low speed; damps ringing."),
     marked("effects", "Lead screw error"),
-    marked("effects", "Periodic in position, once a turn: its frequency grows with speed."),
+    marked("effects", "Periodic in position, once per turn: its frequency grows with speed."),
     marked("effects", "Resonance mismatch"),
     marked("effects", "Wrong frequency or damping: visible only near the resonance."),
     marked("effects", "Stiffness nonlinearity"),

@@ -30,7 +30,7 @@ def test_apply_writes_a_robot(tmp_path, capsys):
     assert main(["plate", "apply", *COARSE, "-o", str(path)]) == 0
     said = capsys.readouterr().out
     assert "axis.thx.stiffness" in said
-    assert "within 5%" in said
+    assert "within 5 %" in said
     assert load_robot(path).axes["zn"].stiffness != load_robot("rotemina").axes["zn"].stiffness
     assert main(["plate", "apply", *COARSE, "-o", str(path)]) == 2
     assert "already exists" in capsys.readouterr().err

@@ -3,7 +3,7 @@
 import pytest
 
 from rotemina.app.cli.main import main
-from rotemina.app.plugin_kit import checking, kinds
+from rotemina.app.plugin_kit import checking, plugin_kinds
 from rotemina.app.plugin_kit.plugin_kinds import Kind
 from rotemina.drivers import registry
 from rotemina.drivers.cameras.source import CameraSource
@@ -48,7 +48,7 @@ def test_list_has_a_line_for_each_plugin_and_says_what_was_left_out(monkeypatch,
     reason = "no.such:Thing cannot be imported"
     ours = registry.discover(Kind.CAMERA.group, CameraSource).found
     monkeypatch.setitem(
-        kinds._FINDERS,
+        plugin_kinds._FINDERS,
         Kind.CAMERA,
         lambda: ({"opencv": ours["opencv"]}, {"sequence": reason, "micromanager": reason}),
     )
@@ -65,8 +65,8 @@ def test_list_has_a_line_for_each_plugin_and_says_what_was_left_out(monkeypatch,
 
 def test_list_without_a_kind_has_all_kinds(monkeypatch, capsys):
     for kind in Kind:
-        monkeypatch.setitem(kinds._FINDERS, kind, lambda: ({}, {}))
-    monkeypatch.setattr(kinds, "entry_points", lambda group: [])
+        monkeypatch.setitem(plugin_kinds._FINDERS, kind, lambda: ({}, {}))
+    monkeypatch.setattr(plugin_kinds, "entry_points", lambda group: [])
     assert main(["plugin", "list"]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 1
 

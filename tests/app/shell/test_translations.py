@@ -43,7 +43,7 @@ ENGLISH_ONLY = {
     "conformance",
     "firmware",
     "emulator.py",
-    "exits.py",
+    "exit_guard.py",
 }
 _WORDS = re.compile(r"[A-Za-z]{2,} [A-Za-z]{2,}|^[A-Z][a-z]{2,}|^[a-z]{4,}$")
 _TAG = re.compile(r"</?[a-z][^<>]*>")

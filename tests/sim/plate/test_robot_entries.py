@@ -102,7 +102,7 @@ def test_least_safety_is_at_a_corner(solutions):
 
 def test_report_says_that_the_shipped_plate_agrees(solutions):
     text = "\n".join(plate_lines(solutions))
-    assert "tilt and axial stiffness agree with the shipped robot within 5%" in text
+    assert "tilt and axial stiffness agree with the shipped robot within 5 %" in text
     thick = replace(solutions, stiffness=1.1 * solutions.stiffness)
     assert "DO NOT agree" in "\n".join(plate_lines(thick))
 
