@@ -63,7 +63,7 @@ def contested(
     place several others would do as well is none, as it stands for what the rest leaves; nor is
     one that closes little where the sensor ``wanders``. ``aside`` is the power at each tap, in its
     floors squared, of what was set aside: beside more than the gap, a cause closes a share of the
-    whole. ``disturbed`` tells that a disturbance is a cause, beside which any other is a further.
+    whole. ``disturbed`` tells that a disturbance is a cause, which makes any other one of several.
     """
     best, ranked = _with_the_likeliest(evidence, selection, best)
     unsure = wanders or max(aside.values(), default=0.0) > selection.raw

@@ -102,7 +102,8 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         best,
         aside_at,
         wanders=drift is not None,
-        disturbed=bool(disturbances),
+        # A reference tells what is left; where the sensor alone reads, that is its own noise.
+        disturbed=bool(disturbances) and evidence.has(Tap.REF),
     )
     if best is not found:
         # What a cause that does not stand had bent away of it is the sensor's wander as well.
