@@ -14,7 +14,8 @@ from rotemina.sim.effects.identification import Extent, Identification, Interval
 from rotemina.sim.effects.kinship import Family, Kinship
 from rotemina.sim.effects.starts import periods
 
-_SLACK = 0.02  # of a period, by which it may differ from a turn, or a whole fraction of one
+_SLACK = 0.02  # of a period, by which it may differ from a turn or half of one
+_BETWEEN = 0.75  # of a turn, from which a period is a whole one's
 
 
 def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
@@ -22,14 +23,15 @@ def _amplitude(name: str, meaning: str, typical: float) -> Parameter:
 
 
 def _of_a_turn(values: Values, facts: Facts, bounds: Interval, extent: Extent) -> Interval:
-    """Return periods near a turn, or the whole fraction of one, where a robot file names the pitch.
+    """Return periods near a turn, or of half of one at most, where a robot file names the pitch.
 
     What repeats otherwise along the way is not the screw's.
     """
     if not facts.has_pitch:
         return bounds
-    nearest = facts.pitch / max(round(facts.pitch / values["period"]), 1)
-    return nearest * (1.0 - _SLACK), nearest * (1.0 + _SLACK)
+    if values["period"] > _BETWEEN * facts.pitch:
+        return facts.pitch * (1.0 - _SLACK), facts.pitch * (1.0 + _SLACK)
+    return bounds[0], 0.5 * facts.pitch * (1.0 + _SLACK)
 
 
 LEADSCREW_ERROR = Effect(

@@ -30,14 +30,16 @@ def test_a_contact_lies_beyond_the_first_part_of_the_way():
     assert high == pytest.approx(0.02)
 
 
-@pytest.mark.parametrize(("seen", "turns"), [(1.03e-3, 1.0), (0.8e-3, 1.0), (0.31e-3, 1.0 / 3.0)])
-def test_what_a_screw_repeats_is_a_turn_or_a_whole_fraction_of_one(seen, turns):
+@pytest.mark.parametrize(
+    ("seen", "least", "most"), [(1.03, 0.98, 1.02), (0.8, 0.98, 1.02), (0.6, 0.05, 0.51)]
+)
+def test_what_a_screw_repeats_is_a_turn_or_half_of_one_at_most(seen, least, most):
     pitch = ROBOT.axes["x"].pitch
-    asked = AxisEffect(axis="x", id="leadscrew_error", parameters={"period": seen / 1e-3 * pitch})
+    asked = AxisEffect(axis="x", id="leadscrew_error", parameters={"period": seen * pitch})
     attached = Attached.of(ROBOT, asked)
     period = attached.formulation.parameter("period")
     low, high = tolerance(attached, period, Extent((0.0, 0.05), 10.0))
-    assert low < turns * pitch < high < 1.05 * low
+    assert (low, high) == pytest.approx((least * pitch, most * pitch))
 
 
 def test_without_a_declared_pitch_any_period_may_be_the_screw_s():
