@@ -121,8 +121,9 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     bare = selection.bare if plain is evidence else untouched(plain)
     black_box = probed(plain, plain.residual())
     steady = [one for one in disturbances if one.sign is not Sign.WANDER]
-    aside_at = _aside_at(whole, evidence, steady)
-    closing = _closing(bare, shown(best), black_box, disturbances, aside_at, drift)
+    wandering = drift if len(steady) < len(disturbances) else None
+    steady_at = _aside_at(whole, evidence, steady)
+    closing = _closing(bare, shown(best), black_box, steady, steady_at, wandering)
     verdict = decide(closing, list(alike.values()), poor=poor, sure=sure)
     if verdict in CORRECTING and drift is None:
         best = with_retained(evidence, best, _fullest(selection, best), account, jobs=jobs)
@@ -150,20 +151,20 @@ def _closing(
     bare: Explanation,
     best: Explanation,
     black_box: Probe,
-    disturbances: Sequence[Disturbance],
-    aside_at: Mapping[Tap, float],
+    steady: Sequence[Disturbance],
+    steady_at: Mapping[Tap, float],
     drift: Disturbance | None,
 ) -> Closing:
-    """Return how far the gap closes, a wander and what else was set aside taken into account."""
-    power = sum(one.power for one in disturbances if one.sign is not Sign.WANDER)
-    wanders = drift is not None and any(one.sign is Sign.WANDER for one in disturbances)
-    wandered = drift.power if drift is not None and wanders else 0.0
+    """Return how far the gap closes, with a drift and what else was set aside.
+
+    ``steady_at`` is the power of the ``steady`` disturbances at each tap, in its floors squared.
+    """
     return Closing(
-        bare.score + power,
-        max(best.score - wandered, 1.0),
+        bare.score + sum(one.power for one in steady),
+        max(best.score - (drift.power if drift is not None else 0.0), 1.0),
         black_box.score,
         max(
-            closed(raw + aside_at.get(tap, 0.0), best.by_tap[tap])
+            closed(raw + steady_at.get(tap, 0.0), best.by_tap[tap])
             for tap, raw in bare.by_tap.items()
         ),
     )
