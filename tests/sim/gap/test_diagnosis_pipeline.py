@@ -321,6 +321,22 @@ def test_a_cause_of_little_beside_the_declared_noise_counts_beside_the_raised_on
     assert named(diagnosis) == {("zn", "sensor_noise", None), ("zn", "delay", None)}
 
 
+@pytest.mark.slow
+def test_a_noisy_sensor_is_named_beside_what_nothing_explains_at_the_reference():
+    noise = AxisEffect(axis="z", id="sensor_noise", parameters={"rms": 1e-6})
+    seen = []
+    for one in records([noise], "z"):
+        command = one.signal("z", Tap.CMD)
+        speed = np.gradient(command, one.time_s)
+        odd = 3e-7 * np.tanh(speed / 1e-3) * np.sin(command / 3e-3)
+        signals = {("z", tap): one.signal("z", tap) for tap in (Tap.CMD, Tap.REF, Tap.MEAS)}
+        signals |= {("z", tap): signals["z", tap] + odd for tap in (Tap.REF, Tap.MEAS)}
+        seen.append(Record.from_signals(one.time_s, signals, one.units, one.metadata))
+    found = diagnose(ROBOT, seen)
+    assert ("z", "sensor_noise", None) in named(found)
+    assert found.axes["z"].verdict is Verdict.PARTLY
+
+
 def test_an_axis_whose_numbers_fail_ends_nothing(monkeypatch):
     truth = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.04})
 
