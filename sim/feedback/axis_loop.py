@@ -25,7 +25,7 @@ from rotemina.sim.plant.plant_arrays import Machine
 from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.plant.segment_steps import steps_through
 from rotemina.sim.plant.state import Behind, PlantState
-from rotemina.sim.plant.zero_order_hold import cut
+from rotemina.sim.plant.zero_order_hold import cut, ticks_of
 from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
 
 FASTEST_HZ = 1e6  # rate of a loop: beyond that nobody closes one about a motor or a piezo
@@ -196,7 +196,7 @@ class AxisLoop:
     @cached_property
     def _steps(self) -> kernel.Steps:
         return steps_through(
-            cut(np.array([0.0, self.interval_s]), 1, (0.0,)),
+            cut(ticks_of(np.array([0.0, self.interval_s]), 1), 1, (0.0,)),
             self.plant.assembly.all_groups,
             inner_step_s=self.plant.assembly.inner_step_s,
             with_holds=bool(self.plant.effects),

@@ -1,6 +1,6 @@
 """The effects that explain the gap of an axis: forward selection on validation data."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
@@ -85,14 +85,18 @@ def select(
     account: Account,
     aside: Mapping[Tap, float],
     *,
+    among: Collection[tuple[str, str | None]] | None = None,
     jobs: int = 1,
 ) -> Selection:
     """Find the causes of an axis' gap, together with the model's own re-tuned parameters.
 
     ``account`` hears of stages, and of every candidate what it leaves. ``aside`` is the power at
-    each tap, in its floors squared, of what was set aside before.
+    each tap, in its floors squared, of what was set aside before. ``among`` these effects alone;
+    among all by default.
     """
     own = possible_causes(evidence)
+    if among is not None:
+        own = [one for one in own if (one.id, one.from_axis) in among]
     bare = untouched(evidence)
     account.begin(bare.score)
     alone = retuned(evidence)
@@ -261,6 +265,8 @@ def _extended(
     """Return explanations with one more cause each."""
     named = set(begun.ids)
     free = [one for one in own if (one.id, one.from_axis) not in named]
+    if not free:
+        return []
     # No single further cause closes its share where less than that is left; only one that takes
     # nearly all of it away is looked for then, and that shows at once.
     slow = any(is_slow(evidence, cause) for cause in begun.causes)

@@ -1,6 +1,6 @@
 """What explains the gap of an axis, each look taking up what the one before has found."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from rotemina.sim.effects.identification import Sign
@@ -141,16 +141,18 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
     """Return what is found once no rows count by more than what must be left around them.
 
     What is left where the machine does most else may decide for causes that only bend to it. Even
-    rows may show others in their place, but not more: cut down to the median, the gap makes small
-    causes look large. A sensor that wanders leaves uneven rows by nature.
+    rows may show others in their place, of those that were fitted before, but not more: cut down
+    to the median, the gap makes small causes look large. A sensor that wanders leaves uneven rows
+    by nature.
     """
     evidence, aside, tried, best = first
-    if wander(evidence, best.fit.residual) is not None:
+    if not best.ids or wander(evidence, best.fit.residual) is not None:
         return first
     even = huber_weighted(evidence, [one.held_out for one in (best, *tried.tried)])
     if even is None:
         return first
-    selection, other = _explained(whole, even, aside, account, jobs)
+    fitted = {key for one in tried.tried for key in one.ids}
+    selection, other = _explained(whole, even, aside, account, jobs, among=fitted)
     if len(other.ids) > len(best.ids) or set(best.ids) >= set(other.ids):
         return first
     if len(other.ids) == len(best.ids):
@@ -172,6 +174,7 @@ def _explained(
     aside: Sequence[Disturbance],
     account: Account,
     jobs: int,
+    among: Collection[tuple[str, str | None]] | None = None,
 ) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
@@ -183,7 +186,7 @@ def _explained(
         tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
         for tap, power in power_by_tap(whole, leaving).items()
     }
-    selection = select(evidence, account, power, jobs=jobs)
+    selection = select(evidence, account, power, among=among, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.evidence import Evidence
@@ -58,14 +59,21 @@ def _in_phase(seen: Sequence[tuple[FloatArray, FloatArray]], period: float) -> f
     reach = min((way for way in ways if way > 2.0 * period), default=widest)
     for together, wide in ((False, reach), (False, widest), (True, widest), (True, whole)):
         rates = np.linspace(-1.0, 1.0, 2 * _FINE + 1) / wide + 1.0 / period
-        waves = np.array([[_wave(place, gap, rate) for place, gap in thinned] for rate in rates])
-        power = np.abs(waves.sum(axis=1)) if together else np.linalg.norm(waves, axis=1)
+        waves = np.array([_waves(place, gap, rates) for place, gap in thinned])
+        power = np.abs(waves.sum(axis=0)) if together else np.linalg.norm(waves, axis=0)
         period = 1.0 / float(rates[int(np.argmax(power))])
     return period
 
 
-def _wave(place: FloatArray, gap: FloatArray, rate: float) -> complex:
-    return complex(np.exp(-2j * np.pi * rate * place) @ gap)
+def _waves(place: FloatArray, gap: FloatArray, rates: FloatArray) -> NDArray[np.complex128]:
+    """Return the amplitudes of waves of evenly spaced rates (k,), each turned on from the last."""
+    wave = np.exp(-2j * np.pi * rates[0] * place) * gap
+    turn = np.exp(-2j * np.pi * (rates[1] - rates[0]) * place)
+    found = np.empty(len(rates), dtype=np.complex128)
+    for number in range(len(rates)):
+        found[number] = wave.sum()
+        wave *= turn
+    return found
 
 
 def strongest_frequency(

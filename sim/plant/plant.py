@@ -3,7 +3,7 @@
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -22,12 +22,11 @@ from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.plant.segment_steps import steps_through
 from rotemina.sim.plant.settling import lead_of
 from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
-from rotemina.sim.plant.zero_order_hold import Segments, cut
+from rotemina.sim.plant.zero_order_hold import Linear, Segments, Ticks, cut, ticks_of
 from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
 
 _TRIES = 50  # of the input with which a controller holds an axis
-_SHORT = 64  # rows of a run that may come again, as a live one does
 _HELD = 1e-12  # relative change of that input which is none
 
 
@@ -92,6 +91,12 @@ class Plant:
         An axis that a force moves is at its command, at rest. Effects with memory are as after a
         rise from the low end of the range, long ago.
         """
+        return replace(
+            _rest(self, np.asarray(command, dtype=np.float64).tobytes()), time_s=np.array([time_s])
+        )
+
+    def _equilibrium(self, command: FloatArray) -> PlantState:
+        """Return the state at rest at time 0."""
         inputs = self.open_loop_inputs(command[None])[0]
         risen, reached = self._risen(inputs)
         position, held = self._rest(inputs, reached, command)
@@ -103,7 +108,7 @@ class Plant:
             position, held = self._rest(inputs, reached, command)
         inputs = held
         still = np.zeros(len(self.axes))
-        state = self._placed(time_s, inputs, position, still, risen, reached)
+        state = self._placed(0.0, inputs, position, still, risen, reached)
         return self._led_in(state, reached, command) if self.assembly.leads_in else state
 
     def _rest(
@@ -258,7 +263,8 @@ class Plant:
         moved = kernel.State(state.x.copy(), state.memory.copy(), state.seen.copy())
         acting = self._acting(stack, behind)
         kernel.run(
-            *_prepared(self, stack.time_s, history, behind),
+            _machine(self, behind),
+            self.steps(stack.time_s, history, behind),
             given,
             acting.taken(effort),
             moved,
@@ -325,7 +331,7 @@ class Plant:
         that comes late by less than a row is taken to be on its way there, in a straight line: so
         it passes from no delay to a whole row without a leap, and is right at both.
         """
-        late = self._late_at_once(behind)
+        late = _lateness(self, behind).of_static
         if not late.any():
             return stack
         inputs = stack.inputs.copy()
@@ -334,24 +340,23 @@ class Plant:
             inputs[:, column] = np.interp(acts_s, stack.time_s, stack.inputs[:, column])
         return stack._replace(inputs=inputs)
 
-    def _late_at_once(self, behind: Behind) -> FloatArray:
-        """Return the delays (axes,), s, of static axes without a loop; 0 of others."""
+    def _lateness(self, behind: Behind) -> "_Lateness":
         at_once = [
             axis.static and loop is None
             for axis, loop in zip(self.robot.axes.values(), self.loops, strict=True)
         ]
-        return np.where(at_once, self._delays(behind), 0.0)
-
-    def _stepped_delays(self, behind: Behind) -> tuple[float, ...]:
-        """Return the delays of inputs that act between rows, s."""
-        return tuple(np.asarray(self._delays(behind)) - self._late_at_once(behind))
+        delays_s = self._delays(behind)
+        of_static = np.where(at_once, delays_s, 0.0)
+        between = tuple(np.asarray(delays_s) - of_static)
+        return _Lateness(of_static, between, tuple(sorted(set(between))))
 
     def steps(self, time_s: FloatArray, first: int, behind: Behind) -> kernel.Steps:
         """Return the steps through samples (n,), of which those before ``first`` are history."""
-        return steps_through(
-            _cut_before(time_s.tobytes(), first, tuple(sorted(set(self._stepped_delays(behind))))),
-            self.assembly.all_groups,
-            inner_step_s=self.assembly.inner_step_s,
+        run = ticks_of(time_s, first)
+        return _steps_before(
+            _cut_before(run.at.tobytes(), run.length_s, first, _lateness(self, behind).distinct),
+            tuple((one.generator.tobytes(), one.states) for one in self.assembly.all_groups),
+            self.assembly.inner_step_s,
             may_grow=self.assembly.steps_may_grow,
             with_holds=bool(self.effects),
         )
@@ -360,9 +365,8 @@ class Plant:
         """Return the tables with the loops entered."""
         machine = self.assembly.machine
         axis = machine.axis.copy()
-        delays = self._stepped_delays(behind)
-        distinct = sorted(set(delays))
-        axis["late"] = [distinct.index(delay) for delay in delays]
+        _, between, distinct = _lateness(self, behind)
+        axis["late"] = [distinct.index(delay) for delay in between]
         for row, loop in zip(axis, self.loops, strict=True):
             if loop is None:
                 row["part"] = behind
@@ -433,29 +437,58 @@ class Plant:
         )
 
 
-def _prepared(
-    plant: Plant, time_s: FloatArray, first: int, behind: Behind
-) -> tuple[Machine, kernel.Steps]:
-    """Return what a run needs beside its inputs; many ask for the same again and again."""
-    prepared = _prepared_before if len(time_s) <= _SHORT else _prepared_lately
-    return prepared(plant, time_s.tobytes(), first, behind)
-
-
-def _prepare(
-    plant: Plant, times: bytes, first: int, behind: Behind
-) -> tuple[Machine, kernel.Steps]:
-    time_s = np.frombuffer(times, dtype=np.float64)
-    return plant.machine(behind), plant.steps(time_s, first, behind)
+# What a run needs beside its inputs is kept by its numbers: a fit goes over the same records with
+# one plant after the other, and a live run asks for the same few rows again and again.
 
 
 @lru_cache(maxsize=16)
-def _cut_before(times: bytes, first: int, delays_s: tuple[float, ...]) -> Segments:
-    """Return the segments of a record, which a fit goes over with one plant after the other."""
-    return cut(np.frombuffer(times, dtype=np.float64), first, delays_s)
+def _cut_before(ticks: bytes, tick_s: float, first: int, delays_s: tuple[float, ...]) -> Segments:
+    return cut(Ticks(np.frombuffer(ticks, dtype=np.int64), tick_s), first, delays_s)
 
 
-_prepared_before = lru_cache(maxsize=32)(_prepare)
-_prepared_lately = lru_cache(maxsize=4)(_prepare)  # a record is run from several starts
+@lru_cache(maxsize=24)
+def _steps_before(
+    segments: Segments,
+    groups: tuple[tuple[bytes, int], ...],
+    inner_step_s: float,
+    *,
+    may_grow: bool,
+    with_holds: bool,
+) -> kernel.Steps:
+    return steps_through(
+        segments,
+        [Linear.of(numbers, states) for numbers, states in groups],
+        inner_step_s=inner_step_s,
+        may_grow=may_grow,
+        with_holds=with_holds,
+    )
+
+
+class _Lateness(NamedTuple):
+    """Delays, s.
+
+    ``of_static`` (axes,) are those of static axes without a loop, 0 of others. Inputs of the others
+    act ``between`` rows; these delays are ``distinct`` when sorted.
+    """
+
+    of_static: FloatArray
+    between: tuple[float, ...]
+    distinct: tuple[float, ...]
+
+
+@lru_cache(maxsize=32)
+def _lateness(plant: Plant, behind: Behind) -> _Lateness:
+    return plant._lateness(behind)
+
+
+@lru_cache(maxsize=32)
+def _machine(plant: Plant, behind: Behind) -> Machine:
+    return plant.machine(behind)
+
+
+@lru_cache(maxsize=32)
+def _rest(plant: Plant, command: bytes) -> PlantState:
+    return plant._equilibrium(np.frombuffer(command))
 
 
 def _input_per_command(axis: Axis) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.plant.coupled_groups import Group
 from rotemina.sim.plant.kernel import Steps
-from rotemina.sim.plant.zero_order_hold import Segments, step_matrices
+from rotemina.sim.plant.zero_order_hold import Linear, Segments, step_matrices
 
 _ROUNDING = 1e-6  # share of an inner step by which a length may exceed a whole number of them
 _RUNG_OUT = 1e-6  # of a vibration, that is left when inner steps begin to grow
@@ -18,7 +18,7 @@ _STEPS_A_LENGTH = 32  # so that a step is at most a 64th of the time since the i
 
 def steps_through(
     segments: Segments,
-    groups: Sequence[Group],
+    groups: Sequence[Linear | Group],
     *,
     inner_step_s: float = np.inf,
     may_grow: bool = False,
@@ -76,7 +76,7 @@ class _Piece(NamedTuple):
     steps: int
 
 
-def _grows_after(groups: Sequence[Group], inner_step_s: float, longest_s: float) -> float:
+def _grows_after(groups: Sequence[Linear | Group], inner_step_s: float, longest_s: float) -> float:
     """Return the time in a hold, s, from which inner steps may grow; infinite where they may not.
 
     An axis that nothing holds may ring at any time, where it meets something.

@@ -7,6 +7,8 @@ matrix exponential of the augmented system over each interval, uniform or not. V
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import isqrt
+from typing import NamedTuple, Self
 
 import numpy as np
 import scipy
@@ -24,7 +26,7 @@ _FEW_TICKS = 4096
 _SAME_TICKS = 2  # times and delays are rounded each by itself
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Segments:
     """A run cut where a sample is taken or a delayed input begins to act.
 
@@ -46,12 +48,39 @@ class Segments:
     lengths_s: FloatArray
 
 
-def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
-    """Cut the span of ``time_s`` (n,), from sample ``first``, into segments.
+class Linear(NamedTuple):
+    """A linear system: the augmented matrix whose exponential steps it, and its number of states.
 
-    Samples before ``first`` are history: they are not taken again but their inputs still act.
-    ``delay_s`` (d,) are the times after its sample at which an input may begin to act. With
-    ``first`` > 0 the run starts at sample ``first - 1``, whose state is known.
+    ``generator`` as of :class:`~rotemina.sim.plant.coupled_groups.Group`.
+    """
+
+    generator: FloatArray
+    states: int
+
+    @classmethod
+    def of(cls, numbers: bytes, states: int) -> Self:
+        """Return it from the ``numbers`` of its matrix."""
+        generator = np.frombuffer(numbers)
+        size = isqrt(len(generator))
+        return cls(generator.reshape(size, size), states)
+
+
+class Ticks(NamedTuple):
+    """Sample times ``at`` (n,) in whole ticks of ``length_s``, counted from where a run starts."""
+
+    at: IntArray
+    length_s: float
+
+
+def ticks_of(time_s: FloatArray, first: int) -> Ticks:
+    """Return the times (n,) of samples, of which those before ``first`` are history.
+
+    With ``first`` > 0 the run starts at sample ``first - 1``, whose state is known.
+
+    Raises
+    ------
+    PlantError
+        If rounding cannot tell two samples apart.
     """
     start = max(first - 1, 0)
     tick = _tick(float(np.abs(time_s[[0, -1]]).max()))
@@ -69,6 +98,17 @@ def cut(time_s: FloatArray, first: int, delay_s: tuple[float, ...]) -> Segments:
                 tick=rounded(tick, 3),
             )
         )
+    return Ticks(ticks, tick)
+
+
+def cut(run: Ticks, first: int, delay_s: tuple[float, ...]) -> Segments:
+    """Cut the span of a run, from sample ``first``, into segments.
+
+    Samples before ``first`` are history: they are not taken again but their inputs still act.
+    ``delay_s`` (d,) are the times after its sample at which an input may begin to act.
+    """
+    ticks, tick = run
+    start = max(first - 1, 0)
     if not any(delay_s):
         return _cut_at_samples(ticks, np.arange(start, len(ticks))[:, None], start, first, tick)
     delays = np.rint(np.array(delay_s) / tick).astype(np.int64)
@@ -146,7 +186,7 @@ def _distinct(lengths: IntArray) -> tuple[IntArray, IntArray]:
     return np.append(number[away], 0), np.concatenate([[0], low + seen])
 
 
-def step_matrices(group: Group, lengths_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+def step_matrices(group: Linear | Group, lengths_s: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return exact steps over each length: state (k, n, n) and input (k, n, 2m + 1) matrices.
 
     The input columns are the m inputs, the constant force, and a unit force on each axis.
@@ -160,7 +200,7 @@ def step_matrices(group: Group, lengths_s: FloatArray) -> tuple[FloatArray, Floa
     return np.ascontiguousarray(exact[:, :, :states]), np.ascontiguousarray(exact[:, :, states:])
 
 
-def _step(group: Group, length_s: float) -> FloatArray:
+def _step(group: Linear | Group, length_s: float) -> FloatArray:
     """Return the rows of ``exp(A h)`` that are states."""
     size = len(group.generator)
     return _exponential(group.generator.tobytes(), size, length_s)[: group.states]
