@@ -8,8 +8,8 @@ from rotemina.sim.records.record import Tap
 
 _LEVELS = 2  # positions between which an axis only ever went, that tell too little
 _STILL = 1e-3  # of the range of a command, within which positions are one
-_LINE = 0.96  # of a command's power in one line, and of its speed's: a single sine
-_LINES = 3  # spectral lines on either side that belong to one, behind a window
+_LINE = 0.96  # of a command's power, and of its speed's, in a single sine
+_TRIED = 41  # frequencies about the strongest line
 _ALIKE = 0.95  # correlation from which two axes moved alike
 _WIDE = 0.5  # of the axis' range: a sine that goes so far bends what is not straight
 
@@ -61,12 +61,18 @@ def _centred(signal: FloatArray) -> FloatArray:
 
 def _sine(time_s: FloatArray, command: FloatArray) -> tuple[float, float] | None:
     """Return frequency and size of a command that is one sine, and its speed; else None."""
-    window = np.hanning(len(command))
-    line = 0
-    for moved in (np.gradient(command), command):
-        power = np.abs(np.fft.rfft((moved - moved.mean()) * window)) ** 2
-        line = int(np.argmax(power))
-        own = power[max(line - _LINES, 0) : line + _LINES + 1].sum()
-        if own < _LINE * power.sum():
+    since_s = time_s - time_s[0]
+    power = np.abs(np.fft.rfft(_centred(command) * np.hanning(len(command))))
+    rates = (int(np.argmax(power)) + np.linspace(-1.0, 1.0, _TRIED)) / since_s[-1]
+    turns, one = 2.0 * np.pi * np.outer(rates, since_s), np.ones(len(command))
+    for moved in (command, np.gradient(command, since_s)):
+        left = [_left_by(np.stack([one, np.cos(t), np.sin(t)], axis=1), moved) for t in turns]
+        if min(left) > 1.0 - _LINE:
             return None
-    return line / float(time_s[-1] - time_s[0]), float(np.std(command))
+    return float(rates[int(np.argmin(left))]), float(np.std(command))
+
+
+def _left_by(basis: FloatArray, signal: FloatArray) -> float:
+    """Return the share of the power of a signal (n,) that is left by a basis (n, m)."""
+    left = signal - basis @ np.linalg.lstsq(basis, signal)[0]
+    return float(left @ left) / float(np.sum(_centred(signal) ** 2))

@@ -31,3 +31,12 @@ def test_there_and_back_in_few_moves_is_no_sine():
     assert is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, sine)]))
     wide = 0.125 + 0.08 * np.sin(2.0 * np.pi * 0.2 * time_s)
     assert not is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, wide)]))
+
+
+def test_a_single_stroke_is_no_sine():
+    """Few lines of a short record hold all of a smooth stroke; a sine would fit it badly."""
+    time_s = np.arange(10_000) * 1e-3
+    stroke = 0.1 + 0.02 * np.exp(-(((time_s - 5.0) / 1.5) ** 2))
+    assert not is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, stroke)]))
+    sine = 0.1 + 0.02 * np.sin(2.0 * np.pi * 0.13 * time_s)
+    assert is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, sine)]))
