@@ -76,7 +76,7 @@ CREEP = Effect(
     stage=Stage.ACTUATOR,
     kinds=frozenset({"piezo"}),
     identification=Identification(starts=sizes(onset=(0.3, 3.0))),
-    kinship=Kinship(family=Family.CREEP),
+    kinship=Kinship(family=Family.CREEP, brings_along={Family.DRIFT: 0.1}),
     formulations=(
         Formulation(
             name="logarithmic",

@@ -16,6 +16,7 @@ class Family(StrEnum):
     LIMIT = "limit"
     LOOP = "loop"
     CREEP = "creep"
+    DRIFT = "drift"
     LATE = "late"
     LOST_MOTION = "lost motion"
     PERIOD = "period"

@@ -12,6 +12,7 @@ from rotemina.sim.effects.formulation import (
     Trait,
 )
 from rotemina.sim.effects.identification import Identification
+from rotemina.sim.effects.kinship import Family, Kinship
 from rotemina.sim.effects.starts import sizes
 
 
@@ -27,6 +28,7 @@ THERMAL_DRIFT = Effect(
     stage=Stage.MECHANICS,
     kinds=EVERY_KIND,
     identification=Identification(starts=sizes(time_constant=(0.03, 0.2, 1.0))),
+    kinship=Kinship(family=Family.DRIFT),
     formulations=(
         Formulation(
             name="warm_up",

@@ -112,7 +112,8 @@ def _is_part_of_the_mass(explained: Explanation) -> bool:
 
 def _without(evidence: Evidence, explained: Explanation, name: str) -> Explanation:
     others = [one for one in explained.fit.effects if one.id != name]
-    return explanation(evidence, len(explained.causes), fit(evidence, others, most_steps=6))
+    again = fit(evidence, others, most_steps=6, near=explained.fit)
+    return explanation(evidence, len(explained.causes), again)
 
 
 def _gain_of(explained: Explanation) -> float:

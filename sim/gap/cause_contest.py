@@ -184,7 +184,8 @@ def _without(evidence: Evidence, selection: Selection, best: Explanation, key: K
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
     if is_whole_own(key[0]):
         kept = [one for one in best.fit.effects if one.id != key[0]]
-        return explanation(evidence, len(others), fit(evidence, kept, most_steps=_WITHOUT_STEPS))
+        again = fit(evidence, kept, most_steps=_WITHOUT_STEPS, near=best.fit)
+        return explanation(evidence, len(others), again)
     free = [one for one in others if not is_own(evidence, one)]
     if not free:
         return selection.retuned
@@ -192,7 +193,8 @@ def _without(evidence: Evidence, selection: Selection, best: Explanation, key: K
     alone = [one for one in selection.tried if set(one.ids) == named]
     if alone:
         return min(alone, key=lambda one: one.score)
-    again = fit(evidence, beside(evidence, free, best), most_steps=_WITHOUT_STEPS)
+    some = beside(evidence, free, best)
+    again = fit(evidence, some, most_steps=_WITHOUT_STEPS, near=best.fit)
     return explanation(evidence, len(free), again)
 
 

@@ -6,7 +6,8 @@ forward differences with steps large enough for simulations with steps and dead 
 libraries choose far too small ones where a parameter is zero.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +29,8 @@ Residual = Callable[[FloatArray], FloatArray]
 class Descent(NamedTuple):
     """Where a descent is: ``x`` (p,), residual (n,) there and its jacobian (n, p).
 
-    The jacobian is by differences at ``x`` if it is ``fresh``, and else carried along from nearby.
+    The jacobian is by differences at ``x`` if it is ``fresh``, and else carried along from where
+    the sum of squares was ``since``.
     """
 
     x: FloatArray
@@ -36,13 +38,24 @@ class Descent(NamedTuple):
     jacobian: FloatArray
     fresh: bool = True
     damping: float = _DAMPING
+    since: float = np.inf
 
 
-def begun(residual: Residual, start: FloatArray, low: FloatArray, high: FloatArray) -> Descent:
-    """Return a descent before its first step from ``start`` (p,)."""
+def begun(
+    residual: Residual,
+    start: FloatArray,
+    low: FloatArray,
+    high: FloatArray,
+    known: Mapping[int, FloatArray] = MappingProxyType({}),
+) -> Descent:
+    """Return a descent before its first step from ``start`` (p,).
+
+    Columns (n,) of the jacobian that are ``known`` from nearby are taken as they are.
+    """
     x = np.clip(start, low, high)
     left = residual(x)
-    return Descent(x, left, _slopes(residual, x, left, high))
+    slopes = _slopes(residual, x, left, high, known)
+    return Descent(x, left, slopes, not known, since=np.inf if known else float(left @ left))
 
 
 def descend(
@@ -60,11 +73,15 @@ def descend(
     return at
 
 
-def exact(residual: Residual, at: Descent, high: FloatArray) -> Descent:
-    """Return a descent with its Jacobian recomputed, if it was only updated."""
-    if at.fresh:
+def exact(residual: Residual, at: Descent, high: FloatArray, *, nearly: bool = False) -> Descent:
+    """Return a descent with its Jacobian recomputed, if it was only updated.
+
+    ``nearly``: one that was taken nearby will do.
+    """
+    if at.fresh or (nearly and _is_near(at)):
         return at
-    return at._replace(jacobian=_slopes(residual, at.x, at.residual, high), fresh=True)
+    slopes = _slopes(residual, at.x, at.residual, high)
+    return at._replace(jacobian=slopes, fresh=True, since=float(at.residual @ at.residual))
 
 
 def _onwards(
@@ -78,11 +95,16 @@ def _onwards(
         gain = 1.0 - float(left @ left) / before
         if gain >= (_ENOUGH if at.fresh else _WORTH_CARRYING):
             carried = _carried(at, x, left)
-            return Descent(x, left, carried, fresh=False, damping=damping), gain
-        at = Descent(x, left, at.jacobian, at.fresh, damping)
+            return Descent(x, left, carried, False, damping, at.since), gain
+        at = at._replace(x=x, residual=left, damping=damping)
     if at.fresh:
         return at._replace(fresh=step is None), 0.0
     return _onwards(residual, exact(residual, at, high)._replace(damping=_DAMPING), low, high)
+
+
+def _is_near(at: Descent) -> bool:
+    """Tell whether the jacobian was taken so near that it would come out much the same again."""
+    return float(at.residual @ at.residual) > (1.0 - _WORTH_CARRYING) * at.since
 
 
 def _carried(at: Descent, x: FloatArray, left: FloatArray) -> FloatArray:
@@ -108,7 +130,7 @@ def _step(
     residual: Residual, at: Descent, low: FloatArray, high: FloatArray
 ) -> tuple[FloatArray, FloatArray, float] | None:
     """Return x, residual and damping after a step that goes down; None where none does."""
-    x, left, jacobian, fresh, damping = at
+    x, left, jacobian, fresh, damping, _ = at
     before = float(left @ left)
     slope = jacobian.T @ left
     free = _free(x, slope, low, high)
@@ -131,10 +153,19 @@ def _step(
     return None
 
 
-def _slopes(residual: Residual, x: FloatArray, left: FloatArray, high: FloatArray) -> FloatArray:
+def _slopes(
+    residual: Residual,
+    x: FloatArray,
+    left: FloatArray,
+    high: FloatArray,
+    known: Mapping[int, FloatArray] = MappingProxyType({}),
+) -> FloatArray:
     """Return the jacobian (n, p) by differences, backward ones at the upper bound."""
     jacobian = np.empty((len(left), len(x)))
     for column in range(len(x)):
+        if column in known:
+            jacobian[:, column] = known[column]
+            continue
         step = _STEP * max(1.0, abs(x[column]))
         if x[column] + step > high[column]:
             step = -step

@@ -29,6 +29,7 @@ from rotemina.sim.gap.explanations import (
     named_as,
     untouched,
 )
+from rotemina.sim.gap.fit import finished
 from rotemina.sim.gap.forward_selection import (
     CLEARLY,
     LEAST_POWER,
@@ -128,7 +129,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
     if verdict in CORRECTING and drift is None:
         best = with_retained(evidence, best, _fullest(selection, best), account, jobs=jobs)
     steps = _stepped(whole, best, disturbances) if verdict in CORRECTING else ()
-    best = shown(best)
+    best = shown(replace(best, fit=finished(evidence, best.fit, most_steps=0)))
     return Examination(
         plain,
         _floors(whole),

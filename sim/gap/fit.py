@@ -66,6 +66,8 @@ class Fit:
         Of the residual.
     fresh : bool
         Whether the jacobian is that of ``x``, and not carried along on the way there.
+    taken_at : float
+        The sum of squares where the jacobian was taken by differences.
     """
 
     effects: tuple[AxisEffect, ...]
@@ -74,6 +76,7 @@ class Fit:
     residual: FloatArray
     jacobian: FloatArray
     fresh: bool = True
+    taken_at: float = np.inf
 
     @property
     def cost(self) -> float:
@@ -142,21 +145,33 @@ class Fit:
         return np.where(unknown, np.inf, np.sqrt(((seen @ scores.T) ** 2).sum(axis=1)))
 
 
-def fit(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: int = 12) -> Fit:
+def fit(
+    evidence: Evidence,
+    effects: Sequence[AxisEffect],
+    *,
+    most_steps: int = 12,
+    near: Fit | None = None,
+) -> Fit:
     """Fit all parameters of ``effects``, from those that they name or their presets on.
+
+    ``near`` is as in :func:`sketched`; beside it, the jacobian is as good as for attempts.
 
     Raises
     ------
     EffectError
         If an effect cannot sit where it is asked to.
     """
-    return finished(evidence, sketched(evidence, effects, most_steps=0), most_steps=most_steps)
+    sketch = sketched(evidence, effects, most_steps=0, near=near)
+    return finished(evidence, sketch, most_steps=most_steps, attempt=near is not None)
 
 
-def sketched(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: int) -> Fit:
+def sketched(
+    evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: int, near: Fit | None = None
+) -> Fit:
     """Return a fit after a few steps, its jacobian carried along.
 
-    What fails numerically is lost: see :func:`lost`.
+    What fails numerically is lost: see :func:`lost`. A fit to the same evidence that lies ``near``,
+    with some of the effects, lends its slopes to begin with.
 
     Raises
     ------
@@ -171,15 +186,20 @@ def sketched(evidence: Evidence, effects: Sequence[AxisEffect], *, most_steps: i
     def residual_at(x: FloatArray) -> FloatArray:
         return residual_of(evidence, effects, free, x)
 
+    known = {} if near is None else _slopes_of(near, effects, free)
     try:
-        found = descend(residual_at, begun(residual_at, start, low, high), low, high, most_steps)
+        at = begun(residual_at, start, low, high, known)
+        found = descend(residual_at, at, low, high, most_steps)
     except NUMERICAL as error:
         return lost(evidence, effects, error)
     return _fitted(effects, free, found)
 
 
-def finished(evidence: Evidence, sketch: Fit, *, most_steps: int) -> Fit:
-    """Return a fit with as many steps more as lead on, and the jacobian of where it ends."""
+def finished(evidence: Evidence, sketch: Fit, *, most_steps: int, attempt: bool = False) -> Fit:
+    """Return a fit with as many steps more as lead on, and the jacobian of where it ends.
+
+    That of an ``attempt`` may be of nearby.
+    """
     if not sketch.free:
         return sketch
     low, high, _ = bounds(sketch.free)
@@ -187,9 +207,10 @@ def finished(evidence: Evidence, sketch: Fit, *, most_steps: int) -> Fit:
     def residual_at(x: FloatArray) -> FloatArray:
         return residual_of(evidence, sketch.effects, sketch.free, x)
 
-    at = Descent(sketch.x, sketch.residual, sketch.jacobian, sketch.fresh)
+    at = Descent(sketch.x, sketch.residual, sketch.jacobian, sketch.fresh, since=sketch.taken_at)
     try:
-        found = exact(residual_at, descend(residual_at, at, low, high, most_steps), high)
+        at = descend(residual_at, at, low, high, most_steps)
+        found = exact(residual_at, at, high, nearly=attempt)
     except NUMERICAL as error:
         return lost(evidence, sketch.effects, error)
     return _fitted(sketch.effects, sketch.free, found)
@@ -212,7 +233,24 @@ def _unfitted(effects: Sequence[AxisEffect], residual: FloatArray) -> Fit:
 
 def _fitted(effects: Sequence[AxisEffect], free: tuple[Free, ...], found: Descent) -> Fit:
     own = with_values(effects, free, found.x)
-    return Fit(own, free, found.x, found.residual, found.jacobian, found.fresh)
+    return Fit(own, free, found.x, found.residual, found.jacobian, found.fresh, found.since)
+
+
+def _slopes_of(
+    near: Fit, effects: Sequence[AxisEffect], free: Sequence[Free]
+) -> dict[int, FloatArray]:
+    """Return the slopes (rows,) of a fit, by the number of the same parameter among others."""
+
+    def key(own: Sequence[AxisEffect], one: Free) -> tuple[str, str | None, str | None, str]:
+        asked = own[one.effect]
+        return asked.id, asked.formulation, asked.from_axis, one.name
+
+    theirs = {key(near.effects, one): column for column, one in enumerate(near.free)}
+    return {
+        number: near.jacobian[:, theirs[key(effects, one)]]
+        for number, one in enumerate(free)
+        if key(effects, one) in theirs
+    }
 
 
 def residual_of(

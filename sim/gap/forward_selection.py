@@ -86,13 +86,14 @@ def select(
     aside: Mapping[Tap, float],
     *,
     among: Collection[tuple[str, str | None]] | None = None,
+    until: Sequence[tuple[str, str | None]] | None = None,
     jobs: int = 1,
 ) -> Selection:
     """Find the causes of an axis' gap, together with the model's own re-tuned parameters.
 
     ``account`` hears of stages, and of every candidate what it leaves. ``aside`` is the power at
     each tap, in its floors squared, of what was set aside before. ``among`` these effects alone;
-    among all by default.
+    among all by default. The search ends early where it comes ``until`` these causes, or to more.
     """
     own = possible_causes(evidence)
     if among is not None:
@@ -104,6 +105,7 @@ def select(
     # Pieces of one motion vouch for no other: what is small beside a formula needs a second record.
     seen = SEEN if len(evidence.observations) > 1 else inf
     enters = partial(_enters, bare, aside, evidence.has(Tap.REF), seen)
+    most = MOST_CAUSES if until is None else len(until)
     best = alone if enters(bare, alone) else bare
     beam, tried = [bare], [alone]
     if alone.score >= NOTICED and closed(bare.score, alone.score) >= _MOSTLY_OWN:
@@ -122,7 +124,7 @@ def select(
             break
         if enters(best, found[0]):
             best = found[0]
-            if _is_enough(bare, best, seen):
+            if _is_enough(bare, best, seen) or best.ids == until or len(best.ids) > most:
                 break
         elif level > 0 or _is_little(bare, best, seen):
             break  # two causes may still do what one alone does not do better than a re-tuning
@@ -150,7 +152,7 @@ def _is_told_otherwise(evidence: Evidence, candidate: AxisEffect) -> bool:
     rounded as well, an answer may be off by two halves of a cell.
     """
     effect = effect_named(candidate.id)
-    of_the_sensor = effect.stage is Stage.SENSOR and is_of(Family.GAIN, effect.id)
+    of_the_sensor = _is_at_sensor(candidate) and is_of(Family.GAIN, effect.id)
     if of_the_sensor and not evidence.has(Tap.REF):
         return True
     return evidence.in_cells and effect.identification.shows_as is Sign.STEPS
@@ -182,15 +184,19 @@ def _enters(
 def _needed(causes: Sequence[AxisEffect], staged: bool) -> Iterator[float]:
     """Give the shares that causes must close beside others that bring them along.
 
-    Where a reference was recorded, these are others of the same stage.
+    Where a reference was recorded, a sensor's effect brings along others of the sensor alone.
     """
     for one in causes:
         for other in causes:
-            apart = staged and effect_named(one.id).stage is not effect_named(other.id).stage
+            apart = staged and _is_at_sensor(one) is not _is_at_sensor(other)
             if not apart and other is not one:
                 share = brought_along(one.id, other.id)
                 if share < 1.0:
                     yield share
+
+
+def _is_at_sensor(cause: AxisEffect) -> bool:
+    return effect_named(cause.id).stage is Stage.SENSOR
 
 
 def _closes(
@@ -432,5 +438,6 @@ def _simplified(
 def _without(evidence: Evidence, best: Explanation, cause: AxisEffect) -> Explanation:
     """Return an explanation fitted on without one of its causes, from where the others are."""
     others = [one for one in best.causes if one is not cause]
-    again = fit(evidence, beside(evidence, others, best), most_steps=MOST_STEPS)
+    some = beside(evidence, others, best)
+    again = fit(evidence, some, most_steps=MOST_STEPS, near=best.fit)
     return explanation(evidence, len(others), again)

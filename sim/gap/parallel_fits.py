@@ -61,7 +61,13 @@ def fitted(
 
     sketches = _each(
         [
-            partial(sketched, evidence, beside(evidence, causes, begun), most_steps=_SKETCHED)
+            partial(
+                sketched,
+                evidence,
+                beside(evidence, causes, begun),
+                most_steps=_SKETCHED,
+                near=begun.fit if begun.causes else None,
+            )
             for causes in attempts
         ],
         jobs,
@@ -70,7 +76,10 @@ def fitted(
     least = min(one.cost for one in sketches)
     ahead = [one for one in sketches if one.cost <= _BEHIND * least]
     done = _each(
-        [partial(finished, evidence, one, most_steps=MOST_STEPS - _SKETCHED) for one in ahead],
+        [
+            partial(finished, evidence, one, most_steps=MOST_STEPS - _SKETCHED, attempt=True)
+            for one in ahead
+        ],
         jobs,
         told,
     )

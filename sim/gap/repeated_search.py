@@ -152,7 +152,8 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
     if even is None:
         return first
     fitted = {key for one in tried.tried for key in one.ids}
-    selection, other = _explained(whole, even, aside, account, jobs, among=fitted)
+    # More causes, or the same, change nothing.
+    selection, other = _explained(whole, even, aside, account, jobs, fitted, tried.best.ids)
     if len(other.ids) > len(best.ids) or set(best.ids) >= set(other.ids):
         return first
     if len(other.ids) == len(best.ids):
@@ -175,6 +176,7 @@ def _explained(
     account: Account,
     jobs: int,
     among: Collection[tuple[str, str | None]] | None = None,
+    until: Sequence[tuple[str, str | None]] | None = None,
 ) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
@@ -186,7 +188,7 @@ def _explained(
         tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
         for tap, power in power_by_tap(whole, leaving).items()
     }
-    selection = select(evidence, account, power, among=among, jobs=jobs)
+    selection = select(evidence, account, power, among=among, until=until, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
 
 

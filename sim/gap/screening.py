@@ -11,6 +11,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.formulation import Stage
+from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.candidates import is_slow
 from rotemina.sim.gap.descent import one_step
 from rotemina.sim.gap.evidence import Evidence
@@ -48,20 +50,45 @@ def screen(evidence: Evidence, fitted: Fit, candidate: AxisEffect, *, briefly: b
 
 
 def _screened(evidence: Evidence, fitted: Fit, candidate: AxisEffect, *, briefly: bool) -> Screened:
-    begun = [_begun(evidence, fitted, start) for start in starts(evidence, fitted, candidate)]
+    quick = _without_slow_drives(evidence, fitted)
+    begun = [
+        _begun(evidence, fitted, quick, start) for start in starts(evidence, fitted, candidate)
+    ]
     best = min(begun, key=lambda one: one.cost)
     if briefly or is_slow(evidence, candidate):
         return best
     return min(_followed(evidence, fitted, best.effect), best, key=lambda one: one.cost)
 
 
-def _begun(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> Screened:
+def _without_slow_drives(
+    evidence: Evidence, fitted: Fit
+) -> tuple[Sequence[AxisEffect], FloatArray]:
+    """Return the effects beside which a candidate's change is simulated, and their residual.
+
+    An amplifier's lag or limit takes long to simulate and hardly matters to that change.
+    """
+    quick = [
+        one
+        for one in fitted.effects
+        if effect_named(one.id).stage is not Stage.ELECTRONICS or not is_slow(evidence, one)
+    ]
+    if len(quick) == len(fitted.effects):
+        return quick, fitted.residual
+    return quick, residual_of(evidence, quick)
+
+
+def _begun(
+    evidence: Evidence,
+    fitted: Fit,
+    quick: tuple[Sequence[AxisEffect], FloatArray],
+    candidate: AxisEffect,
+) -> Screened:
     """Return a start, in the amounts of what it is linear in that suit best, and what is left."""
+    effects, before = quick
     names = _amounts(evidence, candidate)
     directions = _directions(evidence, candidate, names)
     changes = [
-        _beside(fitted, residual_of(evidence, [*fitted.effects, one]) - fitted.residual)
-        for one in directions
+        _beside(fitted, residual_of(evidence, [*effects, one]) - before) for one in directions
     ]
     basis = np.stack(changes, axis=1)
     amounts = np.asarray(np.linalg.lstsq(basis, -fitted.beside)[0], dtype=np.float64)

@@ -92,5 +92,6 @@ def _with_fewer(evidence: Evidence, best: Explanation) -> Iterator[Explanation]:
     others = [one for one in held if one not in causes and one not in own]
     for count in range(len(own)):
         for kept in combinations(own, count):
-            refitted = fit(evidence, [*causes, *others, *kept], most_steps=MOST_STEPS)
+            some = [*causes, *others, *kept]
+            refitted = fit(evidence, some, most_steps=MOST_STEPS, near=best.fit)
             yield explanation(evidence, len(causes), refitted)
