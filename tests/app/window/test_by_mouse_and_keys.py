@@ -71,12 +71,12 @@ class Operator:
         assert line, f"the program has ended, asked for {expression}"
         return json.loads(line)
 
-    def wait(self, expression, limit_s=SOON_S):
-        """Wait until something is so, and return it."""
+    def wait(self, expression, limit_s=SOON_S, shown="None"):
+        """Wait until something is so, and return it; ``shown`` helps to see why it never is."""
         end_s = time.monotonic() + limit_s
         while not (found := self.see(expression)):
             notices = "[one.text for one in window.notices.notices()]"
-            assert time.monotonic() < end_s, (expression, self.see(notices))
+            assert time.monotonic() < end_s, (expression, self.see(notices), self.see(shown))
             time.sleep(0.05)
         return found
 
@@ -272,7 +272,12 @@ def test_the_loop_closes_on_a_machine_that_moved_before(on_the_simulator, tmp_pa
     hand.wait("panels['gap'].result.proof.proof is not None", LONG_S)
     hand.wait("panels['gap'].result.proof.proof.name == 'two.csv'", LONG_S)
     size = hand.see("panels['gap'].result.proof.table.texts()[0][3]")
-    hand.wait(f"panels['plots'].plots['zn'].figures.text().endswith('Gap, this run {size}')")
+    plots = "panels['plots']"
+    figures = f"{plots}.plots['zn'].figures.text()"
+    hand.wait(
+        f"{figures}.endswith('Gap, this run {size}')",
+        shown=f"({figures}, {plots}.isVisible(), {plots}.pause.isChecked(), bench.run.name)",
+    )
     cells = "[panels['comparison'].table.item(r, 1).text() for r in range(2)]"
     assert size in hand.see(cells)
     report = tmp_path / "page.html"
