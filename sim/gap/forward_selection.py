@@ -102,9 +102,9 @@ def select(
     account.begin(bare.score)
     alone = retuned(evidence)
     account.tried((), alone.score, Grade.UNSEEN)
-    # Pieces of one motion vouch for no other: what is small beside a formula needs a second record.
-    seen = SEEN if len(evidence.observations) > 1 else inf
-    enters = partial(_enters, bare, aside, evidence.has(Tap.REF), seen)
+    # Pieces of one motion hardly vouch for another: what is small there must take most of the rest.
+    least = _OF_WHAT_IS_LEFT if len(evidence.observations) > 1 else CLEARLY
+    enters = partial(_enters, bare, aside, evidence.has(Tap.REF), least)
     most = MOST_CAUSES if until is None else len(until)
     best = alone if enters(bare, alone) else bare
     beam, tried = [bare], [alone]
@@ -124,9 +124,9 @@ def select(
             break
         if enters(best, found[0]):
             best = found[0]
-            if _is_enough(bare, best, seen) or best.ids == until or len(best.ids) > most:
+            if _is_enough(bare, best) or best.ids == until or len(best.ids) > most:
                 break
-        elif level > 0 or _is_little(bare, best, seen):
+        elif level > 0 or _is_little(bare, best):
             break  # two causes may still do what one alone does not do better than a re-tuning
         near = [one for one in found if one.score < _ALSO * found[0].score]
         beam = _unlike(near)[: _BEAM[level]]
@@ -162,7 +162,7 @@ def _enters(
     bare: Explanation,
     aside: Mapping[Tap, float],
     staged: bool,
-    seen: float,
+    least: float,
     before: Explanation,
     after: Explanation,
 ) -> bool:
@@ -170,12 +170,12 @@ def _enters(
 
     It closes its share of the gap of the ``bare`` model, or at least as much as then remains; and
     more than what is set ``aside`` may leave of itself. ``staged``: a reference tells what the
-    machine does from what its sensor does. ``seen`` is the power, in floors squared, from which a
-    further cause counts whatever its share.
+    machine does from what its sensor does. ``least`` is the share of what is left that a further
+    cause takes away, whatever its share of the gap.
     """
     needed = max(_needed(after.causes, staged), default=0.0)
     return any(
-        _closes(bare.by_tap[tap], before.by_tap[tap], left, needed, seen, alone=not before.causes)
+        _closes(bare.by_tap[tap], before.by_tap[tap], left, needed, least, alone=not before.causes)
         and before.by_tap[tap] - left >= _LEFT_ASIDE * aside.get(tap, 0.0)
         for tap, left in after.by_tap.items()
     )
@@ -200,7 +200,7 @@ def _is_at_sensor(cause: AxisEffect) -> bool:
 
 
 def _closes(
-    raw: float, before: float, after: float, needed: float, seen: float, *, alone: bool
+    raw: float, before: float, after: float, needed: float, least: float, *, alone: bool
 ) -> bool:
     closing = before - after
     if closing >= max(max(LEAST_SHARE, needed) * (raw - 1.0), LEAST_POWER):
@@ -210,10 +210,10 @@ def _closes(
     if alone:
         return before >= NOTICED and closing >= CLEARLY * (before - 1.0)
     # Beside other causes, less may be how these differ from their formulas.
-    return closing >= max(_OF_WHAT_IS_LEFT * (before - 1.0), seen)
+    return closing >= max(least * (before - 1.0), SEEN)
 
 
-def _is_little(bare: Explanation, begun: Explanation, seen: float) -> bool:
+def _is_little(bare: Explanation, begun: Explanation, seen: float = SEEN) -> bool:
     """Tell whether no single further cause can close its share of any tap's gap, or be seen."""
     return all(
         left - 1.0 < min(max(LEAST_SHARE * (bare.by_tap[tap] - 1.0), LEAST_POWER), seen)
@@ -221,9 +221,9 @@ def _is_little(bare: Explanation, begun: Explanation, seen: float) -> bool:
     )
 
 
-def _is_enough(bare: Explanation, best: Explanation, seen: float) -> bool:
+def _is_enough(bare: Explanation, best: Explanation) -> bool:
     """Tell whether no further cause can close its share, nor correct the model by much."""
-    return _is_little(bare, best, seen) and closed(bare.score, best.score) > _BY_FAR_MOST
+    return _is_little(bare, best) and closed(bare.score, best.score) > _BY_FAR_MOST
 
 
 def _apart_from_own(

@@ -61,13 +61,7 @@ def fitted(
 
     sketches = _each(
         [
-            partial(
-                sketched,
-                evidence,
-                beside(evidence, causes, begun),
-                most_steps=_SKETCHED,
-                near=begun.fit if begun.causes else None,
-            )
+            partial(sketched, evidence, beside(evidence, causes, begun), most_steps=_SKETCHED)
             for causes in attempts
         ],
         jobs,
