@@ -51,3 +51,18 @@ def test_the_jacobian_of_an_end_is_its_own_once_it_is_asked_for():
     assert exact(bowl, found, WIDE[1]).jacobian[0, 0] == pytest.approx(
         3.0 * found.x[0] ** 2, rel=0.01
     )
+
+
+def test_slopes_that_are_lent_mislead_nobody():
+    """Wrong ones are taken anew as soon as they lead no further."""
+    rng = np.random.default_rng(0)
+    matrix, wanted = rng.standard_normal((40, 6)), rng.standard_normal(6)
+    residual = Counted(lambda x: matrix @ (x - wanted))
+    low, high = np.full(6, -10.0), np.full(6, 10.0)
+    for lent in (matrix, -matrix):
+        residual.runs = 0
+        start = begun(residual, np.zeros(6), low, high, {n: lent[:, n] for n in range(6)})
+        assert residual.runs == 1
+        assert not start.fresh
+        found = descend(residual, start, low, high, 20)
+        np.testing.assert_allclose(found.x, wanted, atol=1e-3)

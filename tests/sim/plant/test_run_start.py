@@ -222,3 +222,16 @@ def test_an_axis_that_stands_still_does_not_keep_a_run_from_its_steady_state(res
     record = Record.from_signals(time_s, signals, {"thx": "rad", "x": "m"}, {"history": "periodic"})
     answer = nominal_response(robot, record).signal("thx", Tap.REF)
     assert np.ptp(answer) > 3e-4
+
+
+def test_rest_is_the_same_at_any_time_and_is_found_once():
+    """Under dry friction it is found by a simulation, which a fit would repeat for each record."""
+    robot = replace(ROBOT, effects=(AxisEffect(axis="x", id="friction"),))
+    plant = Plant.of(robot, only={"x"})
+    command = np.array([0.02])
+    early, late = plant.at_rest(0.0, command), plant.at_rest(7.5, command)
+    assert (early.time_s[0], late.time_s[0]) == (0.0, 7.5)
+    assert early.memory is late.memory
+    assert early.x is late.x
+    other = Plant.of(robot, only={"x"}).at_rest(7.5, command)
+    np.testing.assert_array_equal(other.memory, late.memory)
