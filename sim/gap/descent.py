@@ -76,7 +76,7 @@ def descend(
 def exact(residual: Residual, at: Descent, high: FloatArray, *, nearly: bool = False) -> Descent:
     """Return a descent with its Jacobian recomputed, if it was only updated.
 
-    ``nearly``: one that was taken nearby will do.
+    With ``nearly``, one taken close by is kept.
     """
     if at.fresh or (nearly and _is_near(at)):
         return at
@@ -103,7 +103,7 @@ def _onwards(
 
 
 def _is_near(at: Descent) -> bool:
-    """Tell whether the jacobian was taken so near that it would come out much the same again."""
+    """Tell whether the sum of squares has hardly changed since the jacobian was computed."""
     return float(at.residual @ at.residual) > (1.0 - _WORTH_CARRYING) * at.since
 
 

@@ -154,7 +154,7 @@ def fit(
 ) -> Fit:
     """Fit all parameters of ``effects``, from those that they name or their presets on.
 
-    ``near`` is as in :func:`sketched`; beside it, the jacobian is as good as for attempts.
+    ``near`` is as in :func:`sketched`; with it, the fit is an attempt as in :func:`finished`.
 
     Raises
     ------
@@ -170,8 +170,8 @@ def sketched(
 ) -> Fit:
     """Return a fit after a few steps, its jacobian carried along.
 
-    What fails numerically is lost: see :func:`lost`. A fit to the same evidence that lies ``near``,
-    with some of the effects, lends its slopes to begin with.
+    What fails numerically is lost: see :func:`lost`. ``near`` is a fit of some of the
+    effects to the same evidence; its slopes are used until they lead no further.
 
     Raises
     ------
@@ -198,7 +198,7 @@ def sketched(
 def finished(evidence: Evidence, sketch: Fit, *, most_steps: int, attempt: bool = False) -> Fit:
     """Return a fit with as many steps more as lead on, and the jacobian of where it ends.
 
-    That of an ``attempt`` may be of nearby.
+    An ``attempt`` may keep one computed close by.
     """
     if not sketch.free:
         return sketch

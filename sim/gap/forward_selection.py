@@ -92,8 +92,8 @@ def select(
     """Find the causes of an axis' gap, together with the model's own re-tuned parameters.
 
     ``account`` hears of stages, and of every candidate what it leaves. ``aside`` is the power at
-    each tap, in its floors squared, of what was set aside before. ``among`` these effects alone;
-    among all by default. The search ends early where it comes ``until`` these causes, or to more.
+    each tap, in its floors squared, of what was set aside before. Only effects ``among``
+    the given ones are tried. The search ends early at the causes ``until``, or at more than these.
     """
     own = possible_causes(evidence)
     if among is not None:
@@ -102,7 +102,7 @@ def select(
     account.begin(bare.score)
     alone = retuned(evidence)
     account.tried((), alone.score, Grade.UNSEEN)
-    # Pieces of one motion hardly vouch for another: what is small there must take most of the rest.
+    # A single motion confirms little: a further cause must then take away most of what is left.
     least = _OF_WHAT_IS_LEFT if len(evidence.observations) > 1 else CLEARLY
     enters = partial(_enters, bare, aside, evidence.has(Tap.REF), least)
     most = MOST_CAUSES if until is None else len(until)

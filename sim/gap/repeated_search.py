@@ -152,7 +152,7 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
     if even is None:
         return first
     fitted = {key for one in tried.tried for key in one.ids}
-    # More causes, or the same, change nothing.
+    # The search may end at the same causes, or at more: neither replaces the first result.
     selection, other = _explained(whole, even, aside, account, jobs, fitted, tried.best.ids)
     if len(other.ids) > len(best.ids) or set(best.ids) >= set(other.ids):
         return first

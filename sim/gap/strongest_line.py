@@ -66,7 +66,7 @@ def _in_phase(seen: Sequence[tuple[FloatArray, FloatArray]], period: float) -> f
 
 
 def _waves(place: FloatArray, gap: FloatArray, rates: FloatArray) -> NDArray[np.complex128]:
-    """Return the amplitudes of waves of evenly spaced rates (k,), each turned on from the last."""
+    """Return the amplitudes (k,) of ``gap`` over ``place``, (n,), at evenly spaced rates (k,)."""
     wave = np.exp(-2j * np.pi * rates[0] * place) * gap
     turn = np.exp(-2j * np.pi * (rates[1] - rates[0]) * place)
     found = np.empty(len(rates), dtype=np.complex128)

@@ -19,10 +19,9 @@ from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.perturbation import Perturbation
 from rotemina.sim.plant.plant_arrays import Machine, phase_of, states_of
 from rotemina.sim.plant.random_draws import Chance
-from rotemina.sim.plant.segment_steps import steps_through
+from rotemina.sim.plant.segment_steps import steps_of_run
 from rotemina.sim.plant.settling import lead_of
 from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
-from rotemina.sim.plant.zero_order_hold import Linear, Segments, Ticks, cut, ticks_of
 from rotemina.sim.quantities import rounded
 from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
 
@@ -352,11 +351,12 @@ class Plant:
 
     def steps(self, time_s: FloatArray, first: int, behind: Behind) -> kernel.Steps:
         """Return the steps through samples (n,), of which those before ``first`` are history."""
-        run = ticks_of(time_s, first)
-        return _steps_before(
-            _cut_before(run.at.tobytes(), run.length_s, first, _lateness(self, behind).distinct),
-            tuple((one.generator.tobytes(), one.states) for one in self.assembly.all_groups),
-            self.assembly.inner_step_s,
+        return steps_of_run(
+            time_s,
+            first,
+            _lateness(self, behind).distinct,
+            self.assembly.all_groups,
+            inner_step_s=self.assembly.inner_step_s,
             may_grow=self.assembly.steps_may_grow,
             with_holds=bool(self.effects),
         )
@@ -437,33 +437,6 @@ class Plant:
         )
 
 
-# What a run needs beside its inputs is kept by its numbers: a fit goes over the same records with
-# one plant after the other, and a live run asks for the same few rows again and again.
-
-
-@lru_cache(maxsize=16)
-def _cut_before(ticks: bytes, tick_s: float, first: int, delays_s: tuple[float, ...]) -> Segments:
-    return cut(Ticks(np.frombuffer(ticks, dtype=np.int64), tick_s), first, delays_s)
-
-
-@lru_cache(maxsize=24)
-def _steps_before(
-    segments: Segments,
-    groups: tuple[tuple[bytes, int], ...],
-    inner_step_s: float,
-    *,
-    may_grow: bool,
-    with_holds: bool,
-) -> kernel.Steps:
-    return steps_through(
-        segments,
-        [Linear.of(numbers, states) for numbers, states in groups],
-        inner_step_s=inner_step_s,
-        may_grow=may_grow,
-        with_holds=with_holds,
-    )
-
-
 class _Lateness(NamedTuple):
     """Delays, s.
 
@@ -488,7 +461,13 @@ def _machine(plant: Plant, behind: Behind) -> Machine:
 
 @lru_cache(maxsize=32)
 def _rest(plant: Plant, command: bytes) -> PlantState:
-    return plant._equilibrium(np.frombuffer(command))
+    """Return the rest at a command, which many runs begin from: nobody may change it."""
+    state = plant._equilibrium(np.frombuffer(command))
+    for name in state.__slots__:
+        value = getattr(state, name)
+        if isinstance(value, np.ndarray):
+            value.flags.writeable = False
+    return state
 
 
 def _input_per_command(axis: Axis) -> float:

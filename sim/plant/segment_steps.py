@@ -1,6 +1,7 @@
 """Exact steps through the segments of a run, laid out for the compiled loop."""
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -8,12 +9,61 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.plant.coupled_groups import Group
 from rotemina.sim.plant.kernel import Steps
-from rotemina.sim.plant.zero_order_hold import Linear, Segments, step_matrices
+from rotemina.sim.plant.zero_order_hold import Linear, Segments, Ticks, cut, step_matrices, ticks_of
 
 _ROUNDING = 1e-6  # share of an inner step by which a length may exceed a whole number of them
 _RUNG_OUT = 1e-6  # of a vibration, that is left when inner steps begin to grow
 _GROWTH = 1.5  # from one length of inner steps to the next
 _STEPS_A_LENGTH = 32  # so that a step is at most a 64th of the time since the input began to act
+
+
+def steps_of_run(
+    time_s: FloatArray,
+    first: int,
+    delays_s: tuple[float, ...],
+    groups: Sequence[Group],
+    *,
+    inner_step_s: float,
+    may_grow: bool,
+    with_holds: bool,
+) -> Steps:
+    """Return the steps through samples (n,), of which those before ``first`` are history.
+
+    ``delays_s`` is as in :func:`~rotemina.sim.plant.zero_order_hold.cut`, the rest as in
+    :func:`steps_through`. Steps are kept by times and matrices: a fit simulates the same records
+    with one plant after the other, and a live run repeats the same few rows.
+    """
+    run = ticks_of(time_s, first)
+    return _steps(
+        _segments(run.at.tobytes(), run.length_s, first, delays_s),
+        tuple((group.generator.tobytes(), group.states) for group in groups),
+        inner_step_s,
+        may_grow=may_grow,
+        with_holds=with_holds,
+    )
+
+
+@lru_cache(maxsize=16)
+def _segments(ticks: bytes, tick_s: float, first: int, delays_s: tuple[float, ...]) -> Segments:
+    return cut(Ticks(np.frombuffer(ticks, dtype=np.int64), tick_s), first, delays_s)
+
+
+@lru_cache(maxsize=24)
+def _steps(
+    segments: Segments,
+    groups: tuple[tuple[bytes, int], ...],
+    inner_step_s: float,
+    *,
+    may_grow: bool,
+    with_holds: bool,
+) -> Steps:
+    return steps_through(
+        segments,
+        [Linear.of(numbers, states) for numbers, states in groups],
+        inner_step_s=inner_step_s,
+        may_grow=may_grow,
+        with_holds=with_holds,
+    )
 
 
 def steps_through(

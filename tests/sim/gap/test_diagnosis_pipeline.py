@@ -5,6 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from rotemina.sim.blind.files import kinds
+from rotemina.sim.blind_second.case import draw_second
 from rotemina.sim.gap import diagnosis_pipeline, forward_selection, repeated_search
 from rotemina.sim.gap.diagnosis import UNKNOWN, Verdict
 from rotemina.sim.gap.diagnosis_pipeline import diagnose
@@ -12,6 +14,7 @@ from rotemina.sim.gap.disturbances import set_aside
 from rotemina.sim.gap.errors import GapError
 from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.ranking import Grade
+from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -335,6 +338,16 @@ def test_a_noisy_sensor_is_named_beside_what_nothing_explains_at_the_reference()
     found = diagnose(ROBOT, seen)
     assert ("z", "sensor_noise", None) in named(found)
     assert found.axes["z"].verdict is Verdict.PARTLY
+
+
+@pytest.mark.slow
+def test_what_creep_by_another_law_leaves_is_no_thermal_drift(tmp_path):
+    """Thermal drift removes most of it, but only a thirtieth of the gap."""
+    _, _, seed = list(kinds(104, 3401))[12]
+    draw_second(ROBOT, seed).write(tmp_path, ROBOT)
+    paths = sorted(tmp_path.glob("train_*"))
+    found = diagnose(ROBOT, [read_record(path, robot=ROBOT) for path in paths])
+    assert named(found) == {("thy", "creep", None)}
 
 
 def test_an_axis_whose_numbers_fail_ends_nothing(monkeypatch):
