@@ -10,6 +10,7 @@ _LEVELS = 2  # positions between which an axis only ever went, that tell too lit
 _STILL = 1e-3  # of the range of a command, within which positions are one
 _LINE = 0.96  # of a command's power, and of its speed's, in a single sine
 _TRIED = 41  # frequencies about the strongest line
+_KNOTS = 4  # places at most between which size and phase of a sine may change
 _ALIKE = 0.95  # correlation from which two axes moved alike
 _WIDE = 0.5  # of the axis' range: a sine that goes so far bends what is not straight
 
@@ -60,19 +61,32 @@ def _centred(signal: FloatArray) -> FloatArray:
 
 
 def _sine(time_s: FloatArray, command: FloatArray) -> tuple[float, float] | None:
-    """Return frequency and size of a command that is one sine, and its speed; else None."""
-    since_s = time_s - time_s[0]
+    """Return frequency and size of a command that is one sine, and its speed; else None.
+
+    Size and phase may change slowly, as at a start that swells: no faster than in two periods.
+    """
+    part = (time_s - time_s[0]) / (time_s[-1] - time_s[0])
     power = np.abs(np.fft.rfft(_centred(command) * np.hanning(len(command))))
-    rates = (int(np.argmax(power)) + np.linspace(-1.0, 1.0, _TRIED)) / since_s[-1]
-    turns, one = 2.0 * np.pi * np.outer(rates, since_s), np.ones(len(command))
-    for moved in (command, np.gradient(command, since_s)):
-        left = [_left_by(np.stack([one, np.cos(t), np.sin(t)], axis=1), moved) for t in turns]
+    periods = int(np.argmax(power)) + np.linspace(-1.0, 1.0, _TRIED)
+    knots = np.linspace(0.0, 1.0, int(np.clip(1 + periods.mean() // 2, 1, _KNOTS)))
+    sizes = np.stack([np.interp(part, knots, one) for one in np.eye(len(knots))], axis=1)
+    for moved in (command, np.gradient(command, part)):
+        left = [_left_by(_waves(sizes, 2.0 * np.pi * count * part), moved) for count in periods]
         if min(left) > 1.0 - _LINE:
             return None
-    return float(rates[int(np.argmin(left))]), float(np.std(command))
+    rate_hz = float(periods[int(np.argmin(left))] / (time_s[-1] - time_s[0]))
+    return rate_hz, float(np.std(command))
+
+
+def _waves(sizes: FloatArray, turns: FloatArray) -> FloatArray:
+    """Return a constant and waves of sizes (n, k) along turns (n,): (n, 2 k + 1)."""
+    waves = [np.ones((len(turns), 1))]
+    waves += [sizes * wave(turns)[:, None] for wave in (np.cos, np.sin)]
+    return np.concatenate(waves, axis=1)
 
 
 def _left_by(basis: FloatArray, signal: FloatArray) -> float:
     """Return the share of the power of a signal (n,) that is left by a basis (n, m)."""
-    left = signal - basis @ np.linalg.lstsq(basis, signal)[0]
-    return float(left @ left) / float(np.sum(_centred(signal) ** 2))
+    centred = _centred(signal)
+    left = centred - basis @ np.linalg.lstsq(basis.T @ basis, basis.T @ centred)[0]
+    return float(left @ left) / float(centred @ centred)

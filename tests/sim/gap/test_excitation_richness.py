@@ -40,3 +40,9 @@ def test_a_single_stroke_is_no_sine():
     assert not is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, stroke)]))
     sine = 0.1 + 0.02 * np.sin(2.0 * np.pi * 0.13 * time_s)
     assert is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, sine)]))
+
+
+def test_a_sine_that_swells_at_its_start_is_one_sine():
+    time_s = np.arange(4000) * 1e-3
+    swelling = 0.1 + 0.02 * np.minimum(time_s, 1.0) * np.sin(2.0 * np.pi * time_s)
+    assert is_poor(Evidence.of(ROBOT, "q", [moved(ROBOT, swelling)]))
