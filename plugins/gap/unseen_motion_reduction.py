@@ -67,14 +67,15 @@ class Proof:
 def prove(diagnosis: Diagnosis, model: ModelInUse, run: Run, memory: CommandMemory) -> Proof:
     """Work out the gap of a new record before and after, for axes that were diagnosed and moved.
 
-    What the machine was commanded before is known to the model, as far as it is in the memory.
+    A run that was played with this model has its gap already. Another is compared again: what the
+    machine was commanded before is known to the model, as far as it is in the memory.
 
     Raises
     ------
     InputError
         If the record does not fit the robot, or the corrected model cannot be simulated.
     """
-    again = compared_again(model, run, memory)
+    again = run if run.model_id == model.id else compared_again(model, run, memory)
     found = [
         _shrunk(again, axis, figure, diagnosis.robot)
         for (axis, tap), figure in again.gaps.items()

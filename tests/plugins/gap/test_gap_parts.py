@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.command_memory import CommandMemory
-from rotemina.app.motion.compared_run import Run
+from rotemina.app.motion.compared_run import Run, compared
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.heat_cell import parts
@@ -68,6 +68,19 @@ def test_a_proof_tells_how_far_the_gap_of_each_diagnosed_axis_shrinks(diagnosis,
         {"thy": "rad"},
     )
     assert {one.trace.axis for one in proof_of(only_thy).shrunk} == {"thy"}
+
+
+def test_a_run_played_with_the_model_keeps_its_figure(diagnosis, record):
+    """The session's model knows commands that the memory may not: one run, one figure."""
+    model = ModelInUse.found_by(diagnosis)
+    fresh = compared(model, "tuesday", record)
+    response = fresh.comparison.response
+    known = {("thx", Tap.MEAS): response.signal("thx", Tap.MEAS) + 1e-7}
+    carried = replace(response, signals={**response.signals, **known})
+    run = replace(fresh, comparison=compare(model.robot, record, response=carried))
+    first = prove(diagnosis, model, run, CommandMemory()).shrunk[0]
+    assert first.figure == run.gaps["thx", Tap.MEAS]
+    assert first.figure != fresh.gaps["thx", Tap.MEAS]
 
 
 def test_the_new_motion_is_of_the_kind_on_which_the_two_models_differ_most(diagnosis, record):
