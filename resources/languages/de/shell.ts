@@ -1233,7 +1233,7 @@
     </message>
     <message>
         <source>data {age} old</source>
-        <translation>Daten von vor {age}</translation>
+        <translation>Daten {age} alt</translation>
     </message>
     <message>
         <source>stop latency {ms:.1f} ms (99.9 %)</source>
