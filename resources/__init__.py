@@ -1,1 +1,1 @@
-"""Files that the program carries: robots, example trajectories, theme, icons."""
+"""Files that the program carries."""

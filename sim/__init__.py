@@ -1,1 +1,1 @@
-"""The model: robot files, records, the nominal plant and its comparison with a real machine."""
+"""Model, records, diagnosis."""

@@ -1,1 +1,1 @@
-"""The library of records: played, recorded and opened ones, with their data."""
+"""The library of records."""

@@ -1,1 +1,1 @@
-"""The robot as a scene in three dimensions, its picture, and its server for browsers."""
+"""The robot as a 3-D scene."""

@@ -1,1 +1,1 @@
-"""The window that hosts the panels (Qt)."""
+"""The window (Qt)."""

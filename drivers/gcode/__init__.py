@@ -1,1 +1,1 @@
-"""Stages driven by G-code over a serial line, as GRBL does, and an emulated one."""
+"""GRBL stages by G-code, and an emulated one."""

@@ -1,1 +1,1 @@
-"""Input devices: joysticks, gamepads, potentiometers and keys, behind one contract."""
+"""Input devices behind one contract."""

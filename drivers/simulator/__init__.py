@@ -1,1 +1,1 @@
-"""The built-in simulator as a motion driver."""
+"""The built-in simulator."""

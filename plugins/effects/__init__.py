@@ -1,1 +1,1 @@
-"""Effects of the running simulator: switch, tune, load and save them."""
+"""Effects of the running simulator."""

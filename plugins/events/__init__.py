@@ -1,1 +1,1 @@
-"""The operator's log: moves, stops, locks, refusals and runs."""
+"""The operator's log: moves, stops, refusals."""

@@ -1,1 +1,1 @@
-"""The gap between model and machine: where it lies, which effects cause it, how far it shrinks."""
+"""Gap diagnosis and correction."""

@@ -1,1 +1,1 @@
-"""Identification from a record: frequency response, loop, steps, a fitted model."""
+"""Identification from a record."""

@@ -1,1 +1,1 @@
-"""Input devices: connected ones, their readings, their functions, and their set-up."""
+"""Input devices and their set-up."""

@@ -1,1 +1,1 @@
-"""The running job, its progress, and its pause and stop buttons."""
+"""The running job and its progress."""

@@ -1,1 +1,1 @@
-"""Automatic cell penetration: parameters, their consequences, the run, and the log."""
+"""Automatic cell penetration."""

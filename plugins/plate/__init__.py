@@ -1,1 +1,1 @@
-"""The holding plate in 3-D: stress, deformation and modes over the range of motion."""
+"""The holding plate in 3-D."""

@@ -1,1 +1,1 @@
-"""Per-axis time plots of command, model and measurement."""
+"""Live plots of each axis."""

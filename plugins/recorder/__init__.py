@@ -1,1 +1,1 @@
-"""Recorder: record, recover, list, export and replay sessions."""
+"""Session recordings and library."""

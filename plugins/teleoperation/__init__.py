@@ -1,1 +1,1 @@
-"""Teleoperation panel: control, mode, scale, and an on-screen pad."""
+"""Teleoperation, with an on-screen pad."""

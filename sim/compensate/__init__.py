@@ -1,1 +1,1 @@
-"""Inverse models of a piezo: hysteresis, creep and lag, trained, checked and run by sample."""
+"""Inverse models of a piezo."""

@@ -1,1 +1,1 @@
-"""Effects that a real axis adds to the nominal plant: one module per effect."""
+"""Effects, one module each."""

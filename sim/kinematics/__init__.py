@@ -1,1 +1,1 @@
-"""Kinematics of the hybrid chain: micro tables that carry a tilting, extending nano stage."""
+"""Kinematics of the hybrid chain."""

@@ -1,1 +1,1 @@
-"""Modes, state space and stability of a machine in small motion."""
+"""Modes, state space, stability."""

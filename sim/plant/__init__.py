@@ -1,1 +1,1 @@
-"""The nominal plant: equation of motion, exact sampling, control loop."""
+"""The nominal plant, sampled exactly."""

@@ -1,1 +1,1 @@
-"""Records and trajectories: ASCII files of all joints over time."""
+"""Records and trajectories, as ASCII files."""

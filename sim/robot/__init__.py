@@ -1,1 +1,1 @@
-"""Robot files: the description of a machine's axes."""
+"""Robot files."""

@@ -1,1 +1,1 @@
-"""Motion profiles and input shaping: shapes of a move that leave little vibration."""
+"""Motion profiles and input shaping."""

@@ -1,1 +1,1 @@
-"""Simulated records: a robot with its effects, its noise and its chance, driven by commands."""
+"""Simulated records with effects and noise."""

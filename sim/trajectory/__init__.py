@@ -1,1 +1,1 @@
-"""Trajectories before they are played: limits, speed, duration, motion profiles."""
+"""Limits, duration and profiles of trajectories."""

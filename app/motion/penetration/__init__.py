@@ -1,1 +1,1 @@
-"""Automatic cell penetration: approach, contact, thrust, hold, retract."""
+"""Cell penetration, from approach to retraction."""

@@ -1,1 +1,1 @@
-"""Teleoperation: from the readings of an input device to the motion of axes."""
+"""From stick readings to motion."""

@@ -1,1 +1,1 @@
-"""USB and Bluetooth joysticks and gamepads with a HID descriptor."""
+"""HID joysticks and gamepads."""
