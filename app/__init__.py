@@ -1,1 +1,4 @@
-"""The motion session, commands and the window."""
+"""The motion session, commands and the window.
+
+The window hosts the panels.
+"""

@@ -1,1 +1,4 @@
-"""Files that the program carries."""
+"""Files that the program carries.
+
+Robots, trajectories, published models, templates, languages, theme and icons.
+"""

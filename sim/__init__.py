@@ -1,1 +1,4 @@
-"""Model, records, diagnosis."""
+"""Model, records, diagnosis.
+
+Robot files, records, the nominal plant, and its comparison with a real machine.
+"""

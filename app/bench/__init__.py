@@ -1,1 +1,4 @@
-"""Diagnosis of machines with known causes."""
+"""Diagnosis of machines with known causes.
+
+Each diagnosis is set beside the truth.
+"""

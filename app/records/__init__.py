@@ -1,1 +1,4 @@
-"""The library of records."""
+"""The library of records.
+
+It holds played, recorded and opened records with their data.
+"""

@@ -1,1 +1,4 @@
-"""The window (Qt)."""
+"""The window (Qt).
+
+The window hosts the panels.
+"""

@@ -1,1 +1,4 @@
-"""GRBL stages by G-code, and an emulated one."""
+"""GRBL stages by G-code, and an emulated one.
+
+The serial line carries GRBL's dialect.
+"""

@@ -1,1 +1,4 @@
-"""Input devices behind one contract."""
+"""Input devices behind one contract.
+
+Joysticks, gamepads, potentiometers and keys.
+"""

@@ -1,1 +1,4 @@
-"""The built-in simulator."""
+"""The built-in simulator.
+
+It is a motion driver like any other.
+"""

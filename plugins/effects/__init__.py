@@ -1,1 +1,4 @@
-"""Effects of the running simulator."""
+"""Effects of the running simulator.
+
+Switch, tune, load and save them.
+"""

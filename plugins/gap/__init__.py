@@ -1,1 +1,4 @@
-"""Gap diagnosis and correction."""
+"""Gap diagnosis and correction.
+
+Where the gap is, which effects cause it, and how far it shrinks.
+"""

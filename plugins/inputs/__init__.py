@@ -1,1 +1,4 @@
-"""Input devices and their set-up."""
+"""Input devices and their set-up.
+
+Connected devices, their readings and their functions.
+"""

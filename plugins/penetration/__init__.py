@@ -1,1 +1,4 @@
-"""Automatic cell penetration."""
+"""Automatic cell penetration.
+
+Parameters, their consequences, the run and the log.
+"""

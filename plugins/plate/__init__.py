@@ -1,1 +1,4 @@
-"""The holding plate in 3-D."""
+"""The holding plate in 3-D.
+
+Stress, deformation and modes over the range of motion.
+"""

@@ -1,1 +1,4 @@
-"""Live plots of each axis."""
+"""Live plots of each axis.
+
+Command, model and measurement over time.
+"""

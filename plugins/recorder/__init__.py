@@ -1,1 +1,4 @@
-"""Session recordings and library."""
+"""Session recordings and library.
+
+Record, recover, list, export and replay sessions.
+"""

@@ -1,1 +1,4 @@
-"""Effects, one module each."""
+"""Effects, one module each.
+
+An effect is what a real axis adds to the nominal plant.
+"""

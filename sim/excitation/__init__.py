@@ -1,1 +1,4 @@
-"""Test motions inside the limits."""
+"""Test motions inside the limits.
+
+Each motion makes one property of a machine visible.
+"""

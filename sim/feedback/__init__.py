@@ -1,1 +1,4 @@
-"""Controllers and their loops' stability."""
+"""Controllers and their loops' stability.
+
+A sampled controller, the stability of its loop, and the simulated loop.
+"""

@@ -1,1 +1,4 @@
-"""Diagnosis of the sim-to-real gap."""
+"""Diagnosis of the sim-to-real gap.
+
+Where the gap is, what causes it, and how far it shrinks.
+"""

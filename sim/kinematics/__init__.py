@@ -1,1 +1,4 @@
-"""Kinematics of the hybrid chain."""
+"""Kinematics of the hybrid chain.
+
+Micro tables carry a tilting, extending nano stage.
+"""

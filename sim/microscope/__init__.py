@@ -1,1 +1,4 @@
-"""The simulated microscope."""
+"""The simulated microscope.
+
+What a camera sees of the tip, the pin and a cell.
+"""

@@ -1,1 +1,4 @@
-"""Modes, state space, stability."""
+"""Modes, state space, stability.
+
+They hold for small motions of a machine.
+"""

@@ -1,1 +1,4 @@
-"""The nominal plant, sampled exactly."""
+"""The nominal plant, sampled exactly.
+
+Equation of motion, exact sampling and control loop.
+"""

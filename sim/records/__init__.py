@@ -1,1 +1,4 @@
-"""Records and trajectories, as ASCII files."""
+"""Records and trajectories, as ASCII files.
+
+A file holds all joints over time.
+"""

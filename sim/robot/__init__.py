@@ -1,1 +1,4 @@
-"""Robot files."""
+"""Robot files.
+
+They describe a machine's axes.
+"""

@@ -1,1 +1,4 @@
-"""Motion profiles and input shaping."""
+"""Motion profiles and input shaping.
+
+Shapes of a move that leave little vibration.
+"""

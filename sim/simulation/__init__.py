@@ -1,1 +1,4 @@
-"""Simulated records with effects and noise."""
+"""Simulated records with effects and noise.
+
+Commands drive a robot with its effects, noise and chance.
+"""

@@ -1,1 +1,4 @@
-"""Limits, duration and profiles of trajectories."""
+"""Limits, duration and profiles of trajectories.
+
+All of them are checked before a trajectory is played.
+"""

@@ -1,1 +1,4 @@
-"""Gains by a Pareto search."""
+"""Gains by a Pareto search.
+
+The search runs on the simulated axis, which also tries any point of the front.
+"""

@@ -1,1 +1,4 @@
-"""Cell penetration, from approach to retraction."""
+"""Cell penetration, from approach to retraction.
+
+Phases: approach, contact, thrust, hold, retract.
+"""

@@ -1,1 +1,4 @@
-"""From stick readings to motion."""
+"""From stick readings to motion.
+
+It turns readings of input devices into motion of axes.
+"""

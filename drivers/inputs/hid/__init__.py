@@ -1,1 +1,4 @@
-"""HID joysticks and gamepads."""
+"""HID joysticks and gamepads.
+
+Devices on USB and Bluetooth that have a HID descriptor.
+"""
