@@ -1,1 +1,4 @@
-"""The program: motion session, command line and the window that hosts the panels."""
+"""The motion session, commands and the window.
+
+The window hosts the panels.
+"""

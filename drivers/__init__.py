@@ -1,1 +1,4 @@
-"""Access to devices: the driver contract and the built-in drivers. Free of Qt."""
+"""Driver contract and built-in drivers.
+
+Free of Qt.
+"""

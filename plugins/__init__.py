@@ -1,1 +1,1 @@
-"""The panels an operator sees, one folder a panel."""
+"""The operator's panels, one folder each."""

@@ -1,1 +1,4 @@
-"""Files that the program carries: robots, example trajectories, theme, icons."""
+"""Files that the program carries.
+
+Robots, trajectories, published models, templates, languages, theme and icons.
+"""

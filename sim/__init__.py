@@ -1,1 +1,4 @@
-"""The model: robot files, records, the nominal plant and its comparison with a real machine."""
+"""Model, records, diagnosis.
+
+Robot files, records, the nominal plant, and its comparison with a real machine.
+"""

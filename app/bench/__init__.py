@@ -1,1 +1,4 @@
-"""Machines with known causes: the diagnosis of each, beside the truth."""
+"""Diagnosis of machines with known causes.
+
+Each diagnosis is set beside the truth.
+"""

@@ -102,7 +102,8 @@ def _figure(result: Result, value: float | None) -> str:
 _PAGE = """\
 # Real machines
 
-What `rotemina gap diagnose` says of machines that others built and measured. Made by
+See what `rotemina gap diagnose` finds on machines that others built and measured. This command
+makes the page:
 
 <!-- not run: needs the records of the machines, which are no part of the program -->
 
@@ -111,31 +112,31 @@ rotemina gap bench machines/* --report docs/real-machines.md
 ```
 
 Each machine is a folder with `robot.toml`, records `train_*.csv` that are diagnosed and
-`test_*.csv` that no fit sees, and `truth.toml`: what is known of it. Anyone can run it on a folder
-of his own:
+`test_*.csv` that no fit sees, and `truth.toml`: what is known of it. You can run the command on
+your own folders:
 
 ```toml
-causes = [["friction", "backlash"]]  # sets of effects that stand for each other in these records
-also = ["gain_error"]                # right wherever they stand, not demanded
-tap = "meas"                         # where it is compared
+causes = [["friction", "backlash"]]  # in each set, effects that these records do not distinguish
+also = ["gain_error"]                # effects that are right if named, but not required
+tap = "meas"                         # the tap that is compared
 relative = false                     # whether to_beat is a relative error
-to_beat = 1.45e-3                    # what a plain fit leaves of the test records, SI
+to_beat = 1.45e-3                    # what a plain fit leaves on the test records, SI
 ```
 
 {table}
 
 *Sets*: each cause with the effects not distinguishable from it. *Closed*: share of the gap's
 power above the noise floor, on the test records. *Left*: rms remainder of the corrected model on
-the test records, or the relative error; positions without their mean and the memory of earlier
-motion. *To beat*: the same figure of a plain output-error or least-squares fit. *Time*: of the
-diagnosis.
+the test records, or the relative error; for positions without the mean, and with the memory of
+earlier motion free in each record. *To beat*: the same figure of a plain output-error or
+least-squares fit. *Time*: of the diagnosis.
 
 ## What is not reached
 
-A machine is as it should be where the first cause is known of it, every known cause is named or in
-a set of at most {largest} (or of those that are known to stand for each other), at most {over} ×
-the figure to beat is left, and the diagnosis takes at most {longest} s. That holds for {reached} of
-{number}; {below} of {number} are below the figure to beat.
+A diagnosis meets the requirements if its first cause is a known one, every known cause is named or
+in a set of at most {largest} (or of effects known to be indistinguishable), at most {over} × the
+figure to beat is left, and it takes at most {longest} s. That holds for {reached} of {number};
+{below} of {number} are below the figure to beat.
 
 {missing}
 

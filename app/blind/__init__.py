@@ -1,1 +1,4 @@
-"""The sealed self-test: the diagnosis as a separate process that sees only records."""
+"""Sealed self-test of the diagnosis.
+
+The diagnosis runs as a separate process that sees only records.
+"""

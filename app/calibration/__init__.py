@@ -1,1 +1,4 @@
-"""Sensor calibrations made, stored and applied by a user, and the axes' health. No Qt."""
+"""Sensor calibrations and axes' health.
+
+A user makes, stores and applies calibrations. No Qt.
+"""

@@ -1,1 +1,4 @@
-"""Cameras in use: one thread each, with the newest picture available to all readers."""
+"""Cameras in use, one thread each.
+
+All readers get the newest picture.
+"""

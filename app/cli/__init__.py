@@ -1,1 +1,1 @@
-"""The command `rotemina` and its subcommands."""
+"""The command `rotemina`."""

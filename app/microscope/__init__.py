@@ -1,1 +1,1 @@
-"""The microscope in the program: calibration, click-to-move and measurements."""
+"""Microscope calibration, click-to-move, measurements."""

@@ -1,1 +1,4 @@
-"""Motion: the session that owns a driver, playback and live data. Free of Qt."""
+"""Motion session, playback, live data.
+
+The session owns a driver. Free of Qt.
+"""

@@ -1,1 +1,4 @@
-"""Third-party plugins: created from templates, listed, checked, and left out when they fail."""
+"""Templates and checks of third-party plugins.
+
+Plugins that fail are left out.
+"""

@@ -1,1 +1,4 @@
-"""The library of records: played, recorded and opened ones, with their data."""
+"""The library of records.
+
+It holds played, recorded and opened records with their data.
+"""

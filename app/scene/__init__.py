@@ -1,1 +1,4 @@
-"""The robot as a scene in three dimensions, its picture, and its server for browsers."""
+"""The robot as a 3-D scene.
+
+It has the picture of the scene, and the server for browsers.
+"""

@@ -1,1 +1,4 @@
-"""The window that hosts the panels (Qt)."""
+"""The window (Qt).
+
+The window hosts the panels.
+"""

@@ -1,1 +1,4 @@
-"""A separate process that reports when the program hangs or dies."""
+"""A process that reports hangs.
+
+It also reports that the program has died.
+"""

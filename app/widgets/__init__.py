@@ -1,1 +1,4 @@
-"""Small widgets shared by the window and its panels, independent of panels and machine."""
+"""Widgets shared by window and panels.
+
+They are independent of panels and machine.
+"""

@@ -1,1 +1,1 @@
-"""Cameras: their contract, and the built-in ones."""
+"""Camera contract and built-in cameras."""

@@ -1,1 +1,1 @@
-"""Conformance tests that check whether a driver keeps the contract."""
+"""Checks of the driver contract."""

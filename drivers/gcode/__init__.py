@@ -1,1 +1,4 @@
-"""Stages driven by G-code over a serial line, as GRBL does, and an emulated one."""
+"""GRBL stages by G-code, and an emulated one.
+
+The serial line carries GRBL's dialect.
+"""

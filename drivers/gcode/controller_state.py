@@ -1,4 +1,9 @@
-"""The state of a GRBL controller, and what to send it next."""
+"""The state of a GRBL controller, and what to send it next.
+
+An alarm is a fault, which ``clear_fault`` resets; until then a controller that a switch has locked
+does not answer, but its line is not lost. A stop resets it only after the axes have come to rest,
+because a reset in motion loses steps; the reset empties the queue, so that no ``~`` resumes it.
+"""
 
 import logging
 from collections import deque

@@ -1,4 +1,7 @@
-"""The dialogue with a controller: one line at a time, single bytes past all lines."""
+"""The dialogue with a controller: one line at a time, single bytes past all lines.
+
+A status that answers more than 10 ms later than the quickest one is discarded.
+"""
 
 from collections.abc import Iterator
 

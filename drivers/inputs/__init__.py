@@ -1,1 +1,4 @@
-"""Input devices: joysticks, gamepads, potentiometers and keys, behind one contract."""
+"""Input devices behind one contract.
+
+Joysticks, gamepads, potentiometers and keys.
+"""

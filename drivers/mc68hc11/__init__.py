@@ -1,1 +1,1 @@
-"""The MC68HC11 boards on a serial line."""
+"""MC68HC11 boards on serial lines."""

@@ -2,6 +2,9 @@
 
 All of it is counted in bytes of ten bits. On a shared bus every frame is followed by a slot in
 which the host alone may begin to speak, so that a stop never waits for more than one frame.
+
+A telemetry frame has 31 bytes, and every fourth is followed by 14 bytes of inputs. A capture frame
+holds up to 11 samples of one axis, or 3 of three.
 """
 
 from dataclasses import dataclass

@@ -2,6 +2,8 @@
 
 At most one frame at a time is with the operating system, so that a stop waits for no other. On a
 shared bus the host stays silent until the boards that it asked have answered.
+
+A USB adapter adds its frame of 1 ms; its latency timer, usually 16 ms, delays only answers.
 """
 
 from collections.abc import Callable, Sequence

@@ -1,1 +1,4 @@
-"""The built-in simulator as a motion driver."""
+"""The built-in simulator.
+
+It is a motion driver like any other.
+"""

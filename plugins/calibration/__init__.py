@@ -1,1 +1,1 @@
-"""The panel of sensor calibration."""
+"""Sensor calibration panel."""

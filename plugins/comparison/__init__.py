@@ -1,1 +1,1 @@
-"""Comparison of the model with a real record."""
+"""Comparison of model and record."""

@@ -1,1 +1,4 @@
-"""Compensation of hysteresis: train, check and apply an inverse, and tune a loop around it."""
+"""Compensation of hysteresis.
+
+Train, check and apply an inverse, and tune a loop around it.
+"""

@@ -1,1 +1,1 @@
-"""Connection panel: the device, its settings, and conditions for motion."""
+"""Device, its settings, conditions for motion."""

@@ -1,1 +1,1 @@
-"""Control menu of the micro and nano stages."""
+"""Control menu of both stages."""

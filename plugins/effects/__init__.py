@@ -1,1 +1,4 @@
-"""Effects of the running simulator: switch, tune, load and save them."""
+"""Effects of the running simulator.
+
+Switch, tune, load and save them.
+"""

@@ -1,1 +1,4 @@
-"""The operator's log: moves, stops, locks, refusals and runs."""
+"""The operator's log: moves, stops, refusals.
+
+It also lists locks and runs.
+"""

@@ -1,1 +1,1 @@
-"""Faults panel: past faults, and fault injection for training."""
+"""Past faults, and fault injection for training."""

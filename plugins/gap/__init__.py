@@ -1,1 +1,4 @@
-"""The gap between model and machine: where it lies, which effects cause it, how far it shrinks."""
+"""Gap diagnosis and correction.
+
+Where the gap is, which effects cause it, and how far it shrinks.
+"""

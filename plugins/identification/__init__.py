@@ -1,1 +1,4 @@
-"""Identification from a record: frequency response, loop, steps, a fitted model."""
+"""Identification from a record.
+
+Frequency response, loop, steps, fitted model and health card.
+"""

@@ -1,1 +1,4 @@
-"""Input devices: connected ones, their readings, their functions, and their set-up."""
+"""Input devices and their set-up.
+
+Connected devices, their readings and their functions.
+"""

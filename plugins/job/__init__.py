@@ -1,1 +1,4 @@
-"""The running job, its progress, and its pause and stop buttons."""
+"""The running job and its progress.
+
+The panel also has the buttons that pause and stop it.
+"""

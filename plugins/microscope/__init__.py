@@ -1,1 +1,1 @@
-"""Microscope panel: the picture, and motion by the microscope."""
+"""The microscope picture, and motion by it."""

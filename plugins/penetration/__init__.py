@@ -1,1 +1,4 @@
-"""Automatic cell penetration: parameters, their consequences, the run, and the log."""
+"""Automatic cell penetration.
+
+Parameters, their consequences, the run and the log.
+"""

@@ -1,1 +1,4 @@
-"""The holding plate in 3-D: stress, deformation and modes over the range of motion."""
+"""The holding plate in 3-D.
+
+Stress, deformation and modes over the range of motion.
+"""

@@ -1,1 +1,4 @@
-"""Per-axis time plots of command, model and measurement."""
+"""Live plots of each axis.
+
+Command, model and measurement over time.
+"""

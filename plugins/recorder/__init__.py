@@ -1,1 +1,4 @@
-"""Recorder: record, recover, list, export and replay sessions."""
+"""Session recordings and library.
+
+Record, recover, list, export and replay sessions.
+"""

@@ -1,1 +1,4 @@
-"""Teleoperation panel: control, mode, scale, and an on-screen pad."""
+"""Teleoperation, with an on-screen pad.
+
+Mode, scaling and the device in control.
+"""

@@ -1,1 +1,1 @@
-"""The robot in three dimensions, model and real as two ghosts."""
+"""Model and real robot in 3-D."""

@@ -1,1 +1,4 @@
-"""Languages of the window: one file that Qt reads for each, and what it is made from."""
+"""Languages of the window.
+
+Qt reads one file for each; the folder also has what it is made from.
+"""

@@ -1,1 +1,4 @@
-"""The viewer of meshcat 0.3.2, as that package ships it, with its licences and those inside it."""
+"""The viewer of meshcat 0.3.2.
+
+It is as that package ships it, with its licences and those inside it.
+"""

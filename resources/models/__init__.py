@@ -1,1 +1,1 @@
-"""Published models of the machine that ship with the program."""
+"""Published models of the machine."""

@@ -1,1 +1,1 @@
-"""Robot files that ship with the program."""
+"""Included robot files."""

@@ -1,1 +1,1 @@
-"""Templates of packages with plugins, for ``rotemina plugin new``."""
+"""Templates for ``rotemina plugin new``."""

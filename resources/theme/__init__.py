@@ -1,1 +1,1 @@
-"""Colours and style sheet of the window."""
+"""Colours and style sheet."""

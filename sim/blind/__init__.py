@@ -1,1 +1,4 @@
-"""Sealed self-test of the diagnosis: cases made by equations that the diagnosis does not know."""
+"""Cases of the sealed self-test.
+
+They are made by equations that the diagnosis does not know.
+"""

@@ -1,4 +1,10 @@
-"""The function of each effect."""
+"""The function of each effect.
+
+Hysteresis is a Preisach plane with a smooth density or a chain of Maxwell slip elements; friction
+is generalised Maxwell slip, Dahl's or elastoplastic; play a nut between two compliant flanks on a
+guide of bristles; creep a Kelvin–Voigt chain; contact Hertzian; an encoder's error a Lissajous
+figure evaluated by atan2.
+"""
 
 from collections.abc import Callable
 

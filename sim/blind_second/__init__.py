@@ -1,1 +1,4 @@
-"""A second generator of blind cases, with none of the first one's equations."""
+"""A second generator of cases.
+
+It has none of the first one's equations.
+"""

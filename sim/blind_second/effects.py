@@ -1,4 +1,8 @@
-"""Effects in their own equations: functions of a drawn shape and a size."""
+"""Effects in their own equations: functions of a drawn shape and a size.
+
+Hysteresis follows Coleman and Hodgdon, friction Bliman and Sorine, creep a power law; contact
+begins softly, a flexure stiffens by a hyperbolic sine, periodic errors are arctangent waves.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace

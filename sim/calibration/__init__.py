@@ -1,1 +1,4 @@
-"""Calibration of the axes' own sensors against an independent reference, such as a laser."""
+"""Sensor calibration against a reference.
+
+The reference is independent, such as a laser.
+"""

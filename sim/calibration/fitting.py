@@ -7,6 +7,7 @@ Classification and Regression Trees (1984), section 3.4.3: the one-standard-erro
 The noise of a sensor is not white, so intervals come from the scores of blocks of rows, each far
 longer than the noise remembers: the sandwich covariance ``G⁻¹ Σ_b s_b s_bᵀ G⁻¹`` (Liang and Zeger,
 Biometrika 73 (1986) 13–22), with Student's t of as many degrees of freedom as blocks are left.
+The lag's interval is wider by what ringing between two rows hides.
 """
 
 from math import sqrt

@@ -1,1 +1,1 @@
-"""How far the nominal model is from a record of the real machine."""
+"""Comparison of nominal model and record."""

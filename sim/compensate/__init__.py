@@ -1,1 +1,4 @@
-"""Inverse models of a piezo: hysteresis, creep and lag, trained, checked and run by sample."""
+"""Inverse models of a piezo.
+
+They undo hysteresis, creep and lag; they are trained, checked and run by sample.
+"""

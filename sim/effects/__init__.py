@@ -1,1 +1,4 @@
-"""Effects that a real axis adds to the nominal plant: one module per effect."""
+"""Effects, one module each.
+
+An effect is what a real axis adds to the nominal plant.
+"""

@@ -1,1 +1,4 @@
-"""Excitations: test motions that make one property of a machine visible, inside its limits."""
+"""Test motions inside the limits.
+
+Each motion makes one property of a machine visible.
+"""

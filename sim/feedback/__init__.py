@@ -1,1 +1,4 @@
-"""Feedback of an axis: a sampled controller, the stability of its loop, the loop simulated."""
+"""Controllers and their loops' stability.
+
+A sampled controller, the stability of its loop, and the simulated loop.
+"""

@@ -1,1 +1,4 @@
-"""Diagnosis of the sim-to-real gap: where it lies, what causes it, how far it shrinks."""
+"""Diagnosis of the sim-to-real gap.
+
+Where the gap is, what causes it, and how far it shrinks.
+"""

@@ -1,1 +1,1 @@
-"""Models of the machine identified from its records."""
+"""Models identified from records."""

@@ -1,1 +1,4 @@
-"""Kinematics of the hybrid chain: micro tables that carry a tilting, extending nano stage."""
+"""Kinematics of the hybrid chain.
+
+Micro tables carry a tilting, extending nano stage.
+"""

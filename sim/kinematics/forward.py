@@ -8,6 +8,7 @@ below the pivot)::
 
 Source: the serial chain of the robot's nominal description; R_x, R_y are right-handed rotations.
 The tool axis ``a`` points from the tip to the pivot, so a growing zn lifts the tip as z does.
+The Jacobian is ∂p/∂[x y z] = 1, ∂p/∂zn = a, ∂p/∂thx = L ∂a/∂thx, ∂p/∂thy = L ∂a/∂thy.
 """
 
 import numpy as np

@@ -1,1 +1,4 @@
-"""The simulated microscope: what a camera sees of the tip, the pin and a cell."""
+"""The simulated microscope.
+
+What a camera sees of the tip, the pin and a cell.
+"""

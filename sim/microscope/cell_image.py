@@ -1,4 +1,7 @@
-"""The cell as it is seen: a dark membrane with a bright rim, grains, a nucleus, dimple and hole."""
+"""The cell as it is seen: a dark membrane with a bright rim, grains, a nucleus, dimple and hole.
+
+Absorption multiplies, so the order in depth matters only for the blur.
+"""
 
 from dataclasses import dataclass
 

@@ -1,1 +1,4 @@
-"""Modes, state space and stability of a machine in small motion."""
+"""Modes, state space, stability.
+
+They hold for small motions of a machine.
+"""

@@ -1,1 +1,4 @@
-"""The nominal plant: equation of motion, exact sampling, control loop."""
+"""The nominal plant, sampled exactly.
+
+Equation of motion, exact sampling and control loop.
+"""

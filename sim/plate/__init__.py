@@ -1,1 +1,1 @@
-"""The plate that holds the pin, by finite elements."""
+"""The holding plate, by finite elements."""

@@ -1,1 +1,4 @@
-"""Records and trajectories: ASCII files of all joints over time."""
+"""Records and trajectories, as ASCII files.
+
+A file holds all joints over time.
+"""

@@ -1,1 +1,4 @@
-"""Robot files: the description of a machine's axes."""
+"""Robot files.
+
+They describe a machine's axes.
+"""

@@ -1,1 +1,4 @@
-"""Motion profiles and input shaping: shapes of a move that leave little vibration."""
+"""Motion profiles and input shaping.
+
+Shapes of a move that leave little vibration.
+"""

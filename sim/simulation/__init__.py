@@ -1,1 +1,4 @@
-"""Simulated records: a robot with its effects, its noise and its chance, driven by commands."""
+"""Simulated records with effects and noise.
+
+Commands drive a robot with its effects, noise and chance.
+"""

@@ -1,1 +1,4 @@
-"""Trajectories before they are played: limits, speed, duration, motion profiles."""
+"""Limits, duration and profiles of trajectories.
+
+All of them are checked before a trajectory is played.
+"""

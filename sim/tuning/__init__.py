@@ -1,1 +1,4 @@
-"""Gains of a loop by a Pareto search on the simulated axis, and trials of any of them."""
+"""Gains by a Pareto search.
+
+The search runs on the simulated axis, which also tries any point of the front.
+"""

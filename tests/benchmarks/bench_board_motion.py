@@ -142,9 +142,9 @@ def test_recentring_on_boards(clock):
     tip = tip_position(chain, bench.tip()[:, [list(ROBOT.axes).index(one) for one in JOINTS]])
     strayed = 1e9 * np.abs(tip - tip[0]).max(axis=0)
     print(
-        f"re-centring, E = {clock} MHz: set-points of {1e3 * session.setpoint_period_s:g} ms, "
-        f"{plan.trajectory.duration_s:.1f} s; the tip strays by {strayed[2]:.0f} nm along z, "
-        f"{strayed[:2].max():.0f} nm beside; planned {1e9 * plan.strayed_m[2]:.0f} nm"
+        f"re-centring, {clock} MHz: {plan.trajectory.duration_s:.1f} s, set-points of "
+        f"{1e3 * session.setpoint_period_s:g} ms; tip strays {strayed[2]:.0f} nm along z "
+        f"(planned {1e9 * plan.strayed_m[2]:.0f}), {strayed[:2].max():.0f} nm beside"
     )
     session.close()
 
@@ -177,9 +177,9 @@ def test_penetration_on_boards(clock):
         bench.session.close()
     errors = 100.0 / parameters.depth * np.array(errors)
     print(
-        f"penetration, E = {clock} MHz, {PLACES} places: contact found after {min(delays):.0f} to "
-        f"{max(delays):.0f} ms, off by {np.median(off):.2f} µm, {max(off):.2f} µm at most; tip "
-        f"beside its profile by {errors.max():.2f} % of 50 µm"
+        f"penetration, {clock} MHz, {PLACES} places: contact found after {min(delays):.0f} to "
+        f"{max(delays):.0f} ms, off by {np.median(off):.2f} µm (worst {max(off):.2f}); tip off its "
+        f"profile by {errors.max():.2f} % of 50 µm"
     )
 
 

@@ -161,8 +161,9 @@ def with_text(session: MotionSession, number: int) -> None:
 def told(name: str, waits: np.ndarray, limit_ms: float) -> None:
     last = 1e3 * waits.max(axis=1)
     print(
-        f"stop, {name}: median {np.median(last):.2f} ms, 99 % {np.percentile(last, 99):.2f} ms, "
-        f"99.9 % {np.percentile(last, 99.9):.2f} ms of {len(last)}; limit {limit_ms:.1f} ms"
+        f"{len(last)} stops, {name}: median {np.median(last):.2f} ms, "
+        f"99 % {np.percentile(last, 99):.2f}, 99.9 % {np.percentile(last, 99.9):.2f} "
+        f"(limit {limit_ms:.1f})"
     )
 
 
@@ -178,7 +179,7 @@ def test_a_stop_is_heard_at_once(baud: int, clock: str) -> None:
         session.close()
     in_flight_ms = 1e3 * Line(baud).seconds(MAX_FRAME)
     told(
-        f"{baud} baud, E = {clock} MHz, headless",
+        f"{baud} baud, {clock} MHz, headless",
         waits,
         5.0 if baud == 125_000 else in_flight_ms + 2.0,
     )
@@ -226,9 +227,9 @@ def test_what_boards_measure_arrives(clock: str) -> None:
     periods = round((live[-1] - live[0]) / np.median(np.diff(live)))
     arrived = sum(len(part.device_time_s) for part in parts)
     print(
-        f"E = {clock} MHz: telemetry of six axes: {len(live) / SECONDS:.0f} Hz, "
-        f"{100 * (1 - (len(live) - 1) / periods):.3f} % lost; capture of one axis at "
-        f"{capture_hz:.0f} Hz: {100 * (1 - arrived / CAPTURED):.3f} % lost; limit 0.1 %"
+        f"{clock} MHz, lost, % (limit 0.1): six axes at {len(live) / SECONDS:.0f} Hz "
+        f"{100 * (1 - (len(live) - 1) / periods):.3f}, one at {capture_hz:.0f} Hz "
+        f"{100 * (1 - arrived / CAPTURED):.3f}"
     )
 
 

@@ -1,4 +1,4 @@
-"""How long an inverse at work takes for a sample, and a training: the limit is 20 µs a sample."""
+"""Inverses: time of a sample, of which the limit is 20 µs, and of a training."""
 
 from math import inf
 from time import perf_counter
@@ -31,6 +31,7 @@ def test_a_sample_takes_less_than_the_limit() -> None:
     trained = train(robot, [samples_of(robot, "zn", record)], settings=Settings(epochs=EPOCHS))
     rows = len(record.time_s)
     print(f"\ntraining on {rows} rows, all kinds: {perf_counter() - begin_s:.1f} s")
+    print(f"µs a sample, alone (limit {1e6 * LIMIT_S:g}) and in a row")
     wanted = 32e-6 + 25e-6 * np.sin(np.linspace(0.0, 60.0, SAMPLES))
     for kind, model in trained.models.items():
         inverse = Inverse(model, 5e-4)
@@ -44,8 +45,5 @@ def test_a_sample_takes_less_than_the_limit() -> None:
         begin_s = perf_counter()
         inverse.reset().run(wanted)
         each_s = (perf_counter() - begin_s) / SAMPLES
-        print(
-            f"{kind}: {1e6 * np.median(rounds):.1f} µs a sample (limit {1e6 * LIMIT_S:g}), "
-            f"{1e6 * each_s:.2f} µs in a row"
-        )
+        print(f"{kind:27} {1e6 * np.median(rounds):4.1f} {1e6 * each_s:7.2f}")
         assert np.median(rounds) <= LIMIT_S

@@ -1,4 +1,4 @@
-"""`gap diagnose` as a user runs it: seconds and memory, beside simulating the same records.
+"""`gap diagnose`: seconds and memory as a user runs it, beside simulating the same records.
 
 Limits, on two cores and a quiet machine, for three records of a stage of three axes: 60 s with an
 effect on an axis, 5 s where nothing is wrong; 2 GB.
@@ -81,7 +81,7 @@ def test_a_diagnosis_beside_the_simulation_of_its_records(case, tmp_path):
         ratios.append(rows[-1] / simulated)
         peaks.append(usage.ru_maxrss / 2**20)
     print(
-        f"\n{case}: {median(rows):.1f} s ({min(rows):.1f} to {max(rows):.1f}, {TURNS} runs), "
-        f"limit {limit:.0f} s; {median(ratios):.0f} times the simulation of its records; "
-        f"{max(peaks):.2f} GB, limit 2 GB"
+        f"\n{case}, {TURNS} runs: {median(rows):.1f} s ({min(rows):.1f} to {max(rows):.1f}; "
+        f"limit {limit:.0f}), {median(ratios):.0f} times its simulation, {max(peaks):.2f} GB "
+        f"(limit 2)"
     )

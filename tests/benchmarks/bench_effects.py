@@ -1,4 +1,4 @@
-"""Effects in the simulation, beside the same loop in C, beside real time, and one by one.
+"""Effects in the simulation: beside the same loop in C, beside real time, and one by one.
 
 Limits: six axes with hysteresis (10 plays), creep, friction and a further mode each, recorded at
 2 kHz and stepped at 20 kHz, run at least 50 times faster than real time and within 2 times of
@@ -80,9 +80,9 @@ def test_six_axes_beside_c_and_real_time(whole_plant, tmp_path):
     faster = [SECONDS / own for own in seconds["ours"]]
     print(
         f"\nsix axes, four effects each, {SECONDS:g} s at 2 kHz / 20 kHz: "
-        f"{median(faster):.0f} times real time ({min(faster):.0f} to {max(faster):.0f}); "
-        f"limit 50\nbeside C at -O3: {median(ratios):.2f} times its time "
-        f"({min(ratios):.2f} to {max(ratios):.2f}, {TURNS} pairs); limit {MOST_TIMES_C:g}"
+        f"{median(faster):.0f} times real time ({min(faster):.0f} to {max(faster):.0f}; limit 50), "
+        f"{median(ratios):.2f} times the time of C at -O3 "
+        f"({min(ratios):.2f} to {max(ratios):.2f}, {TURNS} pairs; limit {MOST_TIMES_C:g})"
     )
     assert median(ratios) <= MOST_TIMES_C
 
@@ -163,8 +163,8 @@ def test_one_axis_one_effect():
         times_ms = [own for own, *_ in found]
         worst = ", ".join(f"{name} {own:.1f}" for own, _, name in found[:4])
         print(
-            f"\none axis, one effect, 10 s at 2 kHz, {title} inner steps: median "
-            f"{median(times_ms):.1f} ms; slowest {worst} ms; limit {limit_ms}"
+            f"\none axis, one effect, 10 s, {title} inner steps, ms (limit {limit_ms}): median "
+            f"{median(times_ms):.1f}; slowest {worst}"
         )
 
 
@@ -221,6 +221,6 @@ def test_first_call(tmp_path):
         )
         seconds.append(float(done.stdout))
     print(
-        f"\nfirst simulation with an effect: {seconds[0]:.1f} s with compilation, "
-        f"{seconds[1]:.2f} s from what is kept on disk; limit 10 s"
+        f"\nfirst simulation with an effect: {seconds[0]:.1f} s with compilation (limit 10), "
+        f"{seconds[1]:.2f} s with a kept one"
     )

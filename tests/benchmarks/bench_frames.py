@@ -219,6 +219,23 @@ def measure(seconds):
     return told
 
 
+def shown(drawn):
+    """Return what was measured beside each other as one line."""
+    views = {name: drawn[name] for name in ("camera", "view3d") if name in drawn}
+    figures = {*views, "cpu_percent", "watched_s"}
+    plots = [
+        rate
+        for name, rate in drawn.items()
+        if name not in figures and not name.startswith(("late_", "work_"))
+    ]
+    rates = ", ".join(f"{name} {rate}" for name, rate in views.items())
+    return (
+        f"{rates}, plots {min(plots)} to {max(plots)}; {drawn['cpu_percent']}; "
+        f"{drawn['late_99_percent_ms']}, {drawn['late_worst_ms']}; "
+        f"{drawn['work_99_percent_ms']}, {drawn['work_worst_ms']}"
+    )
+
+
 def test_frames_and_lateness():
     told = subprocess.run(
         [sys.executable, __file__, "--seconds", str(SECONDS)],
@@ -227,16 +244,18 @@ def test_frames_and_lateness():
         text=True,
     )
     found = json.loads(told.stdout)
-    used, drawn = found["in_use"], found["frames"]
+    used = found["in_use"]
     print(
-        f"\nwindow's thread in use for {SECONDS:.0f} s: late by {used['late_99_percent_ms']} "
-        f"ms in 99 % (limit {LATE_MS:.0f}), {used['late_worst_ms']} ms at worst (limit "
-        f"{WORST_MS:.0f}); plots and camera side by side, frames/s: {drawn} (limit "
-        f"{FRAMES:.0f}); load of the machine {found['load_before']} to {found['load_after']}"
+        f"\nin use for {SECONDS:.0f} s, machine's load {found['load_before']} to "
+        f"{found['load_after']}: late, ms: 99 % {used['late_99_percent_ms']} (limit "
+        f"{LATE_MS:.0f}), worst {used['late_worst_ms']} ({WORST_MS:.0f})"
     )
-    print(f"with the 3-D view: {found['beside_3d']} (limit {FRAMES_BESIDE_3D:.0f})")
+    print("frames/s; processor, %; late, ms: 99 %, worst; work, ms: 99 %, worst")
+    print(f"plots beside camera (limit {FRAMES:.0f}): {shown(found['frames'])}")
+    print(f"with the 3-D view ({FRAMES_BESIDE_3D:.0f}): {shown(found['beside_3d'])}")
+    print("longest turns, s, and their innermost calls")
     for lasted_s, calls in sorted(used["stalls"], reverse=True)[:5]:
-        print(f"  {lasted_s} s in", *calls, sep="\n  ")
+        print(f"{lasted_s:.3f} {calls[-1]}")
 
 
 if __name__ == "__main__":

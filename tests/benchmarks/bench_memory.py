@@ -100,9 +100,10 @@ def test_memory():
     )
     assert told.returncode == 0, told.stderr[-4000:]
     found = json.loads(told.stdout)
+    grown = ", ".join(f"{name} {share}" for name, share in found["grown_percent"].items())
     print(
-        f"\n{PLAYS} plays, {ACTIONS} actions: after the first tenth, %: "
-        f"{found['grown_percent']}; limit of rss {LIMIT_PERCENT}"
+        f"\n{PLAYS} plays, {ACTIONS} actions, growth after the first tenth, %: {grown}; limit of "
+        f"rss {LIMIT_PERCENT}"
     )
 
 

@@ -1,4 +1,4 @@
-"""How fast frames of the boards are packed and understood, as multiples of the fastest line.
+"""Frames of the boards: how fast they are packed and understood, as multiples of the fastest line.
 
 ``make bench`` runs it. The host must keep up with the line fifty times over, and on random garbage
 too, of which every frame that follows must come through.
@@ -53,6 +53,7 @@ def test_the_codec_outruns_the_line() -> None:
         "understood": (len(clean), lambda: understood(clean)),
         "understood in garbage": (len(noisy), lambda: understood(noisy)),
     }
+    print(f"multiples of the line at 125 000 baud (limit {LEAST})")
     for name, (size, job) in jobs.items():
         seconds = []
         for _ in range(RUNS):
@@ -60,5 +61,5 @@ def test_the_codec_outruns_the_line() -> None:
             assert job() == len(sent)
             seconds.append(time.perf_counter() - begin)
         times = [size / one / LINE_BYTES_PER_S for one in (max(seconds), min(seconds))]
-        print(f"{name}: {times[0]:.0f} to {times[1]:.0f} times the line at 125 000 baud")
+        print(f"{name}: {times[0]:.0f} to {times[1]:.0f}")
         assert times[0] >= LEAST

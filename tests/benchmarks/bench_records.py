@@ -1,4 +1,4 @@
-"""Import and export of 1 000 000 rows by 13 columns, beside pandas, polars and pyarrow.
+"""Import and export: 1 000 000 rows by 13 columns, beside pandas, polars and pyarrow.
 
 ``make bench`` runs it and holds it to its bounds; ``python tests/benchmarks/bench_records.py ROWS``
 only prints. All take turns in one run, so that a slow moment of the machine meets them all; the
@@ -76,13 +76,14 @@ def main(rows: int = ROWS) -> tuple[float, float]:
         record = make_record(rows)
         write_record(record, source)
         print(f"\n{rows} rows x {CHANNELS + 1} columns, {source.stat().st_size / 1e6:.0f} MB")
-        slowness = [
-            report("import", measure(importers(source))),
-            report("export", measure(exporters(record, target))),
-        ]
+        read, written = measure(importers(source)), measure(exporters(record, target))
+        print("            import, s  export, s")
+        for own, one, other in zip(read, read.values(), written.values(), strict=True):
+            print(f"{own:11} {one:9.2f} {other:10.2f}")
+        slowness = [slowness_of(read), slowness_of(written)]
         peaks = [peak_growth(task, source, target) for task in ("import", "export")]
-    for task, peak in zip(("import", "export"), peaks, strict=True):
-        print(f"{task}, peak memory {peak / 1e6:7.0f} MB {peak / array_bytes:6.2f} x the array")
+    print("peak, MB   ", *(f"{peak / 1e6:10.0f}" for peak in peaks))
+    print("x the array", *(f"{peak / array_bytes:10.2f}" for peak in peaks))
     return max(slowness), max(peaks) / array_bytes
 
 
@@ -147,11 +148,9 @@ def measure(tasks: Mapping[str, Callable[[], object]]) -> dict[str, float]:
     return {name: statistics.median(each) for name, each in seconds.items()}
 
 
-def report(title: str, seconds: Mapping[str, float]) -> float:
-    """Print the seconds and their ratio to the fastest of the others; return our ratio."""
+def slowness_of(seconds: Mapping[str, float]) -> float:
+    """Return our seconds divided by those of the fastest of the others."""
     fastest = min(value for name, value in seconds.items() if name != "rotemina")
-    for name, value in seconds.items():
-        print(f"{title}, {name:22} {value:7.2f} s  {value / fastest:6.2f} x the fastest")
     return seconds["rotemina"] / fastest
 
 

@@ -1,4 +1,4 @@
-"""The nominal six-axis simulation beside ``scipy.signal.dlsim`` on the same matrices.
+"""The nominal simulation: six axes, beside ``scipy.signal.dlsim`` on the same matrices.
 
 Limit: at least 20 times faster.
 """
@@ -46,9 +46,9 @@ def test_nominal_simulation_beside_dlsim():
             seconds[name].append(time.perf_counter() - begin)
     ratios = [b / a for a, b in zip(seconds["ours"], seconds["dlsim"], strict=True)]
     print(
-        f"\nsix axes, {ROWS} rows: ours {1e3 * median(seconds['ours']):.1f} ms, "
-        f"dlsim {1e3 * median(seconds['dlsim']):.1f} ms; ratio median {median(ratios):.0f} "
-        f"({min(ratios):.0f} to {max(ratios):.0f}, {TURNS} pairs); limit 20"
+        f"\nsix axes, {ROWS} rows: {1e3 * median(seconds['ours']):.1f} ms, dlsim "
+        f"{1e3 * median(seconds['dlsim']):.1f} ms; ratio {median(ratios):.0f} "
+        f"({min(ratios):.0f} to {max(ratios):.0f}, {TURNS} pairs; limit 20)"
     )
 
 

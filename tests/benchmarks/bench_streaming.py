@@ -1,4 +1,4 @@
-"""Peak memory of ``rotemina simulate`` over 10 minutes and 1 hour of six axes at 1 kHz.
+"""Peak memory of ``rotemina simulate``: 10 minutes and 1 hour of six axes at 1 kHz.
 
 The commands go from file to file in pieces, so the peak must not grow with their length; beside
 it stand the limit and how long it took. Effects, noise and the table of loads are on in the second
@@ -69,7 +69,7 @@ def main(*durations_s: int) -> list[tuple[float, float]]:
         shipped = resources.files("rotemina.resources.robots").joinpath("rotemina.toml")
         own = folder / "own.toml"
         own.write_text(shipped.read_text("utf-8") + EFFECTS, "utf-8")
-        print()
+        print(f"six axes at 1 kHz: peak, MB (limit {LIMIT_MB:.0f}); written, MB; s")
         nominal = [measure("nominal", path, "--no-noise") for path in commands]
         loads = ("--robot", str(own), "--loads", str(folder / "loads.csv"))
         full = [measure("effects, noise, loads", path, *loads) for path in commands]
@@ -104,8 +104,8 @@ def measure(title: str, commands: Path, *asked: str) -> float:
     seconds = time.perf_counter() - start
     peak_mb = int(printed.split()[-1]) / 1e6
     print(
-        f"simulate {commands.stem:>5} s x 6 axes, {title:22} {output.stat().st_size / 1e6:6.0f} MB "
-        f"written in {seconds:6.1f} s; peak {peak_mb:5.0f} MB, limit {LIMIT_MB:.0f} MB"
+        f"{commands.stem:>5} s, {title:22} {peak_mb:5.0f} {output.stat().st_size / 1e6:6.0f} "
+        f"{seconds:6.1f}"
     )
     output.unlink()
     return peak_mb

@@ -1,4 +1,4 @@
-"""The tuning of a loop and its levels, measured.
+"""Tuning of a loop: its time and its levels.
 
 The search is that of ``rotemina tune``: 50 generations of 60 individuals on nano Z with hysteresis
 12 %, creep 2 % per decade and noise; 60 s on two cores at most. Then the time of a sample of the
@@ -45,27 +45,26 @@ def test_a_search_and_what_it_recommends() -> None:
     took_s, busy_s = time.perf_counter() - begin_s, time.process_time() - busy_s
     print(
         f"\n{settings.generations} generations of {settings.population}: {took_s:.1f} s on "
-        f"{CORES} cores ({busy_s:.1f} s of processor), limit {LONGEST_S:g} s; "
+        f"{CORES} cores (limit {LONGEST_S:g}), {busy_s:.1f} s of processor; "
         f"{len(last.front)} points"
     )
+    print("tracking, %; settling, ms; overshoot, %; IAE, nm s; Ms; effort, ranges/s")
     assert took_s <= LONGEST_S
     tuning = tuning_of(problem, settings, last)
     for number, point in enumerate(tuning.points):
         own = point.figures
         if number in (0, tuning.recommended, len(tuning.points) - 1):
             print(
-                f"  {number:3}: tracking {100 * own.tracking_rms:.4f} %, settling "
-                f"{1e3 * own.settling_s:.1f} ms, overshoot {100 * own.overshoot:.2f} %, "
-                f"IAE {1e9 * own.absolute_error:.2f} nm s, Ms {own.peak_sensitivity:.3f}, "
-                f"effort {own.effort:.2f} ranges/s"
+                f"{number:3}: {100 * own.tracking_rms:.4f} {1e3 * own.settling_s:.1f} "
+                f"{100 * own.overshoot:.2f} {1e9 * own.absolute_error:5.2f} "
+                f"{own.peak_sensitivity:.3f} {own.effort:.2f}"
             )
     stability = LoopAnalysis(problem.loop.sampled).stability(tuning.best.gains)
     print(
-        f"recommended: gain margin {stability.gain_margin:.2f}, phase margin "
-        f"{stability.phase_margin_deg:.0f}°, delay margin {1e3 * stability.delay_margin_s:.2f} ms, "
-        f"bandwidth {stability.bandwidth_hz:.0f} Hz"
+        f"recommended: margins {stability.gain_margin:.2f}, {stability.phase_margin_deg:.0f}°, "
+        f"{1e3 * stability.delay_margin_s:.2f} ms; bandwidth {stability.bandwidth_hz:.0f} Hz; "
+        f"50 µm, worst of 20 seeds: {1e9 * positioning(problem, tuning.best.gains):.1f} nm"
     )
-    print(f"50 µm, worst of 20 seeds: {1e9 * positioning(problem, tuning.best.gains):.1f} nm")
 
 
 def positioning(problem: TuningProblem, gains: object) -> float:
@@ -101,8 +100,8 @@ def test_the_time_of_a_sample() -> None:
     problem.try_out(gains)
     trial_s = time.perf_counter() - begin_s
     print(
-        f"\nsimulated loop {1e6 * simulated_s:.2f} µs a sample, live controller "
-        f"{1e6 * live_s:.2f} µs a sample, a trial on step and triangle {1e3 * trial_s:.1f} ms"
+        f"\na sample: simulated loop {1e6 * simulated_s:.2f} µs, live controller "
+        f"{1e6 * live_s:.2f} µs; a trial on step and triangle: {1e3 * trial_s:.1f} ms"
     )
 
 
@@ -132,7 +131,7 @@ def test_a_live_loop_leaves_most_of_a_core() -> None:
         machine.read()
         shares.append((time.process_time() - begin_s) / whole_s)
     print(
-        f"\nsimulated machine: {shares[0]:.1%} of a core, with a loop at 5 kHz {shares[1]:.1%}, "
-        f"with a delay in it {shares[2]:.1%}"
+        f"\nsimulated machine, of a core: {shares[0]:.1%}, with a loop at 5 kHz {shares[1]:.1%}, "
+        f"also with a delay {shares[2]:.1%}"
     )
     assert all(share < most for share, most in zip(shares[1:], MOST_SHARES, strict=True))

@@ -1,4 +1,4 @@
-"""Calibration, tip and cell vision on simulated frames with their default noise.
+"""Calibration, tip and cell vision: on simulated frames with their default noise.
 
 Prints the levels of docs/vision.md. Times are of the processor, one thread, so that a shared
 machine does not count.
@@ -62,8 +62,8 @@ def timed(call):
 
 def test_tip_at_distances_from_focus():
     bench = Bench()
-    print(f"\ntip, of {FITS} fits each, started within 1 px")
-    print("from focus  miss rms  worst  told   depth rms  told   time")
+    print(f"\ntip, {FITS} fits each from within 1 px: from focus, µm; miss, px: rms, worst, told;")
+    print("depth, µm: rms, told; ms")
     for depth in (0.0, 3e-6, -3e-6, 6e-6, -6e-6, 10e-6, -10e-6, 20e-6, -20e-6):
         rows, lost = [], 0
         for _ in range(FITS):
@@ -81,8 +81,8 @@ def test_tip_at_distances_from_focus():
         table = np.array(rows)
         miss, told, away, doubt = np.sqrt(table[:, :4].mean(axis=0))
         print(
-            f"{depth * 1e6:+7.0f} µm  {miss:7.3f}  {table[:, 5].max():5.2f}  {told:5.3f}  "
-            f"{away * 1e6:6.2f} µm  {doubt * 1e6:5.2f}  {1e3 * np.median(table[:, 4]):4.1f} ms"
+            f"{depth * 1e6:+4.0f}  {miss:.3f} {table[:, 5].max():.2f} {told:.3f}  "
+            f"{away * 1e6:.2f} {doubt * 1e6:.2f}  {1e3 * np.median(table[:, 4]):.1f}"
             + (f"  {lost} not fitted" if lost else "")
         )
         if abs(depth) <= 6e-6:
@@ -97,7 +97,7 @@ def test_tip_in_a_whole_frame():
         fit, took_s = timed(lambda i=image: find_tip(i, bench.pipette))
         times.append(took_s)
         found += bool(np.linalg.norm(fit.pixel - bench.optics.pixel_of(tip_m)) < 0.5)
-    print(f"\nwhole frame: {found} of {FRAMES} tips found, {1e3 * np.median(times):.0f} ms each")
+    print(f"\nwhole frame: {found} of {FRAMES} tips found, {1e3 * np.median(times):.0f} ms")
     assert found == FRAMES
 
 
@@ -106,7 +106,7 @@ def test_tip_in_a_whole_frame():
     [(True, True), (True, False), (False, True)],
     ids=["background and way known", "background known", "way known"],
 )
-def test_track_through_a_penetration(known, told):
+def test_track_through_a_penetration(known, told, request):
     """The pin comes down upright, so that by kinematics its tip stays where it is seen."""
     bench = Bench(CELL)
     share = np.linspace(0.0, 1.0, STEPS)
@@ -135,10 +135,10 @@ def test_track_through_a_penetration(known, told):
     table = np.array(rows)
     rms = np.sqrt((table**2).mean(axis=0))
     print(
-        f"\npenetration, {lost} of {STEPS} lost; off by {rms[0]:.2f} px rms (told {rms[2]:.2f}), "
-        f"{np.percentile(table[:, 0], 99):.2f} px at the 99th percentile; "
-        f"depth {1e6 * rms[1]:.2f} µm rms; {1e3 * np.median(times):.1f} ms a frame, "
-        f"{1e3 * np.percentile(times, 99):.1f} at the 99th percentile"
+        f"\npenetration, {request.node.callspec.id}: {lost} of {STEPS} lost; off, px: rms "
+        f"{rms[0]:.2f} (told {rms[2]:.2f}), 99 % {np.percentile(table[:, 0], 99):.2f}; depth rms "
+        f"{1e6 * rms[1]:.2f} µm; {1e3 * np.median(times):.1f} ms, "
+        f"99 % {1e3 * np.percentile(times, 99):.1f}"
     )
     assert lost < 1
     if known and told:
@@ -146,7 +146,6 @@ def test_track_through_a_penetration(known, told):
 
 
 def test_calibration():
-    print(f"\ncalibration, {MOUNTINGS} hidden mountings: ten tips each, moved by ±40 µm")
     worst = np.zeros(4)
     rng = np.random.default_rng(1)
     for _ in range(MOUNTINGS):
@@ -186,7 +185,8 @@ def test_calibration():
         turned = abs((told.rotation - true.rotation + np.pi) % (2.0 * np.pi) - np.pi)
         worst = np.maximum(worst, [*sizes, turned, abs(told.skew - true.skew)])
     print(
-        f"worst: pixel size {100 * worst[:2].max():.3f} %, rotation {np.degrees(worst[2]):.4f}°, "
+        f"\ncalibration, {MOUNTINGS} mountings, ten tips each, ±40 µm, worst: pixel size "
+        f"{100 * worst[:2].max():.3f} %, rotation {np.degrees(worst[2]):.4f}°, "
         f"skew {np.degrees(worst[3]):.4f}°"
     )
     assert worst[:2].max() < 1e-3
@@ -207,6 +207,6 @@ def test_cell_outline():
         rows.append([*(found.centre - middle), *(axes / bench.optics.pixel_m)])
     rms = np.sqrt((np.array(rows) ** 2).mean(axis=0))
     print(
-        f"\ncell: centre {np.hypot(*rms[:2]):.2f} px rms, half axes {rms[2]:.2f} and {rms[3]:.2f} "
-        f"px rms; {1e3 * np.median(times):.0f} ms"
+        f"\ncell, px rms: centre {np.hypot(*rms[:2]):.2f}, half axes {rms[2]:.2f} and "
+        f"{rms[3]:.2f}; {1e3 * np.median(times):.0f} ms"
     )

@@ -82,15 +82,13 @@ def test_time_to_first_paint(tmp_path):
         painted, ready, busy_s = map(float, done.stdout.split())
         runs.append((painted - begin, ready - begin, busy_s))
     warm = runs[1:]
+    print(f"start of the command, {len(warm)} warm runs, s (limit 2): median (least to greatest)")
     for what, seconds in zip(
-        ("first paint", "ready machine", "ready machine, processor time"),
+        ("first paint", "ready machine", "ready machine, processor"),
         zip(*warm, strict=True),
         strict=True,
     ):
-        print(
-            f"\nstart of the command to {what}, s: median {median(seconds):.2f} "
-            f"({min(seconds):.2f} to {max(seconds):.2f}, {len(warm)} warm runs); limit 2"
-        )
+        print(f"{what}: {median(seconds):.2f} ({min(seconds):.2f} to {max(seconds):.2f})")
 
 
 def test_six_scrolling_plots(tmp_path):
@@ -147,8 +145,8 @@ def test_six_scrolling_plots(tmp_path):
     timer.stop()
     print(
         f"\nsix plots of {ROWS / RATE_HZ:.0f} s at {RATE_HZ:.0f} Hz, 1920x1080: "
-        f"{drawn / wall:.1f} frames/s (timer 30.3), {100 * cpu / wall:.0f} % of one core; "
-        "limits 30 and 60 %"
+        f"{drawn / wall:.1f} frames/s (limit 30, timer 30.3), "
+        f"{100 * cpu / wall:.0f} % of one core (limit 60)"
     )
     window.workbench.close()
     window.hide()

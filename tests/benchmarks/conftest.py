@@ -17,21 +17,14 @@ import pytest
 ROOT = Path(__file__).parents[2]
 HEAD = """# Benchmarks
 
-`make bench` writes this page: nothing in it was copied by hand. What is not in it was not among the
-benchmarks of that run. A range in brackets is the spread over the repetitions beside it; a limit is
-what the benchmark demands. Run one file of them on an idle machine:
+Compare the program's speed and memory with their limits. `make bench` writes this page. Ranges in
+brackets are the spread over repetitions. Run one file on an idle machine:
 
 <!-- not run: a measurement -->
 
     .venv/bin/pytest -s --override-ini python_files='bench_*.py' tests/benchmarks/bench_boards.py
 
-| | |
-|---|---|
-| machine | {machine} |
-| load before | {load} of {cores} cores |
-| Python | {python} |
-| date | {date} |
-| commit | {commit} |
+{date}, commit {commit}; {machine}, load before {load}; Python {python}.
 """
 
 
@@ -76,7 +69,6 @@ def _page(config):
         HEAD.format(
             machine=_machine(),
             load=f"{config.load:.1f}",
-            cores=os.cpu_count(),
             python=f"{platform.python_version()}, {platform.system()}",
             date=f"{datetime.now(UTC):%Y-%m-%d}",
             commit=_commit(),
@@ -85,10 +77,9 @@ def _page(config):
     for module, told in config.printed.items():
         file = Path(module.__file__).relative_to(ROOT)
         title = (module.__doc__ or file.stem).split("\n\n")[0].replace("\n", " ")
-        lines = "\n".join(filter(None, told))
-        parts.append(
-            f"## {title.split(': ')[0].rstrip('.')}\n\n`{file}`\n\n```text\n{lines}\n```\n"
-        )
+        lines = [f"    {line}" for each in told for line in each.splitlines() if line]
+        heading = f"## {title.split(': ')[0].rstrip('.')}\n\n`{file}`\n\n"
+        parts.append(heading + "\n".join(lines) + "\n")
     return "\n".join(parts)
 
 

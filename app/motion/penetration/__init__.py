@@ -1,1 +1,4 @@
-"""Automatic cell penetration: approach, contact, thrust, hold, retract."""
+"""Cell penetration, from approach to retraction.
+
+Phases: approach, contact, thrust, hold, retract.
+"""

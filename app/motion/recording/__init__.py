@@ -1,1 +1,4 @@
-"""Recording of sessions: written safely while they run, read back, exported and replayed."""
+"""Crash-safe recording of sessions.
+
+Recordings are read back, exported and replayed.
+"""

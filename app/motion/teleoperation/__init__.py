@@ -1,1 +1,4 @@
-"""Teleoperation: from the readings of an input device to the motion of axes."""
+"""From stick readings to motion.
+
+It turns readings of input devices into motion of axes.
+"""

@@ -6,9 +6,10 @@
 (:mod:`rotemina.app.motion.teleoperation.force_feedback`).
 
 **Passivity.** With E = M v²/2 + K (x − x0)²/2, exactly E' − E + losses = (F + R)(x' − x) in each
-step. Bounds of speed and range only take energy. A bound of acceleration could give some: it makes
-the mechanism brake later than it would by itself. So M must be great enough that no alternation of
-forces reaches it; coarser scales are cut to the force at which that holds.
+step. A start or ``hold`` resets E. Bounds of speed and range only take energy. A bound of
+acceleration could give some: it makes the mechanism brake later than it would by itself. So M must
+be great enough that no alternation of forces reaches it; coarser scales are cut to the force at
+which that holds.
 """
 
 from rotemina.app.motion.teleoperation.force_feedback import Contact

@@ -1,1 +1,4 @@
-"""USB and Bluetooth joysticks and gamepads with a HID descriptor."""
+"""HID joysticks and gamepads.
+
+Devices on USB and Bluetooth that have a HID descriptor.
+"""

@@ -1,1 +1,4 @@
-"""Comparison of hypotheses by their remainders on data that their fits did not use."""
+"""Comparison of hypotheses on unseen data.
+
+Their remainders are compared on data that their fits did not use.
+"""

@@ -1,1 +1,4 @@
-"""A diagnosis as one page that a browser shows without a network."""
+"""The diagnosis as a web page.
+
+A browser shows it without a network.
+"""
