@@ -266,7 +266,7 @@ class Session:
                 answer=Telemetry,
                 expires_s=now_s + board.link.answer_s,
             )
-        board.link.dialogues[board.address].ask(request)
+        board.dialogue.ask(request)
 
     def _keep_in_step(self, now_s: float) -> None:
         """Begin another board's samples anew when the quartzes have run apart, at rest only."""
@@ -295,7 +295,7 @@ class Session:
             number = board.number_at(self._clock() + board.link.answer_s) + 1
             number += -number % every
         begin_us = board.grid.time_us(number) % (1 << 32)
-        board.link.dialogues[board.address].ask(
+        board.dialogue.ask(
             Request(
                 message=SetTelemetry(period_ms, begin_us),
                 urgency=Urgency.BACKGROUND,
@@ -312,8 +312,7 @@ class Session:
         capturing = self.capturing
         if capturing is not None and capturing.board is board and not capturing.over:
             wanted_ms = max(wanted_ms, capturing.telemetry_ms)
-        dialogue = board.link.dialogues[board.address]
-        if wanted_ms != board.telemetry_ms and not dialogue.has(Urgency.BACKGROUND):
+        if wanted_ms != board.telemetry_ms and not board.dialogue.has(Urgency.BACKGROUND):
             self._telemetry(board, wanted_ms)
 
     def _receive(self, address: int, message: Message, now_s: float) -> None:
