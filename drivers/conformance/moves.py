@@ -295,20 +295,3 @@ def stop_before_a_move(bench: Bench) -> None:
         within(
             f"moved after a stop, axis {axis.name} ends at", seen, target, axis.half_step, axis.unit
         )
-
-
-CHECKS = (
-    move_arrives,
-    moving_is_said,
-    moves_stay_inside,
-    moves_keep_the_speed,
-    move_at_a_speed,
-    new_target,
-    units,
-    refused_targets,
-    stop_distance,
-    stop_when_called,
-    stop_at_rest,
-    stop_overtakes,
-    stop_before_a_move,
-)
