@@ -193,35 +193,6 @@ class Microscope:
         if not whole_picture and self.tracker.tracked.state is TipState.OFF:
             self.tracker.switch(True)  # what it uncovers on its way becomes the background
 
-    def autofocus(
-        self, name: str = FOCUS, low: float | None = None, high: float | None = None
-    ) -> None:
-        """Bring the tip, or where none is tracked the picture, into focus.
-
-        Parameters
-        ----------
-        name : str
-            ``focus`` for the microscope's drive, or an axis of the machine.
-        low, high : float, optional
-            Where to search, m; by default 50 µm each way, as far as it goes.
-
-        Raises
-        ------
-        InputError
-            As :class:`FocusRun` and :meth:`Runs.begin`.
-        """
-        self.adjustments.autofocus(name, low, high)
-
-    def stack(self, name: str, first: float, last: float, step: float) -> None:
-        """Take pictures from ``first`` to ``last`` by ``step``, m, of the drive or an axis.
-
-        Raises
-        ------
-        InputError
-            As :class:`StackRun` and :meth:`Runs.begin`; then nothing has moved.
-        """
-        self.adjustments.stack(name, first, last, step)
-
     def move_focus(self, focus_m: float) -> None:
         """Move the microscope's focus drive, m; raises InputError if it has none, or cannot."""
         self._refuse_under_way()
@@ -271,14 +242,6 @@ class Microscope:
         """Add a target behind the others."""
         self.positioning.sequence.mark(np.asarray(pixel, dtype=np.float64))
 
-    def remove_target(self, index: int) -> None:
-        """Forget a target; raises MicroscopeError if there is none such, or on the way to one."""
-        self.positioning.sequence.remove(index)
-
-    def clear_targets(self) -> None:
-        """Forget all targets; raises MicroscopeError on the way to one."""
-        self.positioning.sequence.clear()
-
     def visit_next(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
         """Go to the next target; ``permit`` as in :meth:`go`.
 
@@ -297,17 +260,9 @@ class Microscope:
         """Turn tracking on or off; ``near`` (2,), px, is an approximate position."""
         self.tracker.switch(on, near)
 
-    def take_background(self) -> None:
-        """Replace the background by the present picture, except under the pipette."""
-        self.tracker.take_ground()
-
     def outline_cell(self, near: FloatArray) -> None:
         """Look for the outline of the cell about ``near`` (2,), px."""
         self.jobs.outline(np.asarray(near, dtype=np.float64), self.setup.pixel_m)
-
-    def forget_cell(self) -> None:
-        """Remove the outline."""
-        self.jobs.forget()
 
     def measure(self, begin: FloatArray, end: FloatArray) -> None:
         """Measure from one pixel (2,) to another."""
@@ -321,10 +276,6 @@ class Microscope:
     def forget_measure(self) -> None:
         """Remove the measured line."""
         self.measured = None
-
-    def watch_drift(self, on: bool) -> None:
-        """Turn the monitoring of background drift on or off."""
-        self.jobs.watch_drift(on)
 
     # --- inside -----------------------------------------------------------------------------------
 
