@@ -73,14 +73,7 @@ class Adjustments:
             if axis in axes:
                 low, high = axes[axis].range
                 found.append(FocusAxis(axis, command.get(axis), low, high))
-        kept = self._setup.calibration
-        focus = None if kept is None else kept.focus
-        return tuple(
-            FocusAxis(one.name, one.position, one.low, one.high, focus.sharpest, focus.uncertainty)
-            if focus is not None and focus.axis == one.name
-            else one
-            for one in found
-        )
+        return tuple(found)
 
     def calibrate(self, stage: str, *, whole_picture: bool) -> None:
         """Begin the calibration of a stage; raises as :class:`CalibrationRun`, `Runs.begin`."""

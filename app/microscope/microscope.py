@@ -17,7 +17,7 @@ from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.picture_jobs import PictureJobs
 from rotemina.app.microscope.runs import Runs
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
-from rotemina.app.microscope.status_builder import Parts, build_status
+from rotemina.app.microscope.status_builder import build_status
 from rotemina.app.microscope.tip_positioning import TipPositioning
 from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
@@ -113,15 +113,7 @@ class Microscope:
         self.adjustments = Adjustments(
             session, self.camera, self.setup, self.tracker, self.runs, clock, told
         )
-        self._parts = Parts(
-            self.camera,
-            self.setup,
-            self.tracker,
-            self.jobs,
-            self.runs,
-            self.positioning,
-            self.adjustments,
-        )
+        #: Ends (2,), px, of the measured line.
         self.measured: tuple[FloatArray, FloatArray] | None = None
         self._leave = self.camera.listen(self.recording.frame)
         self._tickers = (
@@ -167,7 +159,7 @@ class Microscope:
         Cameras are looked for from the first time on.
         """
         self.camera.watched = True
-        return build_status(self._parts, self.measured)
+        return build_status(self)
 
     # --- what is looked through -------------------------------------------------------------------
 

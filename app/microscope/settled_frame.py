@@ -40,17 +40,11 @@ class SettledFrame:
         Mean of the pictures, as one plane.
     command, measured : (axes,)
         m or rad, in the driver's order; means over the look.
-    region : Region
-        The part of the sensor that the pictures show.
-    host_time_s : float
-        Of the last picture.
     """
 
     image: Image
     command: FloatArray
     measured: FloatArray
-    region: Region
-    host_time_s: float
 
 
 class SettledFrameGrabber:
@@ -197,14 +191,10 @@ class SettledFrameGrabber:
         self._measured.append(np.array([state.measured[axis] for axis in axes]))
 
     def _seen(self) -> SettledFrame:
-        assert self._latest is not None
-        assert self._region is not None
         return SettledFrame(
             image=np.mean(self._images, axis=0, dtype=np.float32),
             command=np.mean(self._commands, axis=0),
             measured=np.mean(self._measured, axis=0),
-            region=self._region,
-            host_time_s=self._latest.host_time_s,
         )
 
     def _refuse_if_broken(self, state: SessionState) -> None:

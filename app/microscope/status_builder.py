@@ -1,52 +1,38 @@
 """Assembles the state of the microscope for a view."""
 
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rotemina.app.microscope.adjustments import Adjustments
-from rotemina.app.microscope.camera_in_use import CameraInUse
 from rotemina.app.microscope.measurements import tip_in_plane
 from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.picture_jobs import PictureJobs
-from rotemina.app.microscope.runs import Runs
 from rotemina.app.microscope.status import (
     CellSeen,
     Measured,
     MicroscopeStatus,
     TipSeen,
 )
-from rotemina.app.microscope.tip_positioning import TipPositioning
-from rotemina.app.microscope.tip_tracker import TipTracker, Tracked
+from rotemina.app.microscope.tip_tracker import Tracked
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.vision.cell import membrane_ahead
 from rotemina.sim.vision.tracking import TipTrack
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Parts:
-    """What a microscope's status is of."""
-
-    camera: CameraInUse
-    setup: OpticalSetup
-    tracker: TipTracker
-    jobs: PictureJobs
-    runs: Runs
-    positioning: TipPositioning
-    adjustments: Adjustments
+if TYPE_CHECKING:
+    from rotemina.app.microscope.microscope import Microscope
 
 
-def build_status(parts: Parts, ends: tuple[FloatArray, FloatArray] | None) -> MicroscopeStatus:
-    """Return this moment; ``ends`` (2,) px each are those of the measured line, if any."""
-    setup, tracked = parts.setup, parts.tracker.tracked
-    view, camera = parts.camera.view, parts.camera.camera
+def build_status(microscope: "Microscope") -> MicroscopeStatus:
+    """Return this moment."""
+    setup, tracked = microscope.setup, microscope.tracker.tracked
+    view, camera = microscope.camera.view, microscope.camera.camera
     pixel_m, source = setup.scale
-    positioning, adjustments = parts.positioning, parts.adjustments
+    positioning, adjustments = microscope.positioning, microscope.adjustments
     calibrating, focusing = adjustments.calibrating, adjustments.focusing
-    tip = parts.tracker.tip
+    tip = microscope.tracker.tip
     return MicroscopeStatus(
-        cameras=parts.camera.cameras,
-        camera_problems=parts.camera.problems,
+        cameras=microscope.camera.cameras,
+        camera_problems=microscope.camera.problems,
         camera=None if camera is None else camera.identity,
         feed=view,
         objective=setup.objective,
@@ -55,34 +41,32 @@ def build_status(parts: Parts, ends: tuple[FloatArray, FloatArray] | None) -> Mi
         calibration_problem=setup.problem,
         pixel_m=pixel_m,
         scale_source=source,
-        activity=parts.runs.activity,
+        activity=microscope.runs.activity,
         calibrating=None if calibrating is None else calibrating.status,
         visiting=None if positioning.run is None else positioning.run.status,
         focusing=None if focusing is None else focusing.status,
         stacking=None if adjustments.stacking is None else adjustments.stacking.status,
-        stopped=parts.runs.stopped,
+        stopped=microscope.runs.stopped,
         planned=positioning.planned,
-        path=parts.tracker.path,
+        path=microscope.tracker.path,
         tip=_tip(setup, tracked),
-        cell=_cell(parts.jobs, tip, pixel_m),
-        measured=_measured(ends, tip, pixel_m),
+        cell=_cell(microscope.jobs, tip, pixel_m),
+        measured=_measured(microscope.measured, tip, pixel_m),
         targets=tuple(positioning.sequence.targets),
         nano_limits=setup.nano_limits(None if tip is None else tip.pixel),
         focus_axes=adjustments.focus_axes,
-        drift=parts.jobs.drift,
+        drift=microscope.jobs.drift,
         background=tracked.ground,
         frames_processed=tracked.processed,
         frames_skipped=tracked.skipped,
-        truth=parts.camera.truth,
+        truth=microscope.camera.truth,
     )
 
 
 def _tip(setup: OpticalSetup, tracked: Tracked) -> TipSeen:
-    track, frame = tracked.track, tracked.frame
-    number = None if frame is None else frame.number
-    at_s = None if frame is None else frame.host_time_s
+    track = tracked.track
     if track is None:
-        return TipSeen(tracked.state, reason=tracked.reason, frame_number=number, host_time_s=at_s)
+        return TipSeen(tracked.state, reason=tracked.reason)
     place = sigma = None
     kept = setup.calibration
     if kept is not None and kept.micro is not None:
@@ -98,8 +82,6 @@ def _tip(setup: OpticalSetup, tracked: Tracked) -> TipSeen:
         sigma_m=sigma,
         quality=track.quality,
         reason=tracked.reason,
-        frame_number=number,
-        host_time_s=at_s,
     )
 
 

@@ -14,7 +14,7 @@ class Theme:
     """Colours by role, as ``#rrggbb``; signals are told apart in grey and by colour-blind eyes.
 
     ``window``, ``surface`` and ``raised`` are grounds, and so are ``accent``, ``danger`` and
-    ``warning`` for what stands on them (:data:`PAIRS`).
+    ``warning`` for what stands on them.
     """
 
     name: str
@@ -67,20 +67,6 @@ DARK, LIGHT, HIGH_CONTRAST = (
     )
 )
 THEMES = {theme.name: theme for theme in (DARK, LIGHT, HIGH_CONTRAST)}
-GROUNDS = ("window", "surface", "raised")
-#: Roles that are read on every ground.
-READ = (
-    *("text", "quiet", "accent", "danger_text", "warning", "good"),
-    *("command", "model", "real", "other"),
-)
-#: What is read, and on what: every text of the style sheet is one of these.
-PAIRS = (
-    *((role, ground) for role in READ for ground in GROUNDS),
-    ("on_accent", "accent"),
-    ("on_danger", "danger"),
-    ("window", "warning"),
-    ("on_virtual", "virtual"),
-)
 #: Sizes of text to choose from; 1.0 suits a screen of 1080 lines.
 SCALES = (0.9, 1.0, 1.15, 1.3, 1.5, 1.75, 2.0)
 _TALL = ((2000, 1.5), (1400, 1.15))  # lines of a screen from which on text grows by itself
@@ -90,20 +76,6 @@ _LENGTH = re.compile(r"\b(\d+)px\b")
 def theme_named(name: str) -> Theme:
     """Return a theme by name, the dark one where the name is unknown."""
     return THEMES.get(name, DARK)
-
-
-def contrast(one: str, other: str) -> float:
-    """Return the contrast of two colours ``#rrggbb``, 1 to 21, as WCAG 2.1 defines it."""
-    low, high = sorted((_luminance(one), _luminance(other)))
-    return (high + 0.05) / (low + 0.05)
-
-
-def _luminance(colour: str) -> float:
-    shares = [int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)]
-    linear = [
-        share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4 for share in shares
-    ]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
 def scale_for(lines: int) -> float:

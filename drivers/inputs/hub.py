@@ -37,13 +37,10 @@ class Changes:
     arrived, left : tuple of InputIdentity
         One that was unplugged and came back between two polls has arrived, if it was open. One that
         could not be opened is told a few times: it may be ready a moment later.
-    returned : tuple of InputIdentity
-        Those of ``arrived`` that were open when they were lost.
     """
 
     arrived: tuple[InputIdentity, ...] = ()
     left: tuple[InputIdentity, ...] = ()
-    returned: tuple[InputIdentity, ...] = ()
 
 
 class InputHub:
@@ -70,7 +67,6 @@ class InputHub:
         # Guards what follows; never held while a source is called.
         self._lock = Lock()
         self._there: dict[str, tuple[InputIdentity, InputSource]] = {}
-        self._opened: set[str] = set()
         self._lost: set[str] = set()
         self._source_problems: dict[str, str] = {}
         self._device_problems: dict[str, str] = {}
@@ -162,22 +158,16 @@ class InputHub:
                 )
             ) from error
         with self._lock:
-            self._opened.add(key)
             self._clear(key)
         return device
 
     def lost(self, key: str) -> None:
         """Note that an open device raised :class:`InputLostError`.
 
-        The next poll tells that it has left, or, where it is back already, that it has returned.
+        The next poll tells that it has left, or, where it is back already, that it has arrived.
         """
         with self._lock:
             self._lost.add(key)
-
-    def released(self, key: str) -> None:
-        """Note that a device was closed on purpose: coming again it has not ``returned``."""
-        with self._lock:
-            self._opened.discard(key)
 
     def _exchange(
         self, there: dict[str, tuple[InputIdentity, InputSource]], problems: dict[str, str]
@@ -195,9 +185,7 @@ class InputHub:
             left = tuple(one for key, (one, _) in before.items() if key not in there)
             for one in left:
                 self._clear(one.key)
-            returned = tuple(one for one in arrived if one.key in self._opened)
-            self._opened -= {one.key for one in returned}
-        return Changes(arrived, left, returned)
+        return Changes(arrived, left)
 
     def _note(self, key: str, problem: str) -> None:
         with self._lock:

@@ -69,7 +69,6 @@ class Session:
         self.lost: ConnectionLostError | None = None
         self.served_s = clock()
         self._polled_s = float("-inf")
-        self._open = False
         self.boards = tuple(Board(number, own) for number, own in enumerate(axes, start=1))
         self.links: tuple[Link, ...] = ()
         try:
@@ -108,7 +107,6 @@ class Session:
         for board in self.boards:
             board.telemetry_ms = self.period_ms
         self.sampling = Sampling(self.boards, self._named)
-        self._open = True
         self.served_s = clock()
 
     @property
@@ -128,7 +126,6 @@ class Session:
 
     def close(self) -> None:
         """Stop, end telemetry, let go; what the board does not hear its watchdog does."""
-        self._open = False
         for link in self.links:
             last = [
                 encoded(Frame(address, 0xFF, SetTelemetry.TYPE, SetTelemetry(0, 0).packed()))
