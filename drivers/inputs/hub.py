@@ -17,7 +17,7 @@ from rotemina.drivers.inputs.device import (
     InputLostError,
     InputSource,
 )
-from rotemina.drivers.registry import discover
+from rotemina.drivers.registry import make_sources
 from rotemina.sim.messages import marked, message
 
 _LOG = logging.getLogger(__name__)
@@ -80,17 +80,7 @@ class InputHub:
         clock: Clock = time.monotonic,
     ) -> Self:
         """Return a hub of all installed sources and those that the program makes itself."""
-        discovery = discover(INPUTS, InputSource)
-        sources, broken = dict(own), dict(discovery.broken)
-        for name, source in discovery.found.items():
-            if name in sources:
-                broken[name] = "the program has a source of this name itself"
-                continue
-            try:
-                sources[name] = source(clock=clock)
-            except Exception as error:  # a plugin may raise anything
-                broken[name] = f"it cannot be made: {type(error).__name__}: {error}"
-        return cls(sources, broken)
+        return cls(*make_sources(INPUTS, InputSource, own, clock=clock))
 
     @property
     def devices(self) -> tuple[InputIdentity, ...]:

@@ -13,14 +13,13 @@ from rotemina.drivers.abilities import (
 from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.gate import Permit
-from rotemina.drivers.line_quality import LinkQuality
+from rotemina.drivers.line_quality import LinkQuality, total_quality
 from rotemina.drivers.mc68hc11.capturing import Capturing
 from rotemina.drivers.mc68hc11.connection import Connected
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
 from rotemina.drivers.mc68hc11.host_messages import AbortProfile, Capture, ShowText, TriggerProfile
 from rotemina.drivers.mc68hc11.profile_upload import profile_messages
 from rotemina.drivers.mc68hc11.protocol_codes import AXES, Ability
-from rotemina.drivers.mc68hc11.total_quality import total_quality
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState
