@@ -57,8 +57,6 @@ class SettledFrameGrabber:
         The camera's newest picture.
     pictures : int
         How many are averaged.
-    settle_s : float
-        From rest to the first of them.
     permit : Permit, optional
         Of the request that led here; drawn now without it.
     """
@@ -69,12 +67,11 @@ class SettledFrameGrabber:
         newest: Newest,
         *,
         pictures: int = PICTURES,
-        settle_s: float = SETTLE_S,
         permit: Permit | None = None,
     ) -> None:
         self._session = session
         self._newest = newest
-        self._pictures, self._settle_s = pictures, settle_s
+        self._pictures = pictures
         self._region: Region | None = None
         #: Drawn when it began; every move of what looks goes with it, and a stop ends them all.
         self.permit = session.permit() if permit is None else permit
@@ -118,7 +115,7 @@ class SettledFrameGrabber:
         if len(self._images) >= self._pictures:
             return self._seen()
         waited_s = now_s - self._rested_s
-        if waited_s > self._settle_s + PATIENCE_S:
+        if waited_s > SETTLE_S + PATIENCE_S:
             what = (
                 marked("engine", "frozen: it repeats the same picture") if self._same else "stalled"
             )
@@ -161,7 +158,7 @@ class SettledFrameGrabber:
         """Keep the newest picture, if it is a new one that was taken at rest."""
         frame = self._newest()
         assert self._rested_s is not None
-        if frame is None or frame.host_time_s < self._rested_s + self._settle_s:
+        if frame is None or frame.host_time_s < self._rested_s + SETTLE_S:
             return
         before, self._latest = self._latest, frame
         if before is not None and frame.number == before.number:
