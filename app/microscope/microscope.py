@@ -13,13 +13,20 @@ from rotemina.app.microscope.camera_memory import CameraMemory
 from rotemina.app.microscope.click_target import PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.frame_recording import FrameRecording
+from rotemina.app.microscope.measurements import tip_in_plane
 from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.picture_jobs import PictureJobs
 from rotemina.app.microscope.runs import Runs
-from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
-from rotemina.app.microscope.status_builder import build_status
+from rotemina.app.microscope.status import (
+    Activity,
+    CellSeen,
+    Measured,
+    MicroscopeStatus,
+    TipSeen,
+    TipState,
+)
 from rotemina.app.microscope.tip_positioning import TipPositioning
-from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
+from rotemina.app.microscope.tip_tracker import Pressing, TipTracker, Tracked
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.session import MotionSession
@@ -33,6 +40,8 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import marked, message
+from rotemina.sim.vision.cell import membrane_ahead
+from rotemina.sim.vision.tracking import TipTrack
 
 FOLDER = "microscope"  # of calibrations, in the user's own
 RUN_S, TRACK_S, KEEP_S = 0.02, 0.008, 0.1
@@ -159,7 +168,43 @@ class Microscope:
         Cameras are looked for from the first time on.
         """
         self.camera.watched = True
-        return build_status(self)
+        setup, tracked = self.setup, self.tracker.tracked
+        view, camera = self.camera.view, self.camera.camera
+        pixel_m, source = setup.scale
+        positioning, adjustments = self.positioning, self.adjustments
+        calibrating, focusing = adjustments.calibrating, adjustments.focusing
+        tip = self.tracker.tip
+        return MicroscopeStatus(
+            cameras=self.camera.cameras,
+            camera_problems=self.camera.problems,
+            camera=None if camera is None else camera.identity,
+            feed=view,
+            objective=setup.objective,
+            objectives=setup.objectives,
+            calibration=setup.calibration,
+            calibration_problem=setup.problem,
+            pixel_m=pixel_m,
+            scale_source=source,
+            activity=self.runs.activity,
+            calibrating=None if calibrating is None else calibrating.status,
+            visiting=None if positioning.run is None else positioning.run.status,
+            focusing=None if focusing is None else focusing.status,
+            stacking=None if adjustments.stacking is None else adjustments.stacking.status,
+            stopped=self.runs.stopped,
+            planned=positioning.planned,
+            path=self.tracker.path,
+            tip=_tip(setup, tracked),
+            cell=_cell(self.jobs, tip, pixel_m),
+            measured=_measured(self.measured, tip, pixel_m),
+            targets=tuple(positioning.sequence.targets),
+            nano_limits=setup.nano_limits(None if tip is None else tip.pixel),
+            focus_axes=adjustments.focus_axes,
+            drift=self.jobs.drift,
+            background=tracked.ground,
+            frames_processed=tracked.processed,
+            frames_skipped=tracked.skipped,
+            truth=self.camera.truth,
+        )
 
     # --- what is looked through -------------------------------------------------------------------
 
@@ -291,3 +336,58 @@ class Microscope:
                 name=type(error).__name__, error=str(error)
             )
         )
+
+
+def _tip(setup: OpticalSetup, tracked: Tracked) -> TipSeen:
+    track = tracked.track
+    if track is None:
+        return TipSeen(tracked.state, reason=tracked.reason)
+    place = sigma = None
+    kept = setup.calibration
+    if kept is not None and kept.micro is not None:
+        place, spread = tip_in_plane(track.pixel, track.covariance, kept.micro)
+        sigma = np.sqrt(np.diag(spread))
+    return TipSeen(
+        state=tracked.state,
+        pixel=track.pixel,
+        sigma_px=float(np.sqrt(np.linalg.eigvalsh(track.covariance)[-1])),
+        direction=track.pipette.direction,
+        depth=track.depth,
+        place_m=place,
+        sigma_m=sigma,
+        quality=track.quality,
+        reason=tracked.reason,
+    )
+
+
+def _cell(jobs: PictureJobs, tip: TipTrack | None, pixel_m: float | None) -> CellSeen:
+    outline, reason = jobs.cell, jobs.reason
+    if outline is None or tip is None:
+        return CellSeen(outline, reason=reason)
+    # The way of the tip is out of its body, which leads the other way.
+    ahead = membrane_ahead(outline, tip.pixel, tip.covariance, tip.pipette.direction + np.pi)
+    if ahead is None or pixel_m is None:
+        return CellSeen(outline, ahead, reason=reason)
+    away, doubt = ahead.distance * pixel_m, ahead.distance_uncertainty * pixel_m
+    return CellSeen(outline, ahead, away, doubt, reason)
+
+
+def _measured(
+    ends: tuple[FloatArray, FloatArray] | None, tip: TipTrack | None, pixel_m: float | None
+) -> Measured | None:
+    if ends is None:
+        return None
+    way = ends[1] - ends[0]
+    length, angle = float(np.hypot(*way)), float(np.arctan2(way[1], way[0]))
+    to_body = None
+    if tip is not None:
+        between = abs((angle - tip.pipette.direction + 0.5 * np.pi) % np.pi - 0.5 * np.pi)
+        to_body = float(between)
+    return Measured(
+        begin=ends[0],
+        end=ends[1],
+        length_px=length,
+        length_m=None if pixel_m is None else length * pixel_m,
+        angle=angle,
+        to_body=to_body,
+    )
