@@ -143,6 +143,10 @@ class SimulatedCamera(FocusDrive):
             )
         self._focus_m = float(focus_m)
 
+    def replace_cell(self) -> None:
+        """Put an untouched cell in place of the present one."""
+        self._state = UNTOUCHED
+
     @property
     def _drawing(self) -> Renderer:
         assert self._renderer is not None, "there is a scene while it is open"

@@ -182,7 +182,7 @@ def test_the_focus_drive(clock):
     assert bench.camera.focus_m == 40e-6
 
 
-def test_a_penetration_leaves_a_hole(clock):
+def test_a_penetration_leaves_a_hole_until_the_cell_is_replaced(clock):
     bench = Bench(clock)
     bench.driver.open()
     bench.camera.grab(1.0)
@@ -195,6 +195,8 @@ def test_a_penetration_leaves_a_hole(clock):
     assert bench.camera.grab(1.0).metadata["pierced"]
     bench.settle(x=joints[0])
     assert bench.camera.grab(1.0).metadata["pierced"]
+    bench.camera.replace_cell()
+    assert not bench.camera.grab(1.0).metadata["pierced"]
 
 
 def test_the_same_seed_gives_the_same_frames(clock):
