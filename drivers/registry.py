@@ -1,6 +1,7 @@
 """Discovery of drivers and other plugins among the installed entry points."""
 
 import inspect
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any
@@ -39,6 +40,26 @@ def discover(group: str, base: type) -> Discovery:
         else:
             found[point.name] = loaded
     return Discovery(found, broken)
+
+
+def make_sources(
+    group: str, base: type, own: Mapping[str, Any], **arguments: object
+) -> tuple[dict[str, Any], dict[str, str]]:
+    """Make every installed source of a group, beside those that the program makes itself.
+
+    Return them by name, and why others are broken and left out.
+    """
+    discovery = discover(group, base)
+    sources, broken = dict(own), dict(discovery.broken)
+    for name, source in discovery.found.items():
+        if name in sources:
+            broken[name] = "the program has a source of this name itself"
+            continue
+        try:
+            sources[name] = source(**arguments)
+        except Exception as error:  # a plugin may raise anything
+            broken[name] = f"it cannot be made: {type(error).__name__}: {error}"
+    return sources, broken
 
 
 def discover_drivers() -> Discovery:

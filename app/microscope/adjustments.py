@@ -73,14 +73,7 @@ class Adjustments:
             if axis in axes:
                 low, high = axes[axis].range
                 found.append(FocusAxis(axis, command.get(axis), low, high))
-        kept = self._setup.calibration
-        focus = None if kept is None else kept.focus
-        return tuple(
-            FocusAxis(one.name, one.position, one.low, one.high, focus.sharpest, focus.uncertainty)
-            if focus is not None and focus.axis == one.name
-            else one
-            for one in found
-        )
+        return tuple(found)
 
     def calibrate(self, stage: str, *, whole_picture: bool) -> None:
         """Begin the calibration of a stage; raises as :class:`CalibrationRun`, `Runs.begin`."""
@@ -99,17 +92,26 @@ class Adjustments:
 
         self._runs.begin(Activity.CALIBRATION, make, lambda: self._calibrated(stage))
 
-    def autofocus(self, name: str, low: float | None, high: float | None) -> None:
-        """Begin a search between two places, m; raises as :class:`FocusRun`, `Runs.begin`."""
-        axis = self._focus_axis(name)
-        if axis.position is None:
-            raise MicroscopeError(
-                message(
-                    "engine", "{name}: its position is unknown; connect the machine first"
-                ).fill(name=name)
-            )
-        begin = max(axis.low, axis.position - FOCUSED_M) if low is None else low
-        end = min(axis.high, axis.position + FOCUSED_M) if high is None else high
+    def autofocus(
+        self, name: str = FOCUS, low: float | None = None, high: float | None = None
+    ) -> None:
+        """Bring the tip, or where none is tracked the picture, into focus.
+
+        Parameters
+        ----------
+        name : str
+            ``focus`` for the microscope's drive, or an axis of the machine.
+        low, high : float, optional
+            Where to search, m; by default 50 µm each way, as far as it goes.
+
+        Raises
+        ------
+        InputError
+            As :class:`FocusRun` and :meth:`Runs.begin`.
+        """
+        axis, position = self._focus_axis(name)
+        begin = max(axis.low, position - FOCUSED_M) if low is None else low
+        end = min(axis.high, position + FOCUSED_M) if high is None else high
 
         def make() -> FocusRun:
             self.focusing = FocusRun(
@@ -126,15 +128,15 @@ class Adjustments:
         self._runs.begin(Activity.AUTOFOCUS, make, lambda: self._focused(name))
 
     def stack(self, name: str, first: float, last: float, step: float) -> None:
-        """Begin a z-stack, places in m; raises as :class:`StackRun`, :meth:`Runs.begin`."""
-        axis = self._focus_axis(name)
-        if axis.position is None:
-            raise MicroscopeError(
-                message(
-                    "engine", "{name}: its position is unknown; connect the machine first"
-                ).fill(name=name)
-            )
-        places, back = places_of(first, last, step), axis.position
+        """Take pictures from ``first`` to ``last`` by ``step``, m, of the drive or an axis.
+
+        Raises
+        ------
+        InputError
+            As :class:`StackRun` and :meth:`Runs.begin`; then nothing has moved.
+        """
+        axis, back = self._focus_axis(name)
+        places = places_of(first, last, step)
         for place in (places[0], places[-1]):
             if not axis.low <= place <= axis.high:
                 raise MicroscopeError(
@@ -187,7 +189,8 @@ class Adjustments:
 
         return move
 
-    def _focus_axis(self, name: str) -> FocusAxis:
+    def _focus_axis(self, name: str) -> tuple[FocusAxis, float]:
+        """Return what has a name, and where it is, m."""
         axes = self.focus_axes
         found = next((one for one in axes if one.name == name), None)
         if found is None:
@@ -197,7 +200,13 @@ class Adjustments:
                     name=repr(name), known=known
                 )
             )
-        return found
+        if found.position is None:
+            raise MicroscopeError(
+                message(
+                    "engine", "{name}: its position is unknown; connect the machine first"
+                ).fill(name=name)
+            )
+        return found, found.position
 
     def _sharp_part(self) -> tuple[slice, slice]:
         tip = self._tracker.tip

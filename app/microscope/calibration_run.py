@@ -26,7 +26,7 @@ from rotemina.sim.kinematics.inverse import solve_nano
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import fixed, rounded
 from rotemina.sim.trajectory.axis_limits import check_target
-from rotemina.sim.vision.calibration import Demands, StageFit, fit_stage
+from rotemina.sim.vision.calibration import StageFit, fit_stage
 from rotemina.sim.vision.image import Image
 from rotemina.sim.vision.pipette import Pipette
 from rotemina.sim.vision.registration import register
@@ -98,11 +98,8 @@ class CalibrationRun:
     pipette : Pipette, optional
         What the tip looks like: the background stands and the tip moves. Without one the whole
         picture must move with the stage.
-    extent_m : float, optional
-        How far the tip goes each way from where it is.
     now_s : float
         The host's time.
-    demands : Demands, optional
     direction_known : bool
         Whether the pipette's direction is roughly right; else it is found along with the tip.
     today : callable
@@ -123,13 +120,11 @@ class CalibrationRun:
         pipette: Pipette | None,
         *,
         now_s: float,
-        extent_m: float | None = None,
-        demands: Demands | None = None,
         direction_known: bool = True,
         today: Callable[[], datetime] = lambda: datetime.now(UTC),
     ) -> None:
         self._session, self._stage, self._pipette = session, stage, pipette
-        self._demands, self._today = demands, today
+        self._today = today
         self._find = find_tip if direction_known else find_body
         self._chain = Chain.of(session.robot)
         state = session.snapshot()
@@ -140,8 +135,7 @@ class CalibrationRun:
         self._axes = ("x", "y") if stage == MICRO else ("thx", "thy", "zn")
         self._begin = {axis: state.command[axis] for axis in self._axes}
         joints = np.array([state.command[axis] for axis in JOINTS])
-        extent = EXTENT_M[stage] if extent_m is None else extent_m
-        self._plan = tuple(self._targets(joints, extent * np.array(way)) for way in _RING)
+        self._plan = tuple(self._targets(joints, EXTENT_M[stage] * np.array(way)) for way in _RING)
         self._looking = SettledFrameGrabber(session, newest)
         self._looking.begin(now_s)
         self._first: tuple[SettledFrame, TipFit | None] | None = None
@@ -312,7 +306,7 @@ class CalibrationRun:
         shifts = np.stack([np.zeros(2), *(one.shift for one in seen)])
         own = seen[-1].covariance if tip is None else tip.covariance
         spreads = np.stack([own, *(one.covariance for one in seen)])
-        fit = fit_stage(moves, shifts, spreads, self._demands)
+        fit = fit_stage(moves, shifts, spreads)
         at_px = np.zeros(2) if tip is None else tip.pixel + fit.offset
         self._status = replace(
             self._status,

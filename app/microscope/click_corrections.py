@@ -61,9 +61,6 @@ class ClickRun:
     before : image, optional
         The picture in which it was seen. Where the tip goes to a place that it does not cover
         there, that place is known without the tip, and a cell beneath it misleads nobody.
-    tolerance_px : float
-    corrections : int
-        At most.
     confirmed : bool
     clear : bool
         Whether ``before`` shows the goal without the tip for certain.
@@ -85,8 +82,6 @@ class ClickRun:
         *,
         now_s: float,
         before: Image | None = None,
-        tolerance_px: float = TOLERANCE_PX,
-        corrections: int = CORRECTIONS,
         confirmed: bool = False,
         clear: bool = False,
         permit: Permit | None = None,
@@ -94,7 +89,6 @@ class ClickRun:
         self._clicks, self._goal, self._stage = clicks, move.pixel, move.stage
         self._track, self._ghost, self._before = track, move.ghost, before
         self._clear = clear
-        self._tolerance_px, self._corrections = tolerance_px, corrections
         self._looking = SettledFrameGrabber(clicks.session, newest, permit=permit)
         clicks.go(move, confirmed=confirmed, permit=self._looking.permit)
         self._looking.begin(now_s)
@@ -128,7 +122,7 @@ class ClickRun:
         miss = self._goal - tip
         self.status = replace(self.status, miss=miss)
         distance = float(np.linalg.norm(miss))
-        if distance <= self._tolerance_px:
+        if distance <= TOLERANCE_PX:
             self.status = replace(self.status, visit=Visit.ARRIVED)
             return
         if distance > _MOST_CORRECTION_PX:
@@ -140,7 +134,7 @@ class ClickRun:
                     "again",
                 ).fill(distance=fixed(distance, 0), most=fixed(_MOST_CORRECTION_PX, 0))
             )
-        if self.status.corrections >= self._corrections:
+        if self.status.corrections >= CORRECTIONS:
             raise MicroscopeError(
                 message(
                     "engine",
@@ -148,8 +142,8 @@ class ClickRun:
                     "{most} px are permitted: the stage drifts, or its resolution is too coarse",
                 ).fill(
                     distance=fixed(distance, 2),
-                    n=self._corrections,
-                    most=rounded(self._tolerance_px, 6),
+                    n=CORRECTIONS,
+                    most=rounded(TOLERANCE_PX, 6),
                 )
             )
         self._ghost = self._goal

@@ -155,10 +155,6 @@ class ClickToMove:
                 ).fill(distance=exact(move.distance, "m"), confirm_m=exact(self.confirm_m, "m"))
             )
 
-    def go_back(self) -> None:
-        """Return to where the machine rested before its latest move; raises as ``undo``."""
-        self.session.undo()
-
     def _calibrated(self) -> MicroscopeCalibration:
         if self.calibration is None:
             raise MicroscopeError(

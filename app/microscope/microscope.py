@@ -13,13 +13,20 @@ from rotemina.app.microscope.camera_memory import CameraMemory
 from rotemina.app.microscope.click_target import PlannedMove
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.frame_recording import FrameRecording
+from rotemina.app.microscope.measurements import tip_in_plane
 from rotemina.app.microscope.optical_setup import OpticalSetup
 from rotemina.app.microscope.picture_jobs import PictureJobs
 from rotemina.app.microscope.runs import Runs
-from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
-from rotemina.app.microscope.status_builder import Parts, build_status
+from rotemina.app.microscope.status import (
+    Activity,
+    CellSeen,
+    Measured,
+    MicroscopeStatus,
+    TipSeen,
+    TipState,
+)
 from rotemina.app.microscope.tip_positioning import TipPositioning
-from rotemina.app.microscope.tip_tracker import Pressing, TipTracker
+from rotemina.app.microscope.tip_tracker import Pressing, TipTracker, Tracked
 from rotemina.app.motion.penetration.status import Phase as PenetrationPhase
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.session import MotionSession
@@ -33,6 +40,8 @@ from rotemina.drivers.clock import Clock
 from rotemina.drivers.gate import Permit
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import marked, message
+from rotemina.sim.vision.cell import membrane_ahead
+from rotemina.sim.vision.tracking import TipTrack
 
 FOLDER = "microscope"  # of calibrations, in the user's own
 RUN_S, TRACK_S, KEEP_S = 0.02, 0.008, 0.1
@@ -113,15 +122,7 @@ class Microscope:
         self.adjustments = Adjustments(
             session, self.camera, self.setup, self.tracker, self.runs, clock, told
         )
-        self._parts = Parts(
-            self.camera,
-            self.setup,
-            self.tracker,
-            self.jobs,
-            self.runs,
-            self.positioning,
-            self.adjustments,
-        )
+        #: Ends (2,), px, of the measured line.
         self.measured: tuple[FloatArray, FloatArray] | None = None
         self._leave = self.camera.listen(self.recording.frame)
         self._tickers = (
@@ -167,7 +168,43 @@ class Microscope:
         Cameras are looked for from the first time on.
         """
         self.camera.watched = True
-        return build_status(self._parts, self.measured)
+        setup, tracked = self.setup, self.tracker.tracked
+        view, camera = self.camera.view, self.camera.camera
+        pixel_m, source = setup.scale
+        positioning, adjustments = self.positioning, self.adjustments
+        calibrating, focusing = adjustments.calibrating, adjustments.focusing
+        tip = self.tracker.tip
+        return MicroscopeStatus(
+            cameras=self.camera.cameras,
+            camera_problems=self.camera.problems,
+            camera=None if camera is None else camera.identity,
+            feed=view,
+            objective=setup.objective,
+            objectives=setup.objectives,
+            calibration=setup.calibration,
+            calibration_problem=setup.problem,
+            pixel_m=pixel_m,
+            scale_source=source,
+            activity=self.runs.activity,
+            calibrating=None if calibrating is None else calibrating.status,
+            visiting=None if positioning.run is None else positioning.run.status,
+            focusing=None if focusing is None else focusing.status,
+            stacking=None if adjustments.stacking is None else adjustments.stacking.status,
+            stopped=self.runs.stopped,
+            planned=positioning.planned,
+            path=self.tracker.path,
+            tip=_tip(setup, tracked),
+            cell=_cell(self.jobs, tip, pixel_m),
+            measured=_measured(self.measured, tip, pixel_m),
+            targets=tuple(positioning.sequence.targets),
+            nano_limits=setup.nano_limits(None if tip is None else tip.pixel),
+            focus_axes=adjustments.focus_axes,
+            drift=self.jobs.drift,
+            background=tracked.ground,
+            frames_processed=tracked.processed,
+            frames_skipped=tracked.skipped,
+            truth=self.camera.truth,
+        )
 
     # --- what is looked through -------------------------------------------------------------------
 
@@ -192,35 +229,6 @@ class Microscope:
         self.adjustments.calibrate(stage, whole_picture=whole_picture)
         if not whole_picture and self.tracker.tracked.state is TipState.OFF:
             self.tracker.switch(True)  # what it uncovers on its way becomes the background
-
-    def autofocus(
-        self, name: str = FOCUS, low: float | None = None, high: float | None = None
-    ) -> None:
-        """Bring the tip, or where none is tracked the picture, into focus.
-
-        Parameters
-        ----------
-        name : str
-            ``focus`` for the microscope's drive, or an axis of the machine.
-        low, high : float, optional
-            Where to search, m; by default 50 µm each way, as far as it goes.
-
-        Raises
-        ------
-        InputError
-            As :class:`FocusRun` and :meth:`Runs.begin`.
-        """
-        self.adjustments.autofocus(name, low, high)
-
-    def stack(self, name: str, first: float, last: float, step: float) -> None:
-        """Take pictures from ``first`` to ``last`` by ``step``, m, of the drive or an axis.
-
-        Raises
-        ------
-        InputError
-            As :class:`StackRun` and :meth:`Runs.begin`; then nothing has moved.
-        """
-        self.adjustments.stack(name, first, last, step)
 
     def move_focus(self, focus_m: float) -> None:
         """Move the microscope's focus drive, m; raises InputError if it has none, or cannot."""
@@ -271,14 +279,6 @@ class Microscope:
         """Add a target behind the others."""
         self.positioning.sequence.mark(np.asarray(pixel, dtype=np.float64))
 
-    def remove_target(self, index: int) -> None:
-        """Forget a target; raises MicroscopeError if there is none such, or on the way to one."""
-        self.positioning.sequence.remove(index)
-
-    def clear_targets(self) -> None:
-        """Forget all targets; raises MicroscopeError on the way to one."""
-        self.positioning.sequence.clear()
-
     def visit_next(self, *, confirmed: bool = False, permit: Permit | None = None) -> None:
         """Go to the next target; ``permit`` as in :meth:`go`.
 
@@ -297,17 +297,9 @@ class Microscope:
         """Turn tracking on or off; ``near`` (2,), px, is an approximate position."""
         self.tracker.switch(on, near)
 
-    def take_background(self) -> None:
-        """Replace the background by the present picture, except under the pipette."""
-        self.tracker.take_ground()
-
     def outline_cell(self, near: FloatArray) -> None:
         """Look for the outline of the cell about ``near`` (2,), px."""
         self.jobs.outline(np.asarray(near, dtype=np.float64), self.setup.pixel_m)
-
-    def forget_cell(self) -> None:
-        """Remove the outline."""
-        self.jobs.forget()
 
     def measure(self, begin: FloatArray, end: FloatArray) -> None:
         """Measure from one pixel (2,) to another."""
@@ -321,10 +313,6 @@ class Microscope:
     def forget_measure(self) -> None:
         """Remove the measured line."""
         self.measured = None
-
-    def watch_drift(self, on: bool) -> None:
-        """Turn the monitoring of background drift on or off."""
-        self.jobs.watch_drift(on)
 
     # --- inside -----------------------------------------------------------------------------------
 
@@ -348,3 +336,58 @@ class Microscope:
                 name=type(error).__name__, error=str(error)
             )
         )
+
+
+def _tip(setup: OpticalSetup, tracked: Tracked) -> TipSeen:
+    track = tracked.track
+    if track is None:
+        return TipSeen(tracked.state, reason=tracked.reason)
+    place = sigma = None
+    kept = setup.calibration
+    if kept is not None and kept.micro is not None:
+        place, spread = tip_in_plane(track.pixel, track.covariance, kept.micro)
+        sigma = np.sqrt(np.diag(spread))
+    return TipSeen(
+        state=tracked.state,
+        pixel=track.pixel,
+        sigma_px=float(np.sqrt(np.linalg.eigvalsh(track.covariance)[-1])),
+        direction=track.pipette.direction,
+        depth=track.depth,
+        place_m=place,
+        sigma_m=sigma,
+        quality=track.quality,
+        reason=tracked.reason,
+    )
+
+
+def _cell(jobs: PictureJobs, tip: TipTrack | None, pixel_m: float | None) -> CellSeen:
+    outline, reason = jobs.cell, jobs.reason
+    if outline is None or tip is None:
+        return CellSeen(outline, reason=reason)
+    # The way of the tip is out of its body, which leads the other way.
+    ahead = membrane_ahead(outline, tip.pixel, tip.covariance, tip.pipette.direction + np.pi)
+    if ahead is None or pixel_m is None:
+        return CellSeen(outline, ahead, reason=reason)
+    away, doubt = ahead.distance * pixel_m, ahead.distance_uncertainty * pixel_m
+    return CellSeen(outline, ahead, away, doubt, reason)
+
+
+def _measured(
+    ends: tuple[FloatArray, FloatArray] | None, tip: TipTrack | None, pixel_m: float | None
+) -> Measured | None:
+    if ends is None:
+        return None
+    way = ends[1] - ends[0]
+    length, angle = float(np.hypot(*way)), float(np.arctan2(way[1], way[0]))
+    to_body = None
+    if tip is not None:
+        between = abs((angle - tip.pipette.direction + 0.5 * np.pi) % np.pi - 0.5 * np.pi)
+        to_body = float(between)
+    return Measured(
+        begin=ends[0],
+        end=ends[1],
+        length_px=length,
+        length_m=None if pixel_m is None else length * pixel_m,
+        angle=angle,
+        to_body=to_body,
+    )

@@ -49,13 +49,13 @@ class PictureJobs:
             self._wanted = near, (max(low, _LEAST_PX), max(high, 2.0 * _LEAST_PX))
 
     def forget(self) -> None:
-        """Know of no cell."""
+        """Remove the outline of the cell."""
         with self._lock:
             self._wanted = None
         self.cell, self.reason = None, ""
 
     def watch_drift(self, on: bool) -> None:
-        """Return how far the background is from where it is now."""
+        """Turn the monitoring of background drift on or off."""
         with self._lock:
             self._watching, self._reference = on, None
         self.drift = DriftSeen(watched=on)

@@ -40,17 +40,11 @@ class SettledFrame:
         Mean of the pictures, as one plane.
     command, measured : (axes,)
         m or rad, in the driver's order; means over the look.
-    region : Region
-        The part of the sensor that the pictures show.
-    host_time_s : float
-        Of the last picture.
     """
 
     image: Image
     command: FloatArray
     measured: FloatArray
-    region: Region
-    host_time_s: float
 
 
 class SettledFrameGrabber:
@@ -63,8 +57,6 @@ class SettledFrameGrabber:
         The camera's newest picture.
     pictures : int
         How many are averaged.
-    settle_s : float
-        From rest to the first of them.
     permit : Permit, optional
         Of the request that led here; drawn now without it.
     """
@@ -75,12 +67,11 @@ class SettledFrameGrabber:
         newest: Newest,
         *,
         pictures: int = PICTURES,
-        settle_s: float = SETTLE_S,
         permit: Permit | None = None,
     ) -> None:
         self._session = session
         self._newest = newest
-        self._pictures, self._settle_s = pictures, settle_s
+        self._pictures = pictures
         self._region: Region | None = None
         #: Drawn when it began; every move of what looks goes with it, and a stop ends them all.
         self.permit = session.permit() if permit is None else permit
@@ -124,7 +115,7 @@ class SettledFrameGrabber:
         if len(self._images) >= self._pictures:
             return self._seen()
         waited_s = now_s - self._rested_s
-        if waited_s > self._settle_s + PATIENCE_S:
+        if waited_s > SETTLE_S + PATIENCE_S:
             what = (
                 marked("engine", "frozen: it repeats the same picture") if self._same else "stalled"
             )
@@ -167,7 +158,7 @@ class SettledFrameGrabber:
         """Keep the newest picture, if it is a new one that was taken at rest."""
         frame = self._newest()
         assert self._rested_s is not None
-        if frame is None or frame.host_time_s < self._rested_s + self._settle_s:
+        if frame is None or frame.host_time_s < self._rested_s + SETTLE_S:
             return
         before, self._latest = self._latest, frame
         if before is not None and frame.number == before.number:
@@ -197,14 +188,10 @@ class SettledFrameGrabber:
         self._measured.append(np.array([state.measured[axis] for axis in axes]))
 
     def _seen(self) -> SettledFrame:
-        assert self._latest is not None
-        assert self._region is not None
         return SettledFrame(
             image=np.mean(self._images, axis=0, dtype=np.float32),
             command=np.mean(self._commands, axis=0),
             measured=np.mean(self._measured, axis=0),
-            region=self._region,
-            host_time_s=self._latest.host_time_s,
         )
 
     def _refuse_if_broken(self, state: SessionState) -> None:

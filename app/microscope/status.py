@@ -65,8 +65,6 @@ class TipSeen:
         0 to 1.
     reason : str
         Why it is lost or was not found.
-    frame_number, host_time_s : int or None, float or None
-        Of the picture that this was seen in.
     """
 
     state: TipState = TipState.OFF
@@ -78,8 +76,6 @@ class TipSeen:
     sigma_m: FloatArray | None = None
     quality: float = 0.0
     reason: str = ""
-    frame_number: int | None = None
-    host_time_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,16 +137,12 @@ class FocusAxis:
         m.
     low, high : float
         How far it goes, m.
-    sharpest, uncertainty : float or None
-        Where it was sharpest when it was calibrated, and that one's standard deviation, m.
     """
 
     name: str
     position: float | None
     low: float
     high: float
-    sharpest: float | None = None
-    uncertainty: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

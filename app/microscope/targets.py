@@ -79,11 +79,6 @@ class TargetSequence:
         """Whether the visit has ended."""
         return self._run is None or self._run.ended
 
-    @property
-    def run(self) -> ClickRun | None:
-        """The present visit, or the latest one."""
-        return self._run
-
     def remove(self, index: int) -> None:
         """Forget one target.
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 
-from rotemina.app.scene.errors import ViewerError
+from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 
 _OWN = {
@@ -12,6 +12,10 @@ _OWN = {
     "viewer.css": ("viewer.css", "text/css; charset=utf-8"),
     "viewer.js": ("viewer.js", "text/javascript; charset=utf-8"),
 }
+
+
+class ViewerError(InputError):
+    """The viewer cannot be served or shown."""
 
 
 @dataclass(frozen=True, slots=True)

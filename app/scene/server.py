@@ -11,9 +11,8 @@ from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 from tornado.web import Application
 
-from rotemina.app.scene.errors import ViewerError
 from rotemina.app.scene.handlers import FileHandler, SceneSocket
-from rotemina.app.scene.page import page_files
+from rotemina.app.scene.page import ViewerError, page_files
 from rotemina.app.scene.scene import Scene
 from rotemina.app.scene.viewers import Viewers
 from rotemina.sim.messages import message

@@ -1,6 +1,7 @@
 """The commands of the window's menus, as a table."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple, Protocol
 
 from rotemina.app.motion.state import Connection
@@ -55,53 +56,46 @@ class Command(NamedTuple):
     why_not: Callable[[], str | None] = always
 
 
+def _unless(able: Callable[[], object], reason: str) -> Callable[[], str | None]:
+    return lambda: None if able() else reason
+
+
 def commands(window: _Window) -> list[Command]:
     """Return every command of the menus but the kept layouts, in their order."""
     return [*_file(window), *_motion(window), *_view(window), *_help(window)]
 
 
 def _file(window: _Window) -> list[Command]:
+    command = partial(Command, translate("shell", "&File"))
     bench = window.workbench
-
-    def no_record() -> str | None:
-        return (
-            None
-            if bench.record
-            else translate("shell", "there is no record; play a trajectory or open one")
-        )
-
+    no_record = translate("shell", "there is no record; play a trajectory or open one")
     return [
-        Command(
-            translate("shell", "&File"),
+        command(
             translate("shell", "Load &trajectory …"),
             "Ctrl+T",
             window.ask_trajectory,
             translate("shell", "Load and dry-run"),
         ),
-        Command(
-            translate("shell", "&File"),
+        command(
             translate("shell", "Trajectory from &record …"),
             "",
             window.ask_trajectory_of_record,
             translate("shell", "Load the commands of a record of the library"),
         ),
-        Command(
-            translate("shell", "&File"),
+        command(
             translate("shell", "&Open record …"),
             "Ctrl+O",
             window.ask_record,
             translate("shell", "Compare with the model"),
         ),
-        Command(
-            translate("shell", "&File"),
+        command(
             translate("shell", "&Save record …"),
             "Ctrl+S",
             window.ask_save,
             translate("shell", "Save the last record"),
-            no_record,
+            _unless(lambda: bench.record, no_record),
         ),
-        Command(
-            translate("shell", "&File"),
+        command(
             translate("shell", "&Quit"),
             "Ctrl+Q",
             window.close,
@@ -111,114 +105,82 @@ def _file(window: _Window) -> list[Command]:
 
 
 def _motion(window: _Window) -> list[Command]:
+    command = partial(Command, translate("shell", "&Motion"))
     bench = window.workbench
     state = bench.session.snapshot
 
     def no_play() -> str | None:
-        return (
-            state().locked
-            if bench.plan
-            else translate("shell", "there is no trajectory; load one first")
-        )
+        none = translate("shell", "there is no trajectory; load one first")
+        return state().locked if bench.plan else none
 
-    def no_release() -> str | None:
-        return None if state().latched else translate("shell", "the machine is not locked")
+    def connected() -> bool:
+        return state().connection is Connection.CONNECTED
 
-    def no_way_back() -> str | None:
-        return (
-            None if bench.session.undoable else translate("shell", "there is no previous position")
-        )
-
-    def no_device() -> str | None:
-        return (
-            None
-            if state().connection is Connection.CONNECTED
-            else translate("shell", "no device is connected")
-        )
-
-    def no_fault() -> str | None:
-        return None if state().fault else translate("shell", "there is no fault")
-
-    def connected() -> str | None:
-        return (
-            translate("shell", "already connected")
-            if state().connection is Connection.CONNECTED
-            else None
-        )
-
-    menu = translate("shell", "&Motion")
+    no_device = _unless(connected, translate("shell", "no device is connected"))
     return [
-        Command(
-            menu,
+        command(
             translate("shell", "&Play or pause"),
             "Ctrl+P",
             bench.toggle_playback,
             translate("shell", "The trajectory"),
             no_play,
         ),
-        Command(
-            menu,
+        command(
             translate("shell", "&Stop"),
             "",
             bench.stop,
             translate("shell", "Stop all axes and hold their positions (Esc)"),
         ),
-        Command(
-            menu,
+        command(
             translate("shell", "Stop and loc&k"),
             "",
             bench.emergency_stop,
             translate("shell", "Locks until release (Shift+Esc)"),
         ),
-        Command(
-            menu,
+        command(
             translate("shell", "Re&lease the lock"),
             "",
             bench.release,
             translate("shell", "Let axes move"),
-            no_release,
+            _unless(lambda: state().latched, translate("shell", "the machine is not locked")),
         ),
-        Command(
-            menu,
+        command(
             translate("shell", "&Back to the previous position"),
             "Ctrl+Z",
             bench.undo,
             translate("shell", "Retract, travel, approach"),
-            no_way_back,
+            _unless(
+                lambda: bench.session.undoable, translate("shell", "there is no previous position")
+            ),
         ),
-        Command(
-            menu,
+        command(
             translate("shell", "&Home all axes"),
             "",
             bench.home,
             translate("shell", "Find the limit switches"),
             no_device,
         ),
-        Command(
-            menu,
+        command(
             translate("shell", "&Clear fault"),
             "",
             bench.clear_fault,
             translate("shell", "Acknowledge the fault"),
-            no_fault,
+            _unless(lambda: state().fault, translate("shell", "there is no fault")),
         ),
-        Command(
-            menu,
+        command(
             translate("shell", "C&onnect …"),
             "",
             lambda: window.bring_up("connection"),
             translate("shell", "Choose a machine or the simulator"),
         ),
-        Command(
-            menu,
+        command(
             translate("shell", "&Reconnect"),
             "",
             bench.reconnect,
             translate("shell", "Connect after a failure"),
-            connected,
+            _unless(lambda: not connected(), translate("shell", "already connected")),
         ),
-        Command(
-            menu,
+        command(
             translate("shell", "&Disconnect"),
             "",
             bench.let_go,
@@ -229,10 +191,10 @@ def _motion(window: _Window) -> list[Command]:
 
 
 def _view(window: _Window) -> list[Command]:
+    command = partial(Command, translate("shell", "&View"))
     looks = window.arrangement
     layouts = [
-        Command(
-            translate("shell", "&View"),
+        command(
             translate("shell", layout.title),
             layout.shortcut,
             lambda layout=layout: looks.arrange(layout),
@@ -242,23 +204,20 @@ def _view(window: _Window) -> list[Command]:
     ]
     return [
         *layouts,
-        Command(
-            translate("shell", "&View"),
+        command(
             translate("shell", "Save la&yout …"),
             "",
             window.ask_layout_name,
             translate("shell", "Save the layout under a name"),
         ),
-        Command(
-            translate("shell", "&View"),
+        command(
             translate("shell", "&Restore the layout"),
             "Ctrl+Shift+0",
             window.reset_layout,
             translate("shell", "Restore all docks"),
         ),
         *(
-            Command(
-                translate("shell", "&View"),
+            command(
                 translate("shell", _THEME_TEXTS[name]),
                 "",
                 lambda name=name: window.use_theme(name),
@@ -266,22 +225,14 @@ def _view(window: _Window) -> list[Command]:
             )
             for name in THEMES
         ),
-        Command(
-            translate("shell", "&View"),
+        command(
             translate("shell", "Larger text"),
             "Ctrl++",
             lambda: looks.step_scale(1),
             translate("shell", "Up to twice"),
         ),
-        Command(
-            translate("shell", "&View"),
-            translate("shell", "Smaller text"),
-            "Ctrl+-",
-            lambda: looks.step_scale(-1),
-            "",
-        ),
-        Command(
-            translate("shell", "&View"),
+        command(translate("shell", "Smaller text"), "Ctrl+-", lambda: looks.step_scale(-1), ""),
+        command(
             translate("shell", "Text size: automatic"),
             "Ctrl+0",
             looks.suit_the_screen,
@@ -291,51 +242,45 @@ def _view(window: _Window) -> list[Command]:
 
 
 def _help(window: _Window) -> list[Command]:
+    command = partial(Command, translate("shell", "&Help"))
     return [
-        Command(
-            translate("shell", "&Help"),
+        command(
             translate("shell", "&Find a command …"),
             "Ctrl+Shift+P",
             window.toggle_palette,
             translate("shell", "By letters of its name"),
         ),
-        Command(
-            translate("shell", "&Help"),
+        command(
             translate("shell", "Help on this &panel"),
             "F1",
             window.help_here,
             translate("shell", "The panel that has the focus"),
         ),
-        Command(
-            translate("shell", "&Help"),
+        command(
             translate("shell", "&All pages"),
             "",
             window.show_help,
             translate("shell", "They need no network"),
         ),
-        Command(
-            translate("shell", "&Help"),
+        command(
             translate("shell", "&Keys"),
             "Shift+F1",
             window.show_keys,
             translate("shell", "All shortcuts"),
         ),
-        Command(
-            translate("shell", "&Help"),
+        command(
             translate("shell", "&Log"),
             "Ctrl+L",
             window.show_log,
             translate("shell", "All messages of the program"),
         ),
-        Command(
-            translate("shell", "&Help"),
+        command(
             translate("shell", "&Support bundle …"),
             "",
             window.show_support,
             translate("shell", "Log, settings, versions and record for support"),
         ),
-        Command(
-            translate("shell", "&Help"),
+        command(
             translate("shell", "A&bout RoTeMiNa"),
             "",
             lambda: show_about(window, window.workbench),

@@ -4,16 +4,24 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolBar, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QToolBar,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
+from rotemina.app.display_units import duration_text, size_text
 from rotemina.app.motion.state import SessionState
+from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.helping_button import HelpingButton
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.machine_badge import MachineBadge
 from rotemina.app.shell.model_chip import ModelChip
-from rotemina.app.shell.owner_chip import OwnerChip
-from rotemina.app.shell.phase_words import PhaseLabel, doing, headword, set_tone, tone
-from rotemina.app.shell.recording_sign import RecordingSign
+from rotemina.app.shell.phase_words import PhaseLabel, Tone, doing, driven, headword, set_tone, tone
 from rotemina.app.shell.stop_controls import EmergencyButton, StopButton
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip
@@ -68,6 +76,74 @@ class StateView(QWidget):
         set_tone(self.phase, tone(state))
         self.doing.show_text(doing(state))
         self.help.refresh(state)
+
+
+class OwnerChip(QLabel):
+    """Who drives axes now: operator, joystick, playback, penetration …; quiet while nobody does."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setAccessibleName(translate("shell", "Who moves the machine"))
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self._told = ""
+        self._show("", "")
+
+    def refresh(self, state: SessionState) -> None:
+        """Show who drives."""
+        owners = " + ".join(dict.fromkeys(map(spoken, state.owners.values())))
+        if owners != self._told:
+            self._show(owners, driven(state))
+
+    def _show(self, owners: str, axes: str) -> None:
+        self._told = owners
+        self.setText(owners[:1].upper() + owners[1:] if owners else translate("shell", "Free"))
+        set_tone(self, Tone.BUSY if owners else Tone.QUIET)
+        self.setToolTip(
+            plain_tip(
+                translate("shell", "Who moves the machine: each moving axis has one owner"),
+                axes or translate("shell", "Nobody at present."),
+            )
+        )
+
+
+class RecordingSign(QLabel):
+    """For how long it is recorded and how much, or that the disk takes nothing; else unseen."""
+
+    def __init__(self, workbench: Workbench) -> None:
+        super().__init__()
+        self._operation = workbench.operation
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setAccessibleName(translate("shell", "Recording"))
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        set_tone(self, Tone.BUSY)
+        self.setVisible(False)
+        workbench.refreshed.connect(lambda _: self.refresh())
+
+    def refresh(self) -> None:
+        """Show how the recording stands."""
+        recorder = self._operation.recording
+        self.setVisible(recorder is not None)
+        if recorder is None:
+            return
+        writer = recorder.writer
+        if writer.failure is not None:
+            set_tone(self, Tone.DANGER)
+            self.setText(translate("shell", "● Not recording: disk"))
+            self.setToolTip(plain_tip(f"{writer.path}: {writer.failure}"))
+            return
+        set_tone(self, Tone.BUSY)
+        since_s = self._operation.clock() - writer.began_s
+        self.setText(
+            translate("shell", "● {time}  {size}").format(
+                time=duration_text(since_s), size=size_text(writer.bytes_written)
+            )
+        )
+        self.setToolTip(
+            plain_tip(
+                translate("shell", "Time and size of the running recording"), str(writer.path)
+            )
+        )
 
 
 class EventsChip(QToolButton):

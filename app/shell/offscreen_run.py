@@ -118,7 +118,7 @@ def tell_the_story(window: MainWindow, effects: tuple[AxisEffect, ...]) -> Story
     window.arrangement.arrange(DIAGNOSE)
     window.bring_up("gap")
     panel.show_proof()
-    _rest(200)  # the panels draw what they have just been given
+    _rest()
     return Story((before, after), panel.result.headline.sentence.text())
 
 
@@ -127,8 +127,9 @@ def _wait(
     tick: SignalInstance,
     done: Callable[[], bool],
     limit_ms: int = TIME_LIMIT_MS,
+    grave: tuple[Level, ...] = (Level.ERROR,),
 ) -> None:
-    """Let the window live until something is so.
+    """Let the window live until something is so, or a notice is grave.
 
     Raises
     ------
@@ -143,7 +144,7 @@ def _wait(
         loop.quit()
 
     def noticed(level: Level, text: str) -> None:
-        if level is Level.ERROR:
+        if level in grave:
             finish(text)
 
     def look(_: object) -> None:
@@ -168,9 +169,10 @@ def _say(what: str) -> None:
     print(what, flush=True)
 
 
-def _rest(ms: int) -> None:
+def _rest() -> None:
+    """Let the panels draw what they have just been given."""
     loop = QEventLoop()
-    QTimer.singleShot(ms, loop, loop.quit)
+    QTimer.singleShot(200, loop, loop.quit)
     loop.exec()
 
 
@@ -183,16 +185,6 @@ def play(window: MainWindow, trajectory: Record) -> Run:
         With the notice that the window shows, if anything goes wrong.
     """
     bench = window.workbench
-    loop = QEventLoop()
-    outcome: list[Run | str] = []
-
-    def finish(result: Run | str) -> None:
-        outcome.append(result)
-        loop.quit()
-
-    def noticed(level: Level, text: str) -> None:
-        if level in (Level.ERROR, Level.WARNING):
-            finish(text)
 
     def begin(state: SessionState) -> None:
         planned = bench.plan is not None and bench.plan.trajectory is trajectory
@@ -201,22 +193,12 @@ def play(window: MainWindow, trajectory: Record) -> Run:
             bench.play()
 
     bench.plan_trajectory(trajectory.metadata.get("name", "example"), trajectory)
-    before = signal.signal(signal.SIGINT, lambda *_: finish(_INTERRUPTED))
-    bench.noticed.connect(noticed)
-    bench.run_changed.connect(finish)
     bench.refreshed.connect(begin)
-    QTimer.singleShot(TIME_LIMIT_MS, loop, lambda: finish(_TOO_LONG))
-    loop.exec()
-    bench.noticed.disconnect(noticed)
-    bench.run_changed.disconnect(finish)
-    signal.signal(signal.SIGINT, before)
-    if outcome[0] == _INTERRUPTED:
-        raise KeyboardInterrupt
-    if isinstance(outcome[0], str):
-        raise OffscreenError(outcome[0])
-    QTimer.singleShot(200, loop.quit)  # the panels draw what they have just been given
-    loop.exec()
-    return outcome[0]
+    grave = (Level.ERROR, Level.WARNING)
+    _wait(window, bench.run_changed, lambda: True, grave=grave)
+    run = bench.run
+    _rest()
+    return run
 
 
 def _report(told: Story, output: Path) -> None:

@@ -14,7 +14,7 @@ class Theme:
     """Colours by role, as ``#rrggbb``; signals are told apart in grey and by colour-blind eyes.
 
     ``window``, ``surface`` and ``raised`` are grounds, and so are ``accent``, ``danger`` and
-    ``warning`` for what stands on them (:data:`PAIRS`).
+    ``warning`` for what stands on them.
     """
 
     name: str
@@ -39,87 +39,34 @@ class Theme:
     on_virtual: str
 
 
-DARK = Theme(
-    name="dark",
-    window="#15181d",
-    surface="#1c2027",
-    raised="#272d37",
-    line="#3a4250",
-    text="#e8ebf0",
-    quiet="#a3adbb",
-    accent="#4c9be8",
-    on_accent="#08131f",
-    danger="#d93a3a",
-    on_danger="#ffffff",
-    danger_text="#ff8a80",
-    warning="#e6b450",
-    good="#5fbf7f",
-    command="#8b95a5",
-    model="#4c9be8",
-    real="#f0a35e",
-    other="#e58fc8",
-    virtual="#b795ff",
-    on_virtual="#140a29",
-)
-LIGHT = Theme(
-    name="light",
-    window="#eceff3",
-    surface="#ffffff",
-    raised="#f3f5f8",
-    line="#c3cad4",
-    text="#1b2129",
-    quiet="#566070",
-    accent="#1f66b0",
-    on_accent="#ffffff",
-    danger="#c62828",
-    on_danger="#ffffff",
-    danger_text="#b71c1c",
-    warning="#8a5a00",
-    good="#1f7a43",
-    command="#5c6675",
-    model="#1f66b0",
-    real="#a64b08",
-    other="#9c2c7d",
-    virtual="#6a3fc4",
-    on_virtual="#ffffff",
-)
-HIGH_CONTRAST = Theme(
-    name="contrast",
-    window="#000000",
-    surface="#000000",
-    raised="#1c1c1c",
-    line="#9a9a9a",
-    text="#ffffff",
-    quiet="#bdbdbd",
-    accent="#ffd633",
-    on_accent="#000000",
-    danger="#ff5c5c",
-    on_danger="#000000",
-    danger_text="#ff9e9e",
-    warning="#ffb54d",
-    good="#5cff94",
-    command="#c8c8c8",
-    model="#66bfff",
-    real="#ffa04d",
-    other="#ff9be0",
-    virtual="#cbb0ff",
-    on_virtual="#000000",
+_COLOURS = {  # by role: dark, light, of high contrast
+    "window": ("#15181d", "#eceff3", "#000000"),
+    "surface": ("#1c2027", "#ffffff", "#000000"),
+    "raised": ("#272d37", "#f3f5f8", "#1c1c1c"),
+    "line": ("#3a4250", "#c3cad4", "#9a9a9a"),
+    "text": ("#e8ebf0", "#1b2129", "#ffffff"),
+    "quiet": ("#a3adbb", "#566070", "#bdbdbd"),
+    "accent": ("#4c9be8", "#1f66b0", "#ffd633"),
+    "on_accent": ("#08131f", "#ffffff", "#000000"),
+    "danger": ("#d93a3a", "#c62828", "#ff5c5c"),
+    "on_danger": ("#ffffff", "#ffffff", "#000000"),
+    "danger_text": ("#ff8a80", "#b71c1c", "#ff9e9e"),
+    "warning": ("#e6b450", "#8a5a00", "#ffb54d"),
+    "good": ("#5fbf7f", "#1f7a43", "#5cff94"),
+    "command": ("#8b95a5", "#5c6675", "#c8c8c8"),
+    "model": ("#4c9be8", "#1f66b0", "#66bfff"),
+    "real": ("#f0a35e", "#a64b08", "#ffa04d"),
+    "other": ("#e58fc8", "#9c2c7d", "#ff9be0"),
+    "virtual": ("#b795ff", "#6a3fc4", "#cbb0ff"),
+    "on_virtual": ("#140a29", "#ffffff", "#000000"),
+}
+DARK, LIGHT, HIGH_CONTRAST = (
+    Theme(name, *colours)
+    for name, colours in zip(
+        ("dark", "light", "contrast"), zip(*_COLOURS.values(), strict=True), strict=True
+    )
 )
 THEMES = {theme.name: theme for theme in (DARK, LIGHT, HIGH_CONTRAST)}
-GROUNDS = ("window", "surface", "raised")
-#: Roles that are read on every ground.
-READ = (
-    *("text", "quiet", "accent", "danger_text", "warning", "good"),
-    *("command", "model", "real", "other"),
-)
-#: What is read, and on what: every text of the style sheet is one of these.
-PAIRS = (
-    *((role, ground) for role in READ for ground in GROUNDS),
-    ("on_accent", "accent"),
-    ("on_danger", "danger"),
-    ("window", "warning"),
-    ("on_virtual", "virtual"),
-)
 #: Sizes of text to choose from; 1.0 suits a screen of 1080 lines.
 SCALES = (0.9, 1.0, 1.15, 1.3, 1.5, 1.75, 2.0)
 _TALL = ((2000, 1.5), (1400, 1.15))  # lines of a screen from which on text grows by itself
@@ -129,20 +76,6 @@ _LENGTH = re.compile(r"\b(\d+)px\b")
 def theme_named(name: str) -> Theme:
     """Return a theme by name, the dark one where the name is unknown."""
     return THEMES.get(name, DARK)
-
-
-def contrast(one: str, other: str) -> float:
-    """Return the contrast of two colours ``#rrggbb``, 1 to 21, as WCAG 2.1 defines it."""
-    low, high = sorted((_luminance(one), _luminance(other)))
-    return (high + 0.05) / (low + 0.05)
-
-
-def _luminance(colour: str) -> float:
-    shares = [int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)]
-    linear = [
-        share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4 for share in shares
-    ]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
 def scale_for(lines: int) -> float:

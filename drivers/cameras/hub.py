@@ -9,7 +9,7 @@ from rotemina.drivers.cameras.camera import Camera, CameraIdentity, Wait
 from rotemina.drivers.cameras.errors import CameraRefusedError
 from rotemina.drivers.cameras.source import CameraSource
 from rotemina.drivers.clock import Clock
-from rotemina.drivers.registry import discover
+from rotemina.drivers.registry import make_sources
 from rotemina.sim.messages import message
 
 CAMERAS = "rotemina.cameras"
@@ -44,17 +44,7 @@ class CameraHub:
         wait: Wait = time.sleep,
     ) -> Self:
         """Return a hub of all installed sources and those that the program makes itself."""
-        discovery = discover(CAMERAS, CameraSource)
-        sources, broken = dict(own), dict(discovery.broken)
-        for name, source in discovery.found.items():
-            if name in sources:
-                broken[name] = "the program has a source of this name itself"
-                continue
-            try:
-                sources[name] = source(clock=clock, wait=wait)
-            except Exception as error:  # a plugin may raise anything
-                broken[name] = f"it cannot be made: {type(error).__name__}: {error}"
-        return cls(sources, broken)
+        return cls(*make_sources(CAMERAS, CameraSource, own, clock=clock, wait=wait))
 
     @property
     def problems(self) -> Mapping[str, str]:

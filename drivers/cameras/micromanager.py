@@ -54,12 +54,12 @@ class MicroManager(CameraSource):
         core: Core = installed_core,
     ) -> None:
         super().__init__(clock=clock, wait=wait)
-        self._core = core
+        self.core = core
 
     @property
     def problem(self) -> str | None:
         """Whether the extra is missing; see :class:`CameraSource`."""
-        if self._core is installed_core and find_spec("pymmcore_plus") is None:
+        if self.core is installed_core and find_spec("pymmcore_plus") is None:
             return message("engine", "pymmcore-plus is not installed: {install}").fill(
                 install=_INSTALL
             )
@@ -82,22 +82,15 @@ class MicroManager(CameraSource):
 
     def camera(self, identity: CameraIdentity) -> Camera:
         """Return it; see :class:`CameraSource`."""
-        return MicroManagerCamera(identity, self._core, clock=self.clock, wait=self.wait)
+        return MicroManagerCamera(identity, self)
 
 
 class MicroManagerCamera(Camera):
     """The camera that a configuration names."""
 
-    def __init__(
-        self,
-        identity: CameraIdentity,
-        core: Core = installed_core,
-        *,
-        clock: Clock = time.monotonic,
-        wait: Wait = time.sleep,
-    ) -> None:
-        super().__init__(identity, clock=clock, wait=wait)
-        self._make = core
+    def __init__(self, identity: CameraIdentity, source: MicroManager) -> None:
+        super().__init__(identity, clock=source.clock, wait=source.wait)
+        self._make = source.core
         self._core: Any = None
 
     def _open(self) -> CameraDescription:

@@ -76,8 +76,7 @@ class OpenCvSource(CameraSource):
         capture: Capture = cv2.VideoCapture,
     ) -> None:
         super().__init__(clock=clock, wait=wait)
-        self._listed = listed
-        self._capture = capture
+        self._listed, self.capture = listed, capture
 
     def devices(self) -> Sequence[CameraIdentity]:
         """Return the connected cameras, where the system lists them."""
@@ -102,22 +101,15 @@ class OpenCvSource(CameraSource):
     def camera(self, identity: CameraIdentity) -> Camera:
         """Return it; see :class:`CameraSource`."""
         kind = Device if identity.address.isdecimal() else Film
-        return kind(identity, self._capture, clock=self.clock, wait=self.wait)
+        return kind(identity, self)
 
 
 class _OpenCvCamera(Camera):
     """What devices and films have in common."""
 
-    def __init__(
-        self,
-        identity: CameraIdentity,
-        capture: Capture = cv2.VideoCapture,
-        *,
-        clock: Clock = time.monotonic,
-        wait: Wait = time.sleep,
-    ) -> None:
-        super().__init__(identity, clock=clock, wait=wait)
-        self._capture = capture
+    def __init__(self, identity: CameraIdentity, source: OpenCvSource) -> None:
+        super().__init__(identity, clock=source.clock, wait=source.wait)
+        self._capture = source.capture
         self._stream: Any = None
 
     def _opened(self, *arguments: object) -> Any:

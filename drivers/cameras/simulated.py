@@ -74,14 +74,12 @@ class SimulatedMicroscope(CameraSource):
         mounting: Mapping[str, object] = MappingProxyType({}),
     ) -> None:
         super().__init__(clock=clock, wait=wait)
-        self._driver = driver
-        self._seed = seed
-        self._mounting = dict(mounting)
+        self.driver, self.seed, self.mounting = driver, seed, dict(mounting)
 
     @property
     def problem(self) -> str | None:
         """Why it cannot look at the machine in use; see :class:`CameraSource`."""
-        driver = self._driver()
+        driver = self.driver()
         if driver is None or isinstance(driver, TruePositions):
             return None
         return message(
@@ -90,42 +88,24 @@ class SimulatedMicroscope(CameraSource):
 
     def devices(self) -> Sequence[CameraIdentity]:
         """Return the one microscope, if a simulated machine is in use."""
-        found = isinstance(self._driver(), TruePositions)
+        found = isinstance(self.driver(), TruePositions)
         return (CameraIdentity("simulated:microscope", self.name, "simulated"),) if found else ()
 
     def camera(self, identity: CameraIdentity) -> "SimulatedCamera":
         """Return it; see :class:`CameraSource`."""
-        return SimulatedCamera(
-            identity,
-            self._driver,
-            clock=self.clock,
-            wait=self.wait,
-            seed=self._seed,
-            mounting=self._mounting,
-        )
+        return SimulatedCamera(identity, self)
 
 
 class SimulatedCamera(FocusDrive):
-    """Draws the scene of the machine's robot file; parameters as of the source.
+    """Draws the scene of the machine's robot file.
 
     A machine that is disconnected stays where it was; one with another robot is another machine,
     and the picture is lost.
     """
 
-    def __init__(
-        self,
-        identity: CameraIdentity,
-        driver: Callable[[], Driver | None],
-        *,
-        clock: Clock = time.monotonic,
-        wait: Wait = time.sleep,
-        seed: int = 0,
-        mounting: Mapping[str, object] = MappingProxyType({}),
-    ) -> None:
-        super().__init__(identity, clock=clock, wait=wait)
-        self._driver = driver
-        self._seed = seed
-        self._mounting = dict(mounting)
+    def __init__(self, identity: CameraIdentity, source: SimulatedMicroscope) -> None:
+        super().__init__(identity, clock=source.clock, wait=source.wait)
+        self._source = source
         self._focus_m = 0.0
         self._robot: Robot | None = None
         self._chain: Chain | None = None
@@ -173,7 +153,7 @@ class SimulatedCamera(FocusDrive):
         return self._renderer
 
     def _open(self) -> CameraDescription:
-        driver = self._driver()
+        driver = self._source.driver()
         if not isinstance(driver, TruePositions):
             raise CameraLostError(
                 message(
@@ -183,14 +163,14 @@ class SimulatedCamera(FocusDrive):
             )
         try:
             chain = Chain.of(driver.robot)
-            scene = Scene.of(driver.robot, seed=self._seed, **self._mounting)
+            scene = Scene.of(driver.robot, seed=self._source.seed, **self._source.mounting)
         except InputError as error:
             raise CameraRefusedError(
                 message("engine", "{name}: {error}").fill(name=self.name, error=str(error))
             ) from error
         self._robot, self._chain = driver.robot, chain
         self._renderer = Renderer(scene)
-        self._rng = np.random.default_rng([self._seed, 1])
+        self._rng = np.random.default_rng([self._source.seed, 1])
         self._state, self._contact = UNTOUCHED, None
         self._lost = 0
         self._pace = Pace(RATE_HZ, clock=self.clock, wait=self.wait)
@@ -247,7 +227,7 @@ class SimulatedCamera(FocusDrive):
 
         One that is taken away while the tip is inside has given way, and stays.
         """
-        driver = self._driver()
+        driver = self._source.driver()
         if not (isinstance(driver, TruePositions) and isinstance(driver, EffectCarrier)):
             return
         felt = (one for one in driver.effects if one.enabled and one.id == CONTACT.id)
@@ -266,7 +246,7 @@ class SimulatedCamera(FocusDrive):
 
     def _latest_joints(self) -> FloatArray:
         """Return where the joints (6,) truly are, or were last."""
-        driver, chain = self._driver(), self._chain
+        driver, chain = self._source.driver(), self._chain
         assert chain is not None
         if isinstance(driver, TruePositions):
             if driver.robot is not self._robot and driver.robot != self._robot:

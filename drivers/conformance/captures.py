@@ -182,12 +182,3 @@ def profile_aborted(bench: Bench) -> None:
         demand_halt(subject, axis, before, after, late_s=STOP_LATE_S)
         subject.holds()
         refused("a trigger after an abort", runner.trigger, StateError)
-
-
-CHECKS = (
-    capture,
-    refused_captures,
-    profile_follows,
-    refused_profiles,
-    profile_aborted,
-)

@@ -98,6 +98,3 @@ def nothing_resumes(bench: Bench) -> None:
         resting = state in (DeviceState.IDLE, DeviceState.FAULT)
         demand(resting, f"reopened after a loss it is {state}", "at rest")
         subject.holds(0.5)
-
-
-CHECKS = (short_loss, long_loss, nothing_resumes)

@@ -204,10 +204,10 @@ def demand_halt(
     at_most(f"axis {axis.name} went on for", took_s, speed / axis.acceleration + slack_s, "s")
 
 
-def speed_of(samples: Samples, axis: Motion, window_s: float = _WINDOW_S) -> float:
+def speed_of(samples: Samples, axis: Motion) -> float:
     """Return the latest speed of a command, m/s or rad/s, without its sign."""
     time_s = samples.device_time_s
-    first = int(np.searchsorted(time_s, time_s[-1] - window_s))
+    first = int(np.searchsorted(time_s, time_s[-1] - _WINDOW_S))
     first = min(first, len(time_s) - 2)
     if first < 0:
         raise Unmet(f"{len(time_s)} samples while axis {axis.name} moves; expected: more")
@@ -295,20 +295,3 @@ def stop_before_a_move(bench: Bench) -> None:
         within(
             f"moved after a stop, axis {axis.name} ends at", seen, target, axis.half_step, axis.unit
         )
-
-
-CHECKS = (
-    move_arrives,
-    moving_is_said,
-    moves_stay_inside,
-    moves_keep_the_speed,
-    move_at_a_speed,
-    new_target,
-    units,
-    refused_targets,
-    stop_distance,
-    stop_when_called,
-    stop_at_rest,
-    stop_overtakes,
-    stop_before_a_move,
-)

@@ -184,17 +184,3 @@ def fault(bench: Bench) -> None:
         subject.run(0.1)
         demand(subject.state is DeviceState.IDLE, f"cleared it is {subject.state}", "idle")
         subject.holds()
-
-
-CHECKS = (
-    making,
-    settings,
-    closed_refuses,
-    closing_twice,
-    opening_twice,
-    reopening,
-    opens_at_rest,
-    descriptions,
-    clearing_nothing,
-    fault,
-)

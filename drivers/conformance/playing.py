@@ -179,6 +179,3 @@ def _reached(subject: Subject, axis: Motion, first: float, phase: str) -> bool:
     if subject.state is DeviceState.IDLE:
         raise Unmet("a trajectory ended before a third of its time; expected: it still plays")
     return True
-
-
-CHECKS = (rows_in_order, commands_as_told, refused_trajectories, one_owner, stop_in_every_phase)

@@ -147,6 +147,3 @@ def many_threads(bench: Bench) -> None:
                 thread.join()
         demand(not raised, f"a thread met {raised[:1]}", "no error")
         subject.rest()
-
-
-CHECKS = (samples_follow, device_time, reading_fast, stop_during_a_read, many_threads)

@@ -186,15 +186,3 @@ def tool(bench: Bench) -> None:
         subject.run(0.05)
         demand(not driver.tool_on, "on after a stop", "off")
     refused("a tool switched on while closed", lambda: driver.switch_tool(True), StateError)
-
-
-CHECKS = (
-    homing,
-    homing_refuses,
-    homing_stopped,
-    voltage,
-    refused_voltages,
-    display,
-    analog_inputs,
-    tool,
-)

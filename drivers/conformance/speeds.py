@@ -151,13 +151,3 @@ def velocity_meets_the_limit(bench: Bench) -> None:
         # A device that brakes before it must may stand short of the end by as much.
         bound = axis.half_step + axis.braking(velocity)
         at_most(f"axis {axis.name} stands short of the end by", short, bound, axis.unit)
-
-
-CHECKS = (
-    lease_expiry,
-    lease_renewed,
-    zero_velocity,
-    stop_ends_leases,
-    refused_velocities,
-    velocity_meets_the_limit,
-)

@@ -1,4 +1,4 @@
-"""All checks of the contract, in the order of the report."""
+"""All checks of the contract, in the order of the report: that in which the modules have them."""
 
 from collections.abc import Iterator, Sequence
 
@@ -16,15 +16,9 @@ from rotemina.drivers.conformance.bench import Bench
 from rotemina.drivers.conformance.check import Check, Result, Verdict
 from rotemina.sim.errors import InputError
 
-CHECKS: tuple[Check, ...] = (
-    *opening.CHECKS,
-    *sampling.CHECKS,
-    *moves.CHECKS,
-    *speeds.CHECKS,
-    *playing.CHECKS,
-    *service_checks.CHECKS,
-    *captures.CHECKS,
-    *links.CHECKS,
+_MODULES = (opening, sampling, moves, speeds, playing, service_checks, captures, links)
+CHECKS = tuple(
+    each for module in _MODULES for each in vars(module).values() if isinstance(each, Check)
 )
 
 

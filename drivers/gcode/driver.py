@@ -1,6 +1,5 @@
 """The driver of a stage that a GRBL controller moves by G-code."""
 
-import logging
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
@@ -24,10 +23,6 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot
 
-_LOG = logging.getLogger(__name__)
-_SILENT_S, _LOST_S = 0.25, 2.0
-_LINE_S = 1.0  # for an answer to a jog: it is given when the line is in the queue
-_RESET_S = 1.0
 _SINGLE = "H"  # of the controller's options: it homes axes one by one
 
 

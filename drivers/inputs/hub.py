@@ -17,7 +17,7 @@ from rotemina.drivers.inputs.device import (
     InputLostError,
     InputSource,
 )
-from rotemina.drivers.registry import discover
+from rotemina.drivers.registry import make_sources
 from rotemina.sim.messages import marked, message
 
 _LOG = logging.getLogger(__name__)
@@ -37,13 +37,10 @@ class Changes:
     arrived, left : tuple of InputIdentity
         One that was unplugged and came back between two polls has arrived, if it was open. One that
         could not be opened is told a few times: it may be ready a moment later.
-    returned : tuple of InputIdentity
-        Those of ``arrived`` that were open when they were lost.
     """
 
     arrived: tuple[InputIdentity, ...] = ()
     left: tuple[InputIdentity, ...] = ()
-    returned: tuple[InputIdentity, ...] = ()
 
 
 class InputHub:
@@ -70,7 +67,6 @@ class InputHub:
         # Guards what follows; never held while a source is called.
         self._lock = Lock()
         self._there: dict[str, tuple[InputIdentity, InputSource]] = {}
-        self._opened: set[str] = set()
         self._lost: set[str] = set()
         self._source_problems: dict[str, str] = {}
         self._device_problems: dict[str, str] = {}
@@ -84,17 +80,7 @@ class InputHub:
         clock: Clock = time.monotonic,
     ) -> Self:
         """Return a hub of all installed sources and those that the program makes itself."""
-        discovery = discover(INPUTS, InputSource)
-        sources, broken = dict(own), dict(discovery.broken)
-        for name, source in discovery.found.items():
-            if name in sources:
-                broken[name] = "the program has a source of this name itself"
-                continue
-            try:
-                sources[name] = source(clock=clock)
-            except Exception as error:  # a plugin may raise anything
-                broken[name] = f"it cannot be made: {type(error).__name__}: {error}"
-        return cls(sources, broken)
+        return cls(*make_sources(INPUTS, InputSource, own, clock=clock))
 
     @property
     def devices(self) -> tuple[InputIdentity, ...]:
@@ -162,22 +148,16 @@ class InputHub:
                 )
             ) from error
         with self._lock:
-            self._opened.add(key)
             self._clear(key)
         return device
 
     def lost(self, key: str) -> None:
         """Note that an open device raised :class:`InputLostError`.
 
-        The next poll tells that it has left, or, where it is back already, that it has returned.
+        The next poll tells that it has left, or, where it is back already, that it has arrived.
         """
         with self._lock:
             self._lost.add(key)
-
-    def released(self, key: str) -> None:
-        """Note that a device was closed on purpose: coming again it has not ``returned``."""
-        with self._lock:
-            self._opened.discard(key)
 
     def _exchange(
         self, there: dict[str, tuple[InputIdentity, InputSource]], problems: dict[str, str]
@@ -195,9 +175,7 @@ class InputHub:
             left = tuple(one for key, (one, _) in before.items() if key not in there)
             for one in left:
                 self._clear(one.key)
-            returned = tuple(one for one in arrived if one.key in self._opened)
-            self._opened -= {one.key for one in returned}
-        return Changes(arrived, left, returned)
+        return Changes(arrived, left)
 
     def _note(self, key: str, problem: str) -> None:
         with self._lock:

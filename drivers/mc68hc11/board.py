@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.mc68hc11.board_clock import BoardClock
 from rotemina.drivers.mc68hc11.board_messages import Identity, Inputs, Rates, Telemetry
-from rotemina.drivers.mc68hc11.dialogue import Urgency
+from rotemina.drivers.mc68hc11.dialogue import Dialogue, Urgency
 from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.drivers.mc68hc11.pending_orders import Orders
 from rotemina.drivers.mc68hc11.protocol_codes import Ability, Fault, State
@@ -92,6 +92,11 @@ class Board:
         self.orders.dialogue = link.dialogues[self.address]
 
     @property
+    def dialogue(self) -> Dialogue:
+        """What is said to it, one request after the other."""
+        return self.orders.dialogue
+
+    @property
     def where(self) -> str:
         """How messages call it."""
         return message("engine", "board {address} on {url}").fill(
@@ -174,13 +179,12 @@ class Board:
 
     def busy_line(self) -> bool:
         """Whether there is anything to be said to it yet."""
-        return self.link.dialogues[self.address].busy
+        return self.dialogue.busy
 
     def keeps_quiet(self, now_s: float, silence_s: float) -> bool:
         """Whether it has not been spoken to for so long, and nothing is about to be said."""
         said_s = self.link.said_s[self.address]
-        dialogue = self.link.dialogues[self.address]
-        return now_s - said_s >= silence_s and not dialogue.has(Urgency.BACKGROUND)
+        return now_s - said_s >= silence_s and not self.dialogue.has(Urgency.BACKGROUND)
 
     def _sampled(self, told: Telemetry, now_s: float) -> None:
         if len(told.axes) != 5 * len(self.axes):

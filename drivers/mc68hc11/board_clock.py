@@ -40,12 +40,6 @@ class BoardClock:
         """Whether any time of the board was heard yet."""
         return self._latest_us is not None
 
-    def restart(self) -> None:
-        """Forget everything: the board is another one, or began anew."""
-        self._latest_us = None
-        self._windows.clear()
-        self._drift = self._offset_s = 0.0
-
     def unwrapped(self, time_us: int) -> int:
         """Return a time that the board told, the one nearest to its latest."""
         if self._latest_us is None:

@@ -107,16 +107,15 @@ class Opening:
         return trust
 
     def _identify(self, board: Board) -> None:
-        dialogue = board.link.dialogues[board.address]
         rejected = board.link.rejected
         end_s = self._clock() + _IDENTIFY_S + 2.0 * board.link.answer_s
         while board.identity is None:
             now_s = self._clock()
             if now_s > end_s:
                 raise _nobody(board, self._baud, garbage=board.link.rejected > rejected)
-            if not dialogue.busy:
+            if not board.dialogue.busy:
                 # Never repeated: a board that counts the same number would repeat another answer.
-                dialogue.ask(
+                board.dialogue.ask(
                     Request(
                         message=Identify(VERSION),
                         answer=Identity,
@@ -162,11 +161,12 @@ class Opening:
     def _ask(self) -> None:
         wrong: list[str] = []
         for board in self._boards:
-            dialogue = board.link.dialogues[board.address]
-            dialogue.ask(Request(message=Watch(self._watch_ms)))
-            dialogue.ask(Request(message=AskRates(), answer=Rates, answered=partial(_rated, board)))
+            board.dialogue.ask(Request(message=Watch(self._watch_ms)))
+            board.dialogue.ask(
+                Request(message=AskRates(), answer=Rates, answered=partial(_rated, board))
+            )
             for axis in board.axes:
-                dialogue.ask(
+                board.dialogue.ask(
                     Request(
                         message=DescribeAxis(axis.number),
                         answer=AxisDescription,
@@ -229,9 +229,7 @@ class Opening:
         for board in self._boards:
             # One with a fault comes to rest by itself, or ramps its piezos after power came.
             if board.telemetry_fault is Fault.NONE and board.state & _UNDER_WAY:
-                board.link.dialogues[board.address].ask(
-                    Request(message=Stop(), urgency=Urgency.STOP)
-                )
+                board.dialogue.ask(Request(message=Stop(), urgency=Urgency.STOP))
         self._wait(
             lambda: not any(board.state & State.MOVING for board in self._boards),
             _REST_S,
@@ -240,9 +238,7 @@ class Opening:
         )
         for board in self._boards:
             if board.telemetry_fault in _OF_BEFORE:
-                board.link.dialogues[board.address].ask(
-                    Request(message=ClearFault(), permit=self._permit)
-                )
+                board.dialogue.ask(Request(message=ClearFault(), permit=self._permit))
         self._wait(self._quiet, _ASK_S, marked("engine", "to clear its fault"))
 
     def _begin_telemetry(self) -> None:
@@ -253,9 +249,7 @@ class Opening:
             begin_us = board.clock.time_us(begin_s)
             board.grid = Grid(period_us, begin_us)
             board.samples.clear()
-            board.link.dialogues[board.address].ask(
-                Request(message=SetTelemetry(self.period_ms, begin_us % (1 << 32)))
-            )
+            board.dialogue.ask(Request(message=SetTelemetry(self.period_ms, begin_us % (1 << 32))))
         self._wait(
             lambda: all(board.samples for board in self._boards),
             _ASK_S + 4e-3 * self.period_ms,
@@ -293,11 +287,10 @@ class Opening:
 
     def _poll_all(self) -> None:
         for board in self._boards:
-            dialogue = board.link.dialogues[board.address]
-            if not dialogue.busy:
+            if not board.dialogue.busy:
                 # An answer of another kind may come: then this one is not asked again.
                 expires_s = self._clock() + board.link.answer_s
-                dialogue.ask(Request(message=Poll(), answer=Telemetry, expires_s=expires_s))
+                board.dialogue.ask(Request(message=Poll(), answer=Telemetry, expires_s=expires_s))
 
     def _quiet(self) -> bool:
         return not any(board.busy_line() for board in self._boards)

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from struct import Struct
 from typing import Self
 
 from rotemina.drivers.errors import ProtocolError
@@ -17,32 +16,23 @@ _READING_BITS = 12
 
 
 @dataclass(frozen=True, slots=True)
-class Done(Message):
+class Done(Message, code=0x80, layout="B"):
     """The frame of this number was executed, now or before."""
-
-    TYPE = 0x80
-    LAYOUT = Struct(">B")
 
     number: int
 
 
 @dataclass(frozen=True, slots=True)
-class Refused(Message):
+class Refused(Message, code=0x81, layout="BB"):
     """The frame of this number was not executed."""
-
-    TYPE = 0x81
-    LAYOUT = Struct(">BB")
 
     number: int
     reason: int
 
 
 @dataclass(frozen=True, slots=True)
-class Identity(Message):
+class Identity(Message, code=0x82, layout="BHBIHH"):
     """Protocol version, abilities, axes, baud, what is kept in parameters, and a name."""
-
-    TYPE = 0x82
-    LAYOUT = Struct(">BHBIHH")
 
     version: int
     abilities: int
@@ -54,11 +44,8 @@ class Identity(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class AxisDescription(Message):
+class AxisDescription(Message, code=0x83, layout="BBBBHbii"):
     """An axis: kind, role, resolution ``mantissa · 10^exponent`` m or rad, ends of its range."""
-
-    TYPE = 0x83
-    LAYOUT = Struct(">BBBBHbii")
 
     axis: int
     kind: int
@@ -71,7 +58,7 @@ class AxisDescription(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class Telemetry(Message):
+class Telemetry(Message, code=0x84, layout="IBBBB"):
     """One sample of the axes: readings, and how far the commands that acted are from them.
 
     It was taken at ``time_us``, before the command of the same instant acts; what is told is the
@@ -79,9 +66,6 @@ class Telemetry(Message):
     both buttons, from bit 0 on; ``expected``: the index of the segment that a stream takes next, 0
     while none plays; ``axes``: :data:`Axes`, packed one after the other.
     """
-
-    TYPE = 0x84
-    LAYOUT = Struct(">IBBBB")
 
     time_us: int
     state: int
@@ -137,11 +121,8 @@ class Telemetry(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class Inputs(Message):
+class Inputs(Message, code=0x88, layout="B"):
     """What the operator holds: buttons, bit by bit, and readings of 12 bits, two in three bytes."""
-
-    TYPE = 0x88
-    LAYOUT = Struct(">B")
 
     buttons: int
     packed_readings: bytes
@@ -178,37 +159,28 @@ class Inputs(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class Parameter(Message):
+class Parameter(Message, code=0x86, layout="Bi"):
     """The value of a parameter."""
-
-    TYPE = 0x86
-    LAYOUT = Struct(">Bi")
 
     index: int
     value: int
 
 
 @dataclass(frozen=True, slots=True)
-class Captured(Message):
+class Captured(Message, code=0x85, layout="H"):
     """Samples from this one on: the low 16 bits of each captured axis, sample by sample."""
-
-    TYPE = 0x85
-    LAYOUT = Struct(">H")
 
     begin: int
     samples: bytes
 
 
 @dataclass(frozen=True, slots=True)
-class Rates(Message):
+class Rates(Message, code=0x87, layout="HHHHHH"):
     """The greatest rates, Hz, that the board keeps up at its baud rate and on its kind of line.
 
     Of telemetry alone and during a capture; of a capture of one axis and of three; of segments of a
     stream; and of its control ticks, which are what they are.
     """
-
-    TYPE = 0x87
-    LAYOUT = Struct(">HHHHHH")
 
     telemetry: int
     telemetry_while_capturing: int

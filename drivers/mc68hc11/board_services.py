@@ -1,6 +1,5 @@
 """What the driver does beside moving: captures, profiles, display, inputs, parameters, quality."""
 
-from functools import partial
 from math import ceil
 
 from rotemina.drivers.abilities import (
@@ -14,15 +13,13 @@ from rotemina.drivers.abilities import (
 from rotemina.drivers.capture import Captured, CaptureRates
 from rotemina.drivers.errors import LimitError, StateError
 from rotemina.drivers.gate import Permit
-from rotemina.drivers.line_quality import LinkQuality
+from rotemina.drivers.line_quality import LinkQuality, total_quality
 from rotemina.drivers.mc68hc11.capturing import Capturing
 from rotemina.drivers.mc68hc11.connection import Connected
 from rotemina.drivers.mc68hc11.dialogue import Request, Urgency
 from rotemina.drivers.mc68hc11.host_messages import AbortProfile, Capture, ShowText, TriggerProfile
-from rotemina.drivers.mc68hc11.pending_orders import constant
 from rotemina.drivers.mc68hc11.profile_upload import profile_messages
 from rotemina.drivers.mc68hc11.protocol_codes import AXES, Ability
-from rotemina.drivers.mc68hc11.total_quality import total_quality
 from rotemina.drivers.parameters import ParameterDifference
 from rotemina.drivers.profile import Profile
 from rotemina.drivers.samples import DeviceState
@@ -98,18 +95,15 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
                 )
             )
         on_clock = session.sampling.time_s if board is session.boards[0] else session.second_time_s
-        dialogue = board.link.dialogues[board.address]
         if session.capturing is not None:
             old = session.capturing.board
-            old.link.dialogues[old.address].ask(
-                Request(message=Capture(0, 0, 0), urgency=Urgency.BACKGROUND)
-            )
+            old.dialogue.ask(Request(message=Capture(0, 0, 0), urgency=Urgency.BACKGROUND))
         telemetry_ms = session.period_ms
         if board.rates is not None and board.rates.telemetry_while_capturing:
             telemetry_ms = session.slow_down(board, 1000 // board.rates.telemetry_while_capturing)
         run = Capturing(board, axes, period_us, count, telemetry_ms, on_clock)
         session.capturing = run
-        dialogue.ask(
+        board.dialogue.ask(
             Request(
                 message=Capture(run.mask, period_us, count),
                 urgency=Urgency.BACKGROUND,
@@ -134,7 +128,7 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
             )
         assert board.rates is not None, "it announced them when it was opened"
         for index, order in enumerate(profile_messages(profile, axis, board.rates.tick)):
-            board.orders.give(("profile", index), partial(constant, order), permit=permit)
+            board.orders.give(("profile", index), order, permit=permit)
         self._profile = board
         self._serve()
 
@@ -147,8 +141,7 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
                 )
             )
         orders = self._profile.orders
-        order = partial(constant, TriggerProfile())
-        orders.give("trigger", order, DeviceState.PLAYING, permit=permit)
+        orders.give("trigger", TriggerProfile(), DeviceState.PLAYING, permit=permit)
         self._profile = None
         self._serve()
 
@@ -158,17 +151,14 @@ class Extras(Connected, Capturer, ProfileRunner, AnalogInputs, Display, Paramete
         for board in self._running.boards:
             if board.able(Ability.PROFILE):
                 board.orders.forget()
-                order = partial(constant, AbortProfile())
-                board.orders.give("abort", order, permit=None, halts=True)
+                board.orders.give("abort", AbortProfile(), permit=None, halts=True)
         self._serve()
 
     def _show(self, row: int, text: str) -> None:
         for board in self._running.boards:
             if board.able(Ability.DISPLAY):
                 shown = ShowText(row, 0, text.encode("ascii", "replace"))
-                board.link.dialogues[board.address].ask(
-                    Request(message=shown, urgency=Urgency.BACKGROUND)
-                )
+                board.dialogue.ask(Request(message=shown, urgency=Urgency.BACKGROUND))
                 return self._serve()
         raise StateError(message("engine", "{name}: no board has a display").fill(name=self.name))
 

@@ -67,16 +67,6 @@ class Capturing:
         return sum(1 << axis.number for axis in self._axes)
 
     @property
-    def period_us(self) -> int:
-        """Between two samples."""
-        return self._period_us
-
-    @property
-    def count(self) -> int:
-        """How many samples were asked for."""
-        return self._count
-
-    @property
     def over(self) -> bool:
         """Whether no more samples come."""
         return self._next >= self._count

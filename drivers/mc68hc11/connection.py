@@ -80,7 +80,7 @@ class Connected(Driver):
         session = self._session
         return session is not None and (
             self._asked_stop != self._seen_stop
-            or any(board.orders.dialogue.has(Urgency.STOP) for board in session.boards)
+            or any(board.dialogue.has(Urgency.STOP) for board in session.boards)
         )
 
     def _open(self) -> None:

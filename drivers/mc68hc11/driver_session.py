@@ -69,7 +69,6 @@ class Session:
         self.lost: ConnectionLostError | None = None
         self.served_s = clock()
         self._polled_s = float("-inf")
-        self._open = False
         self.boards = tuple(Board(number, own) for number, own in enumerate(axes, start=1))
         self.links: tuple[Link, ...] = ()
         try:
@@ -108,7 +107,6 @@ class Session:
         for board in self.boards:
             board.telemetry_ms = self.period_ms
         self.sampling = Sampling(self.boards, self._named)
-        self._open = True
         self.served_s = clock()
 
     @property
@@ -128,7 +126,6 @@ class Session:
 
     def close(self) -> None:
         """Stop, end telemetry, let go; what the board does not hear its watchdog does."""
-        self._open = False
         for link in self.links:
             last = [
                 encoded(Frame(address, 0xFF, SetTelemetry.TYPE, SetTelemetry(0, 0).packed()))
@@ -266,7 +263,7 @@ class Session:
                 answer=Telemetry,
                 expires_s=now_s + board.link.answer_s,
             )
-        board.link.dialogues[board.address].ask(request)
+        board.dialogue.ask(request)
 
     def _keep_in_step(self, now_s: float) -> None:
         """Begin another board's samples anew when the quartzes have run apart, at rest only."""
@@ -295,7 +292,7 @@ class Session:
             number = board.number_at(self._clock() + board.link.answer_s) + 1
             number += -number % every
         begin_us = board.grid.time_us(number) % (1 << 32)
-        board.link.dialogues[board.address].ask(
+        board.dialogue.ask(
             Request(
                 message=SetTelemetry(period_ms, begin_us),
                 urgency=Urgency.BACKGROUND,
@@ -312,8 +309,7 @@ class Session:
         capturing = self.capturing
         if capturing is not None and capturing.board is board and not capturing.over:
             wanted_ms = max(wanted_ms, capturing.telemetry_ms)
-        dialogue = board.link.dialogues[board.address]
-        if wanted_ms != board.telemetry_ms and not dialogue.has(Urgency.BACKGROUND):
+        if wanted_ms != board.telemetry_ms and not board.dialogue.has(Urgency.BACKGROUND):
             self._telemetry(board, wanted_ms)
 
     def _receive(self, address: int, message: Message, now_s: float) -> None:

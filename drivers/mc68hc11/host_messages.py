@@ -16,76 +16,52 @@ _QUADRATIC = Struct(">Hii")
 
 
 @dataclass(frozen=True, slots=True)
-class Identify(Message):
+class Identify(Message, code=0x01, layout="B"):
     """Who is there? The first thing that is asked; the answer is an `Identity`."""
-
-    TYPE = 0x01
-    LAYOUT = Struct(">B")
 
     version: int
 
 
 @dataclass(frozen=True, slots=True)
-class Stop(Message):
+class Stop(Message, code=0x02):
     """Halt every axis and hold; also to all boards at once. Nothing clears it but `ClearFault`."""
 
-    TYPE = 0x02
-    LAYOUT = Struct(">")
-
 
 @dataclass(frozen=True, slots=True)
-class ClearFault(Message):
+class ClearFault(Message, code=0x03):
     """Forget the first reason of a halt."""
 
-    TYPE = 0x03
-    LAYOUT = Struct(">")
-
 
 @dataclass(frozen=True, slots=True)
-class Poll(Message):
+class Poll(Message, code=0x04):
     """Tell where you are: the answer is a `Telemetry`. On a shared bus boards speak when polled.
 
     To all boards at once, each answers in the slot of its address.
     """
 
-    TYPE = 0x04
-    LAYOUT = Struct(">")
-
 
 @dataclass(frozen=True, slots=True)
-class DescribeAxis(Message):
+class DescribeAxis(Message, code=0x05, layout="B"):
     """What is this axis? The answer is an `AxisDescription`."""
-
-    TYPE = 0x05
-    LAYOUT = Struct(">B")
 
     axis: int
 
 
 @dataclass(frozen=True, slots=True)
-class Watch(Message):
+class Watch(Message, code=0x06, layout="H"):
     """Halt when the host is silent for this long; 0 is refused."""
-
-    TYPE = 0x06
-    LAYOUT = Struct(">H")
 
     silence_ms: int
 
 
 @dataclass(frozen=True, slots=True)
-class AskRates(Message):
+class AskRates(Message, code=0x07):
     """What can this line carry? The answer is `Rates`."""
-
-    TYPE = 0x07
-    LAYOUT = Struct(">")
 
 
 @dataclass(frozen=True, slots=True)
-class MoveTo(Message):
+class MoveTo(Message, code=0x10, layout="BiI"):
     """Go to a position, no faster than this."""
-
-    TYPE = 0x10
-    LAYOUT = Struct(">BiI")
 
     axis: int
     target: int
@@ -93,11 +69,8 @@ class MoveTo(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class MoveVelocity(Message):
+class MoveVelocity(Message, code=0x11, layout="BiH"):
     """Go on at this speed, steps of resolution per second, for as long as the lease runs."""
-
-    TYPE = 0x11
-    LAYOUT = Struct(">BiH")
 
     axis: int
     speed: int
@@ -105,16 +78,13 @@ class MoveVelocity(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class SetPoint(Message):
+class SetPoint(Message, code=0x12, layout="BH"):
     """A segment of a stream, all axes at once: for so many ticks their commands change like this.
 
     ``index`` counts segments from 0, over 255 on to 0 again; a board takes them in this order only.
     ``axes``: :data:`Differences`, packed one after the other. At each addition the first difference
     grows by the second one, and the command by the first.
     """
-
-    TYPE = 0x12
-    LAYOUT = Struct(">BH")
 
     index: int
     ticks: int
@@ -169,15 +139,12 @@ class SetPoint(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class BeginStream(Message):
+class BeginStream(Message, code=0x15, layout="IIHB"):
     """A stream of this many segments begins at this time of the board, from where the axes stand.
 
     Commands change at its begin and every ``hold`` ticks from then on; differences have
     ``fraction`` binary digits behind the point of a step.
     """
-
-    TYPE = 0x15
-    LAYOUT = Struct(">IIHB")
 
     time_us: int
     segments: int
@@ -186,53 +153,38 @@ class BeginStream(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class SetVoltage(Message):
+class SetVoltage(Message, code=0x13, layout="BH"):
     """Put out this code of the digital-to-analog converter."""
-
-    TYPE = 0x13
-    LAYOUT = Struct(">BH")
 
     axis: int
     code: int
 
 
 @dataclass(frozen=True, slots=True)
-class Home(Message):
+class Home(Message, code=0x14, layout="B"):
     """Find the limit switches of these axes, bit by bit."""
-
-    TYPE = 0x14
-    LAYOUT = Struct(">B")
 
     axes: int
 
 
 @dataclass(frozen=True, slots=True)
-class ReadParameter(Message):
+class ReadParameter(Message, code=0x20, layout="B"):
     """What is this parameter? The answer is a `Parameter`."""
-
-    TYPE = 0x20
-    LAYOUT = Struct(">B")
 
     index: int
 
 
 @dataclass(frozen=True, slots=True)
-class WriteParameter(Message):
+class WriteParameter(Message, code=0x21, layout="Bi"):
     """Take this value, and keep it without power; refused while an axis moves."""
-
-    TYPE = 0x21
-    LAYOUT = Struct(">Bi")
 
     index: int
     value: int
 
 
 @dataclass(frozen=True, slots=True)
-class ShowText(Message):
+class ShowText(Message, code=0x30, layout="BB"):
     """Show text from this place of the display on."""
-
-    TYPE = 0x30
-    LAYOUT = Struct(">BB")
 
     row: int
     column: int
@@ -240,25 +192,19 @@ class ShowText(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class SetTelemetry(Message):
+class SetTelemetry(Message, code=0x40, layout="HI"):
     """Take a sample every so often, the first at this time of the board; 0 ends it.
 
     On two lines each is sent unasked, on a shared bus the latest one when polled.
     """
-
-    TYPE = 0x40
-    LAYOUT = Struct(">HI")
 
     period_ms: int
     begin_us: int
 
 
 @dataclass(frozen=True, slots=True)
-class Capture(Message):
+class Capture(Message, code=0x41, layout="BHH"):
     """Take this many samples of these axes, bit by bit, and send them as `Captured`."""
-
-    TYPE = 0x41
-    LAYOUT = Struct(">BHH")
 
     axes: int
     period_us: int
@@ -266,11 +212,8 @@ class Capture(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class BeginProfile(Message):
+class BeginProfile(Message, code=0x50, layout="BB"):
     """An on-board motion of an axis, of this many segments, begins."""
-
-    TYPE = 0x50
-    LAYOUT = Struct(">BB")
 
     axis: int
     segments: int
@@ -289,11 +232,8 @@ class Quadratic(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Segments(Message):
+class Segments(Message, code=0x51, layout="B"):
     """One or two segments of a profile, from this index on: :class:`Quadratic`, packed."""
-
-    TYPE = 0x51
-    LAYOUT = Struct(">B")
 
     index: int
     packed_segments: bytes
@@ -335,30 +275,21 @@ class Segments(Message):
 
 
 @dataclass(frozen=True, slots=True)
-class ArmProfile(Message):
+class ArmProfile(Message, code=0x52, layout="BH"):
     """Wait for the trigger: 0 a frame of the host, 1 the board's own button.
 
     ``check`` is the CRC of all segments' payloads, one after the other.
     """
-
-    TYPE = 0x52
-    LAYOUT = Struct(">BH")
 
     trigger: int
     check: int
 
 
 @dataclass(frozen=True, slots=True)
-class TriggerProfile(Message):
+class TriggerProfile(Message, code=0x53):
     """Go."""
-
-    TYPE = 0x53
-    LAYOUT = Struct(">")
 
 
 @dataclass(frozen=True, slots=True)
-class AbortProfile(Message):
+class AbortProfile(Message, code=0x54):
     """Forget the profile, or halt where it is; no fault."""
-
-    TYPE = 0x54
-    LAYOUT = Struct(">")

@@ -7,80 +7,16 @@ times whole microseconds of the board's own clock.
 from collections.abc import Mapping
 
 from rotemina.drivers.errors import ProtocolError
-from rotemina.drivers.mc68hc11.board_messages import (
-    AxisDescription,
-    Captured,
-    Done,
-    Identity,
-    Inputs,
-    Parameter,
-    Rates,
-    Refused,
-    Telemetry,
-)
-from rotemina.drivers.mc68hc11.host_messages import (
-    AbortProfile,
-    ArmProfile,
-    AskRates,
-    BeginProfile,
-    BeginStream,
-    Capture,
-    ClearFault,
-    DescribeAxis,
-    Home,
-    Identify,
-    MoveTo,
-    MoveVelocity,
-    Poll,
-    ReadParameter,
-    Segments,
-    SetPoint,
-    SetTelemetry,
-    SetVoltage,
-    ShowText,
-    Stop,
-    TriggerProfile,
-    Watch,
-    WriteParameter,
-)
+from rotemina.drivers.mc68hc11 import board_messages, host_messages
 from rotemina.drivers.mc68hc11.payload import Message
 from rotemina.sim.messages import message
 
-_ALL: tuple[type[Message], ...] = (
-    Identify,
-    Stop,
-    ClearFault,
-    Poll,
-    DescribeAxis,
-    Watch,
-    AskRates,
-    MoveTo,
-    MoveVelocity,
-    BeginStream,
-    SetPoint,
-    SetVoltage,
-    Home,
-    ReadParameter,
-    WriteParameter,
-    ShowText,
-    SetTelemetry,
-    Capture,
-    BeginProfile,
-    Segments,
-    ArmProfile,
-    TriggerProfile,
-    AbortProfile,
-    Done,
-    Refused,
-    Identity,
-    AxisDescription,
-    Telemetry,
-    Parameter,
-    Captured,
-    Rates,
-    Inputs,
-)
-MESSAGES: Mapping[int, type[Message]] = {one.TYPE: one for one in _ALL}
+MESSAGES: Mapping[int, type[Message]] = {
+    one.TYPE: one
+    for module in (board_messages, host_messages)
+    for one in vars(module).values()
+    if isinstance(one, type) and issubclass(one, Message) and one is not Message
+}
 
 
 def message_of(type_: int, payload: bytes) -> Message:

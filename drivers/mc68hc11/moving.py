@@ -13,7 +13,6 @@ from rotemina.drivers.mc68hc11.connection import Connected
 from rotemina.drivers.mc68hc11.host_messages import Home, MoveTo, MoveVelocity, SetVoltage
 from rotemina.drivers.mc68hc11.parameters import CODES, PER_AXIS
 from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.pending_orders import constant
 from rotemina.drivers.mc68hc11.protocol_codes import Ability
 from rotemina.drivers.mc68hc11.segment_player import Player
 from rotemina.drivers.samples import DeviceState
@@ -27,11 +26,6 @@ _LOW, _HIGH, _SPEED, _FIRST_MV, _LAST_MV = 0, 1, 2, 4, 5  # parameters of an axi
 
 class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
     """Motion of the axes, by the boards' own ramps or by set-points."""
-
-    @property
-    def setpoint_period_s(self) -> float:
-        """The interval of set-points, s: that of the boards once they were opened."""
-        return self._period_s
 
     @property
     def descriptions(self) -> tuple[AxisDescription, ...]:
@@ -53,7 +47,7 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
             if name in speeds:
                 most = min(max(axis.steps(speeds[name]), 1), most)
             message = MoveTo(axis.number, steps, most)
-            board.orders.give(("axis", axis.number), partial(constant, message), permit=permit)
+            board.orders.give(("axis", axis.number), message, permit=permit)
         self._serve()
 
     def _move_velocity(self, velocities: dict[str, float], lease_s: float, permit: Permit) -> None:
@@ -79,9 +73,7 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
             own = [axis.number for axis in board.axes if axis.name in axes]
             if own:
                 message = Home(sum(1 << number for number in own))
-                board.orders.give(
-                    "home", partial(constant, message), DeviceState.HOMING, permit=permit
-                )
+                board.orders.give("home", message, DeviceState.HOMING, permit=permit)
         self._serve()
 
     def _set_voltage(self, axis: str, voltage: float, permit: Permit) -> None:
@@ -92,7 +84,7 @@ class Moving(Connected, TrajectoryPlayer, VelocityMover, Homer, VoltageOutput):
         last = 1e-3 * trust.value(board, PER_AXIS * own.number + _LAST_MV)
         code = min(max(round((voltage - first) / (last - first) * CODES), 0), CODES)
         message = SetVoltage(own.number, code)
-        board.orders.give(("axis", own.number), partial(constant, message), permit=permit)
+        board.orders.give(("axis", own.number), message, permit=permit)
         self._serve()
 
     def _play(self, trajectory: Record, permit: Permit) -> None:

@@ -73,7 +73,7 @@ class Trust:
             board = self._boards[at]
             message = WriteParameter(index, self._wanted[board][index])
             self._writing += 1
-            board.link.dialogues[board.address].ask(
+            board.dialogue.ask(
                 Request(
                     message=message,
                     urgency=Urgency.BACKGROUND,
@@ -123,7 +123,7 @@ class Trust:
     def _ask(self, board: Board) -> None:
         self._values[board] = {}
         for index in range(len(self._wanted[board])):
-            board.link.dialogues[board.address].ask(
+            board.dialogue.ask(
                 Request(
                     message=ReadParameter(index),
                     urgency=Urgency.BACKGROUND,
@@ -142,7 +142,7 @@ class Trust:
         self._values[board][said.index] = said.value
         if self._writing == 0:
             for one in self._boards:
-                one.link.dialogues[one.address].ask(
+                one.dialogue.ask(
                     Request(
                         message=Identify(VERSION),
                         urgency=Urgency.BACKGROUND,

@@ -13,12 +13,17 @@ class Message:
     """Something that fits into the payload of one frame.
 
     ``TYPE`` is the frame's, ``LAYOUT`` how the fields are packed; a last field of bytes takes
-    what is left of the payload.
+    what is left of the payload. A subclass gives both, the layout without its byte order:
+    ``class Watch(Message, code=0x06, layout="H")``.
     """
 
     TYPE: ClassVar[int]
     LAYOUT: ClassVar[Struct]
     __slots__ = ()
+
+    def __init_subclass__(cls, *, code: int | None = None, layout: str = "") -> None:
+        if code is not None:  # a dataclass with slots is made twice, then without arguments
+            cls.TYPE, cls.LAYOUT = code, Struct(f">{layout}")
 
     def packed(self) -> bytes:
         """Return the payload.

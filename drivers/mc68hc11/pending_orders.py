@@ -33,7 +33,7 @@ _REASONS = {
 
 @dataclass(slots=True)
 class _Order:
-    make: Callable[[float], Message]
+    what: Message | Callable[[float], Message]
     expected: DeviceState
     expires_s: float
     permit: Permit | None
@@ -93,7 +93,7 @@ class Orders:
     def give(
         self,
         key: Hashable,
-        make: Callable[[float], Message],
+        what: Message | Callable[[float], Message],
         expected: DeviceState = DeviceState.MOVING,
         *,
         expires_s: float = float("inf"),
@@ -102,10 +102,10 @@ class Orders:
     ) -> None:
         """Queue an order, in place of an earlier one with the same key that was not said yet.
 
-        ``make`` returns the message at the host time when it is said. What only ``halts`` may do
-        without a permit, and is not said to a board that a stop has halted.
+        ``what`` is a message, or returns it at the host time when it is said. What only ``halts``
+        may do without a permit, and is not said to a board that a stop has halted.
         """
-        self._pending[key] = _Order(make, expected, expires_s, permit, halts)
+        self._pending[key] = _Order(what, expected, expires_s, permit, halts)
 
     def stop(self) -> None:
         """Forget all orders, also what is under way, and say stop until it is acknowledged."""
@@ -155,7 +155,7 @@ class Orders:
         self._expected = order.expected
         self.dialogue.ask(
             Request(
-                message=order.make(now_s),
+                message=order.what(now_s) if callable(order.what) else order.what,
                 answered=self._done,
                 refused=self._refused,
                 expires_s=order.expires_s,
@@ -228,8 +228,3 @@ class Orders:
                 address=self._address,
                 why=why or message("engine", "reason {number}").fill(number=reason),
             )
-
-
-def constant(message: Message, _now_s: float) -> Message:
-    """Return a message that is the same whenever it is said."""
-    return message

@@ -24,7 +24,6 @@ from rotemina.drivers.mc68hc11.dialogue import Request
 from rotemina.drivers.mc68hc11.host_messages import BeginStream, MoveTo, SetPoint
 from rotemina.drivers.mc68hc11.line_budget import ROWS
 from rotemina.drivers.mc68hc11.payload import Message
-from rotemina.drivers.mc68hc11.pending_orders import constant
 from rotemina.drivers.mc68hc11.protocol_codes import QUEUE
 from rotemina.drivers.mc68hc11.segment_window import MOST_WAY, ROUNDING, SetpointWindow
 from rotemina.sim.arrays import FloatArray, IntArray
@@ -115,7 +114,7 @@ class Player:
             b, axis = self._places[index]
             message = MoveTo(axis.number, target, speeds[axis.name])
             key = ("axis", axis.number)
-            self._boards[b].orders.give(key, partial(constant, message), permit=permit)
+            self._boards[b].orders.give(key, message, permit=permit)
 
     @property
     def over(self) -> bool:
@@ -189,7 +188,7 @@ class Player:
             grid = board.grid
             assert grid is not None, "telemetry is on"
             begin_us = grid.time_us(self._begin) % (1 << 32)
-            board.link.dialogues[board.address].ask(
+            board.dialogue.ask(
                 Request(
                     message=BeginStream(begin_us, self._segments, self._hold(board), fraction=0),
                     answered=partial(self._begun, b),

@@ -87,7 +87,6 @@ class SimulatedDevice:
         self._sent = self._command
         self._tick_s = tick_s
         self._seed = seed
-        self._sample_s = tick_s
         self._settle_s = settle_s
         self._chance = Chance(np.random.default_rng(seed))
         self._laser = np.random.default_rng([seed, _LASER])  # apart: it changes no sensor's noise

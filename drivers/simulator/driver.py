@@ -32,7 +32,6 @@ from rotemina.drivers.simulator.fast_captures import Capturing
 from rotemina.drivers.simulator.front_panel import FrontPanel
 from rotemina.drivers.simulator.homing import Homing
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
-from rotemina.drivers.simulator.tool import SimulatedTool
 from rotemina.drivers.simulator.true_positions import TruePositions
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.inverse import Exceedance
@@ -62,7 +61,6 @@ class Simulator(
     Capturer,
     ProfileRunner,
     FrontPanel,
-    SimulatedTool,
     TruePositions,
     EffectCarrier,
     Compensator,

@@ -1,7 +1,7 @@
-"""The front panel of the simulated machine: its display, and a manual joystick."""
+"""The front panel of the simulated machine: its display, a manual joystick, and the tool."""
 
 from abc import ABC
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from rotemina.drivers.abilities import (
     DISPLAY_COLUMNS,
@@ -9,24 +9,28 @@ from rotemina.drivers.abilities import (
     AnalogInputs,
     Display,
 )
-from rotemina.drivers.clock import Clock
 from rotemina.drivers.errors import LimitError
+from rotemina.drivers.gate import Permit
+from rotemina.drivers.tool import ToolOutput
 from rotemina.sim.messages import message
-from rotemina.sim.robot.model import Robot
-
-_BLANK = " " * DISPLAY_COLUMNS
 
 
-class FrontPanel(Display, AnalogInputs, ABC):
-    """A display whose text can be read, and inputs that tests and demonstrations set."""
+class FrontPanel(Display, AnalogInputs, ToolOutput, ABC):
+    """A display whose text can be read, inputs that are set, and a tool without an effect."""
 
-    def __init__(
-        self, robot: Robot, settings: Mapping[str, object] | None = None, *, clock: Clock
-    ) -> None:
-        super().__init__(robot, settings, clock=clock)
-        self._shown = (_BLANK,) * DISPLAY_ROWS
-        # One tuple, exchanged as a whole: another thread reads all of it before or after a change.
-        self._inputs: tuple[tuple[float, ...], tuple[bool, ...]] = ((), ())
+    _tool_on = False
+    _shown = (" " * DISPLAY_COLUMNS,) * DISPLAY_ROWS
+    # One tuple, exchanged as a whole: another thread reads all of it before or after a change.
+    _inputs: tuple[tuple[float, ...], tuple[bool, ...]] = ((), ())
+
+    @property
+    def tool_on(self) -> bool:
+        """Whether the tool is on."""
+        return self._tool_on
+
+    def _switch_tool(self, on: bool, permit: Permit) -> None:
+        with permit.passing():
+            self._tool_on = on
 
     @property
     def shown(self) -> tuple[str, ...]:

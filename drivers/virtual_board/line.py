@@ -24,7 +24,6 @@ _ATOM = 1e-6  # of a byte, that division rounds by
 class _Received(NamedTuple):
     """Bytes up to the first zero among them, or to the last of a piece; times in s."""
 
-    begin_s: float
     end_s: float
     data: bytes
     deaf: Firmware | None  # the board that was speaking
@@ -91,7 +90,7 @@ class SerialLine:
             if begin_s < self._speak_s:
                 self._speak_s, self._answers = inf, []  # the host goes on: nobody answers
             deaf = self._collide(begin_s, piece) if self.bus else None
-            self._received.append(_Received(begin_s, end_s, piece, deaf))
+            self._received.append(_Received(end_s, piece, deaf))
             self._heard_until_s = end_s
 
     def step(self) -> None:

@@ -100,16 +100,6 @@ class PlantRun:
             return parts[0]
         return Response(*(np.concatenate(both) for both in zip(*parts, strict=True)))
 
-    def settled(self) -> PlantState:
-        """Return the state at the present tick."""
-        self._settle()
-        return self._state
-
-    def take_over(self, plant: Plant, state: PlantState) -> None:
-        """Continue with another plant, from its state at the present tick."""
-        self._settle()
-        self._plant, self._state = plant, state
-
     def _use(self, beyond: _Prediction, ticks: int) -> Response:
         """Return what was found ahead of the next ticks, as far as it goes."""
         end = min(beyond.used + ticks, len(beyond.response.position))

@@ -1,16 +1,14 @@
 """The machine behind the boards: plant, sensors, limit switches, and counters."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.virtual_board.lookahead import PlantRun
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.plant.effect_switch import taken_over
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
+from rotemina.sim.robot.model import Robot, StepperAxis
 
 Preview = Callable[[int], FloatArray | None]  # whole steps (ticks, own axes) that will come next
 
@@ -45,14 +43,13 @@ class Machine:
         seed: int,
         position: FloatArray,
     ) -> None:
-        self._robot = robot
-        self._plant = Plant.of(robot, closed_loop=True)
-        self._run = PlantRun(self._plant, tick_s, seed, position)
+        plant = Plant.of(robot, closed_loop=True)
+        self._run = PlantRun(plant, tick_s, seed, position)
         own = [robot.axes[axis.name] for axis in axes]
         self.names = tuple(axis.name for axis in axes)
         self.step = np.array([axis.step for axis in axes])
         self.stepper = np.array([isinstance(axis, StepperAxis) for axis in own])
-        self.looped = tuple(loop is not None for loop in self._plant.loops)
+        self.looped = tuple(loop is not None for loop in plant.loops)
         low, high = np.array([axis.range for axis in own], dtype=np.float64).T
         self.low_switch = np.where(self.stepper, low - _OVERTRAVEL * (high - low), -np.inf)
         self.high_switch = np.where(self.stepper, high + _OVERTRAVEL * (high - low), np.inf)
@@ -90,13 +87,6 @@ class Machine:
     def thaw(self, index: int) -> None:
         """Release a frozen sensor."""
         self._frozen.pop(index, None)
-
-    def set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
-        """Continue with other effects, from where the axes are and as fast as they are."""
-        self.simulate()
-        plant = Plant.of(replace(self._robot, effects=effects), closed_loop=True)
-        self._run.take_over(plant, taken_over(plant, self._plant, self._run.settled()))
-        self._plant = plant
 
     def add(self, steps: FloatArray) -> None:
         """Let commands (ticks, axes), whole steps, act at the next ticks."""

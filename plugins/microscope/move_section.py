@@ -92,7 +92,8 @@ class TargetSection(Section):
         self.next.setProperty("primary", True)
         self.remove = button(translate("microscope", "Remove"), self._remove)
         self.clear = button(
-            translate("microscope", "Clear"), lambda: workbench.ask(microscope.clear_targets)
+            translate("microscope", "Clear"),
+            lambda: workbench.ask(microscope.positioning.sequence.clear),
         )
         self.column.addWidget(self.next)
         self.add_row(self.remove, self.clear)
@@ -136,4 +137,4 @@ class TargetSection(Section):
 
     def _remove(self) -> None:
         row = self.list.currentRow()
-        self._workbench.ask(lambda: self._microscope.remove_target(row))
+        self._workbench.ask(lambda: self._microscope.positioning.sequence.remove(row))

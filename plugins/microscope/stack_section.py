@@ -109,7 +109,7 @@ class StackSection(Section):
     def _take(self) -> None:
         name = self.place.currentData()
         self._workbench.ask(
-            lambda: self._microscope.stack(
+            lambda: self._microscope.adjustments.stack(
                 name,
                 *(_metres(field) for field in (self.first, self.last, self.step)),
             )

@@ -44,14 +44,16 @@ class TipSection(Section):
         self.track.clicked.connect(lambda on: workbench.ask(lambda: microscope.track(on)))
         self.background = button(
             translate("microscope", "Take background"),
-            lambda: workbench.ask(microscope.take_background),
+            lambda: workbench.ask(microscope.tracker.take_ground),
             translate("microscope", "Save the background without the tip in the picture"),
         )
         self.drift = QCheckBox(translate("microscope", "monitor drift"))
         self.drift.setToolTip(
             plain_tip(translate("microscope", "Displacement of the background since it was taken"))
         )
-        self.drift.clicked.connect(lambda on: workbench.ask(lambda: microscope.watch_drift(on)))
+        self.drift.clicked.connect(
+            lambda on: workbench.ask(lambda: microscope.jobs.watch_drift(on))
+        )
         self.column.addWidget(self.track)
         self.said = self.add_text()
         self.column.addWidget(self.background)
@@ -108,7 +110,7 @@ class CellSection(Section):
         self.said = self.add_text()
         self.forget = button(
             translate("microscope", "Remove cell"),
-            lambda: workbench.ask(microscope.forget_cell),
+            lambda: workbench.ask(microscope.jobs.forget),
             translate("microscope", "Remove the outline"),
         )
         self.column.addWidget(self.forget)
@@ -204,13 +206,13 @@ class FocusSection(Section):
         def begin() -> None:
             reach_m = _micrometres(translate("microscope", "search distance"), self.reach.text())
             if chosen is None or chosen.position is None:
-                self._microscope.autofocus(name)
+                self._microscope.adjustments.autofocus(name)
                 return
             low, high = (
                 max(chosen.position - reach_m, chosen.low),
                 min(chosen.position + reach_m, chosen.high),
             )
-            self._microscope.autofocus(name, low, high)
+            self._microscope.adjustments.autofocus(name, low, high)
 
         self._workbench.ask(begin)
 

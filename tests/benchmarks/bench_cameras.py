@@ -13,9 +13,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.cameras.frame_check import FrameCheck
-from rotemina.drivers.cameras.camera import CameraIdentity
 from rotemina.drivers.cameras.frame import Frame, Region
-from rotemina.drivers.cameras.simulated import SimulatedCamera
+from rotemina.drivers.cameras.simulated import SimulatedMicroscope
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.kinematics.chain import Chain
@@ -96,12 +95,8 @@ def test_a_frame_from_the_simulator_to_its_watch():
     clock = VirtualClock()
     driver = Simulator(ROBOT, clock=clock)
     driver.open()
-    camera = SimulatedCamera(
-        CameraIdentity("simulated:microscope", "Microscope", "simulated"),
-        lambda: driver,
-        clock=clock,
-        wait=clock.advance,
-    )
+    source = SimulatedMicroscope(lambda: driver, clock=clock, wait=clock.advance)
+    camera = source.camera(source.devices()[0])
     camera.open()
     watch = FrameCheck()
 

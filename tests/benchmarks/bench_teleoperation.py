@@ -203,7 +203,8 @@ def test_what_switching_leaves(sticks):
     shown = ", ".join(f"{name} {step:.3g}" for name, step in steps.items())
     print(
         f"\nsticks at {held}: loop step {1e3 * np.median(moves):.2f} ms; greatest second "
-        f"difference of a command while switching, m or rad (limit: greatest acceleration × (1 ms)²): {shown}"
+        "difference of a command while switching, m or rad (limit: greatest acceleration × "
+        f"(1 ms)²): {shown}"
     )
     for name, step in steps.items():
         assert step <= ROBOT.axes[name].max_acceleration * 1e-6 * (1.0 + 1e-6), name

@@ -235,7 +235,6 @@ class InputDevices:
         with self._lock:
             for key in tuple(self._open):
                 self._drop(key, marked("engine", "the program releases it"))
-                self.hub.released(key)
 
     # --- inside -----------------------------------------------------------------------------------
 

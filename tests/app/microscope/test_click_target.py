@@ -83,12 +83,12 @@ def test_a_large_move_wants_to_be_confirmed(bench, clicks):
     clicks.go(move, confirmed=True)
 
 
-def test_go_back_returns_to_where_the_tip_was(bench, clicks):
+def test_undo_returns_to_where_the_tip_was(bench, clicks):
     begin = bench.true_pixel()
     clicks.go(clicks.plan(bench.beside(30.0, 20.0)))
     bench.step(40)
     assert np.linalg.norm(bench.true_pixel() - begin) > 30.0
-    clicks.go_back()
+    clicks.session.undo()
     bench.step(60)
     assert bench.true_pixel() == pytest.approx(begin, abs=0.3)
 

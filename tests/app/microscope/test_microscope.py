@@ -210,13 +210,12 @@ def test_stop_ends_a_calibration_where_it_is(work):
 @pytest.mark.slow
 def test_what_the_autofocus_found_is_kept_for_the_next_start(work, tmp_path, make_work):
     work.tracking()
-    work.microscope.autofocus()
+    work.microscope.adjustments.autofocus()
     status = work.until(lambda status: status.activity is Activity.NONE)
     assert status.focusing.search is Search.DONE, status.focusing.reason
     assert 0.0 < status.calibration.focus.uncertainty < 1e-6
     # The body climbs from the tip away: what is sharpest about it lies a little higher.
     assert abs(status.calibration.focus.sharpest) < 6e-6
-    assert status.focus_axes[0].sharpest == status.calibration.focus.sharpest
     again = make_work(tmp_path)
     again.look()
     assert again.microscope.status.calibration == status.calibration
@@ -225,7 +224,7 @@ def test_what_the_autofocus_found_is_kept_for_the_next_start(work, tmp_path, mak
     assert again.microscope.status.calibration is None
     assert again.microscope.status.pixel_m == pytest.approx(0.1675e-6)
     with pytest.raises(MicroscopeError, match="'axes' cannot focus"):
-        again.microscope.autofocus("axes")
+        again.microscope.adjustments.autofocus("axes")
 
 
 def test_targets_are_visited_one_after_the_other(work):
@@ -236,11 +235,11 @@ def test_targets_are_visited_one_after_the_other(work):
     for away in (40.0, 80.0):
         work.microscope.mark_target(here + away * aside)
     work.microscope.mark_target(here)
-    work.microscope.remove_target(2)
+    work.microscope.positioning.sequence.remove(2)
     for away in (40.0, 80.0):
         work.microscope.visit_next()
         with pytest.raises(MicroscopeError, match="moving to a target"):
-            work.microscope.clear_targets()
+            work.microscope.positioning.sequence.clear()
         status = work.until(lambda status: status.activity is Activity.NONE)
         assert work.true_pixel() == pytest.approx(here + away * aside, abs=0.5)
     assert [one.visit for one in status.targets] == [Visit.ARRIVED, Visit.ARRIVED]
@@ -254,7 +253,7 @@ def test_cell_line_and_drift(work):
     middle = work.optics.pixel_of(np.array(cell.centre_m))
     work.microscope.outline_cell(middle + 8.0)
     work.microscope.measure(middle, work.true_pixel())
-    work.microscope.watch_drift(True)
+    work.microscope.jobs.watch_drift(True)
     work.step(3)
     status = work.microscope.status
     assert status.cell.outline.centre == pytest.approx(middle, abs=1.0)

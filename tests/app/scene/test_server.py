@@ -15,7 +15,7 @@ from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
 from rotemina.app.scene import page
-from rotemina.app.scene.errors import ViewerError
+from rotemina.app.scene.page import ViewerError
 from rotemina.app.scene.scene import Scene
 from rotemina.app.scene.server import ViewServer
 from rotemina.app.scene.viewers import MOST

@@ -8,16 +8,27 @@ import pytest
 
 from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import (
-    GROUNDS,
     HIGH_CONTRAST,
-    PAIRS,
     THEMES,
-    contrast,
     scale_for,
     style_sheet,
     theme_named,
 )
 
+GROUNDS = ("window", "surface", "raised")
+#: Roles that are read on every ground.
+READ = (
+    *("text", "quiet", "accent", "danger_text", "warning", "good"),
+    *("command", "model", "real", "other"),
+)
+#: What is read, and on what: every text of the style sheet is one of these.
+PAIRS = (
+    *((role, ground) for role in READ for ground in GROUNDS),
+    ("on_accent", "accent"),
+    ("on_danger", "danger"),
+    ("window", "warning"),
+    ("on_virtual", "virtual"),
+)
 LEAST = 4.5  # WCAG 2.1, level AA
 TOLD_APART = 20.0  # ΔE*ab of two lines that have the same dashes
 #: How dichromats see linear sRGB (Machado, Oliveira, Fernandes 2009, severity 1).
@@ -41,6 +52,20 @@ EYES = {
 }
 #: CIE XYZ of linear sRGB, white at 1.
 XYZ = np.array([[0.4339, 0.3762, 0.1899], [0.2127, 0.7152, 0.0722], [0.0178, 0.1095, 0.8727]])
+
+
+def contrast(one, other):
+    """Return the contrast of two colours ``#rrggbb``, 1 to 21, as WCAG 2.1 defines it."""
+    low, high = sorted((_luminance(one), _luminance(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def _luminance(colour):
+    shares = [int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5)]
+    linear = [
+        share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4 for share in shares
+    ]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
 def lab(colour, eye):

@@ -8,6 +8,7 @@ import pytest
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.errors import StateError
 from rotemina.drivers.gate import Gate
+from rotemina.drivers.line_quality import total_quality
 from rotemina.drivers.mc68hc11.board_clock import BoardClock
 from rotemina.drivers.mc68hc11.board_messages import Done, Inputs, Refused, Telemetry
 from rotemina.drivers.mc68hc11.dialogue import Dialogue, Request, Urgency
@@ -18,7 +19,6 @@ from rotemina.drivers.mc68hc11.protocol_codes import Refusal
 from rotemina.drivers.mc68hc11.sampling_grid import Grid
 from rotemina.drivers.mc68hc11.segment_window import SetpointWindow
 from rotemina.drivers.mc68hc11.serial_link import Link
-from rotemina.drivers.mc68hc11.total_quality import total_quality
 
 TURN = 1 << 32
 
