@@ -78,7 +78,6 @@ class Facts:
     def of(cls, axis: Axis) -> Self:
         """Gather the figures of an axis."""
         low, high = axis.range
-        gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
         inputs = _inputs(axis)
         inertia = axis.inertia
         mass, damping, stiffness = inertia if inertia is not None else (0.0, 0.0, 0.0)
@@ -95,7 +94,7 @@ class Facts:
             input_low=inputs[0],
             input_high=inputs[1],
             input_span=inputs[1] - inputs[0],
-            gain=gain,
+            gain=axis.gain,
             mass=mass,
             damping=damping,
             stiffness=stiffness,

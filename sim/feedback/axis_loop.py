@@ -26,7 +26,7 @@ from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.plant.segment_steps import steps_through
 from rotemina.sim.plant.state import Behind, PlantState
 from rotemina.sim.plant.zero_order_hold import cut, ticks_of
-from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
+from rotemina.sim.robot.model import ForceAxis, Robot
 
 FASTEST_HZ = 1e6  # rate of a loop: beyond that nobody closes one about a motor or a piezo
 _LONGEST_DELAY = 1000  # intervals
@@ -97,9 +97,7 @@ class AxisLoop:
     def limits(self) -> OutputLimits:
         """What may be asked of the axis: its range, or what its voltages reach."""
         low, high = self.robot_axis.range
-        voltages = (
-            None if isinstance(self.robot_axis, StepperAxis) else self.robot_axis.voltage_range
-        )
+        voltages = self.robot_axis.voltage_range
         if voltages is not None:
             asked = asked_position(self.robot_axis)
             low, high = sorted(asked * voltage for voltage in voltages)

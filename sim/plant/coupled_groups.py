@@ -19,7 +19,7 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.formulation import LinearPart
 from rotemina.sim.robot.matrices import inertia_matrices
-from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, Robot, StepperAxis
+from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, Robot
 
 
 class PlacedPart(NamedTuple):
@@ -219,7 +219,7 @@ def _static(name: str, axis: Axis, parts: Sequence[PlacedPart]) -> Group:
     """Return the group of a static axis: its position is ``gain·u``, and what its parts add."""
     own = [placed for placed in parts if placed.axis == name]
     n = sum(len(placed.part.a) for placed in own)
-    gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
+    gain = axis.gain
     generator = np.zeros((n + 3, n + 3))
     whole, outputs, first = Output(name, None, np.zeros(n), gain), [], 0
     for placed in own:

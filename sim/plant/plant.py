@@ -66,7 +66,7 @@ class Plant:
         assembly = assemble(robot, only)
         robot = assembly.robot
         axes = tuple(robot.axes)
-        loops = tuple(_controller(robot, name) if closed_loop else None for name in axes)
+        loops = tuple(one.controller if closed_loop else None for one in robot.axes.values())
         return cls(robot, axes, assembly.groups, loops, assembly)
 
     @property
@@ -386,11 +386,8 @@ class Plant:
 
     def _static_position(self, inputs: FloatArray) -> FloatArray:
         """Position (n, axes) of the static axes, ``gain·u`` or the command; 0 for the others."""
-        gains = []
-        for axis in self.robot.axes.values():
-            static_gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
-            gains.append(static_gain if axis.static else 0.0)
-        static: FloatArray = np.array(gains)
+        axes = self.robot.axes.values()
+        static: FloatArray = np.array([axis.gain if axis.static else 0.0 for axis in axes])
         return np.asarray(np.where(static != 0.0, inputs, 0.0) * static)
 
     def _index(self, group: Group) -> IntArray:
@@ -474,8 +471,3 @@ def _input_per_command(axis: Axis) -> float:
     if isinstance(axis, PiezoAxis):
         return 1.0 / axis.gain
     return 1.0 if isinstance(axis, StepperAxis) else 0.0
-
-
-def _controller(robot: Robot, name: str) -> CascadeController | None:
-    axis = robot.axes[name]
-    return None if isinstance(axis, StepperAxis) else axis.controller

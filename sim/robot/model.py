@@ -117,6 +117,11 @@ class _Axis:
 class StepperAxis(_Axis):
     """A stepper with ball screw: its input is the commanded table position (m or rad)."""
 
+    #: It goes where it is told, by no voltage and under no controller.
+    gain: ClassVar[float] = 1.0
+    voltage_range: ClassVar[None] = None
+    controller: ClassVar[None] = None
+
     kind: Literal["stepper"]
     steps_per_rev: Count | None = None
     microsteps_per_step: Count | None = None
