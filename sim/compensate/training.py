@@ -1,7 +1,7 @@
 """Inverses of all kinds from the same rows, compared on rows that none was trained with."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,6 @@ from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse_parameters import InverseModel, Kind
 from rotemina.sim.compensate.judgement import Residual, reason, recommended, residual
 from rotemina.sim.compensate.lag_and_creep import Stages, find_stages, stops_of, thresholds
-from rotemina.sim.compensate.linear import fit_line
 from rotemina.sim.compensate.modified_prandtl_ishlinskii import fit_modified
 from rotemina.sim.compensate.prandtl_ishlinskii import fit_hysteresis
 from rotemina.sim.compensate.samples import Samples, common, one_size
@@ -133,15 +132,7 @@ def _split(samples: Samples, *, whole: bool) -> int:
 
 
 def _early(samples: Samples, last: int) -> Samples:
-    return Samples(
-        samples.name,
-        samples.axis,
-        samples.unit,
-        samples.sample_s,
-        samples.command[:last],
-        samples.position[:last],
-        samples.first,
-    )
+    return replace(samples, command=samples.command[:last], position=samples.position[:last])
 
 
 def _least_lag_s(axis: PiezoAxis, samples: Samples) -> float:
@@ -262,10 +253,11 @@ def _classical(facts: dict[str, Any], pool: _Pool) -> InverseModel:
 
 
 def _linear(facts: dict[str, Any], samples: Sequence[Samples]) -> InverseModel:
-    """Return the line, which has no stages besides."""
+    """Return the straight line from position to command, without memory or stages besides."""
     z = np.concatenate([each.position[each.first :] for each in samples]) - facts["origin"]
     x = np.concatenate([each.command[each.first :] for each in samples]) - facts["command_origin"]
-    span = facts["span"]
+    rows = np.column_stack([np.ones_like(z), z / facts["span"]])
+    consequents = np.linalg.lstsq(rows, x / facts["span"])[0][None]
     empty = np.zeros(0)
     plain = facts | {"lag_s": 0.0, "mode_s2": 0.0, "creep_times_s": empty, "creep_weights": empty}
-    return InverseModel(kind="linear", consequents=fit_line(z / span, x / span), **plain)
+    return InverseModel(kind="linear", consequents=consequents, **plain)
