@@ -12,7 +12,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.sensor import SHARES, SensorModel, waves
 from rotemina.sim.calibration.sensor_lag import Lag, lagged, slope_by_lag
-from rotemina.sim.calibration.stops import stops
+from rotemina.sim.stops import stops
 
 _TINY = 1e-9  # of the largest: a singular value that is none
 

@@ -4,7 +4,7 @@
 
 of the position q̃ that came through the lag; ξ = −1 … 1 over the range, ``φ = 2π q̃/p``. So offset
 and gain are those of the line through both ends of the range, and the bend is the terminal-based
-nonlinearity. ``E_j`` are stop operators (:mod:`rotemina.sim.calibration.stops`).
+nonlinearity. ``E_j`` are stop operators (:mod:`rotemina.sim.stops`).
 """
 
 from dataclasses import dataclass

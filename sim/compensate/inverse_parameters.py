@@ -105,3 +105,7 @@ class InverseModel:
     bend_offset: float = 0.0
     bend_at: FloatArray = field(default_factory=_none)
     bend: FloatArray = field(default_factory=_straight)
+
+    def lag_at(self, sample_s: float) -> float:
+        """Return the lag, s, where commands come ``sample_s`` apart: each is held that long."""
+        return self.lag_s + 0.5 * (sample_s - self.sample_s)

@@ -13,7 +13,7 @@ from rotemina.sim.compensate.inverse_parameters import InverseModel, Kind
 from rotemina.sim.compensate.judgement import Residual, reason, recommended, residual
 from rotemina.sim.compensate.lag_and_creep import Stages, find_stages, stops_of, thresholds
 from rotemina.sim.compensate.modified_prandtl_ishlinskii import fit_modified
-from rotemina.sim.compensate.prandtl_ishlinskii import fit_hysteresis
+from rotemina.sim.compensate.prandtl_ishlinskii import Hysteresis, fit_hysteresis
 from rotemina.sim.compensate.samples import Samples, common, one_size
 from rotemina.sim.messages import Message, marked, message
 from rotemina.sim.quantities import percent
@@ -226,28 +226,22 @@ def _anfis(
 
 def _modified(facts: dict[str, Any], pool: _Pool) -> InverseModel:
     whole, bend = fit_modified(thresholds(), pool.commanded, pool.command, pool.plays, pool.z)
-    inverse = whole.inverse()
-    return InverseModel(
-        kind="modified_prandtl_ishlinskii",
-        radii=inverse.radii,
-        initial=inverse.initial,
-        consequents=inverse.consequents(),
-        bend_offset=bend.offset,
-        bend_at=bend.at,
-        bend=bend.slopes,
-        **facts,
-    )
+    bends = {"bend_offset": bend.offset, "bend_at": bend.at, "bend": bend.slopes}
+    return _inverted("modified_prandtl_ishlinskii", whole, facts | bends)
 
 
 def _classical(facts: dict[str, Any], pool: _Pool) -> InverseModel:
     whole = fit_hysteresis(thresholds(), pool.commanded, pool.command, pool.plays, pool.z)
+    return _inverted("prandtl_ishlinskii", whole, facts | {"bend_offset": -whole.offset})
+
+
+def _inverted(kind: Kind, whole: Hysteresis, facts: dict[str, Any]) -> InverseModel:
     inverse = whole.inverse()
     return InverseModel(
-        kind="prandtl_ishlinskii",
+        kind=kind,
         radii=inverse.radii,
         initial=inverse.initial,
         consequents=inverse.consequents(),
-        bend_offset=-whole.offset,
         **facts,
     )
 
