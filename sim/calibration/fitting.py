@@ -119,18 +119,14 @@ def chosen(runs: list[Run], bounds: tuple[float, float], period: float, lags: bo
         if _gains(best.errors(best.whole), candidate.errors(candidate.whole)):
             best = candidate
     choice = best.whole
-    for less in _simpler(choice):
-        if not _gains(best.errors(less), best.errors(choice)):
-            choice = less
+    less = choice._replace(hysteresis=False)
+    if not _gains(best.errors(less), best.errors(choice)):
+        choice = less
     for bends in range(choice.bends):
         fewer = choice._replace(bends=bends)
         if not _gains(best.errors(fewer), best.errors(choice)):
             return fewer
     return choice
-
-
-def _simpler(choice: Choice) -> list[Choice]:
-    return [choice._replace(hysteresis=False)]
 
 
 class _Candidate(NamedTuple):
