@@ -158,6 +158,13 @@ class Draft:
         self.centre = (self.low + self.high) / 2.0 if asked is None else self._stated(asked)
         return self.centre
 
+    def signal(
+        self, values: FloatArray, period: int | None = None, /, **parameters: object
+    ) -> Signal:
+        """Return a signal with its parameters after the amplitude and offset that were given."""
+        moved = {f"amplitude_{self.unit}": self.reach, f"offset_{self.unit}": self.centre}
+        return Signal(values, moved | parameters, period)
+
     def _stated(self, asked: Amount) -> float:
         share = isinstance(asked, Share)
         value = self.low + asked.of_whole * self.span if isinstance(asked, Share) else asked
