@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import pi, sqrt
 from typing import Self
 
-from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, StepperAxis
+from rotemina.sim.robot.model import Axis, ForceAxis, StepperAxis
 
 _FORCE_SHARE = 1e-4  # of stiffness times range: a force that bends an axis noticeably
 _PITCHES = 50  # that a range is taken to hold where the robot file names no screw
@@ -112,9 +112,7 @@ class Facts:
 
 def _inputs(axis: Axis) -> tuple[float, float]:
     """Return the ends of the input's range."""
-    if isinstance(axis, StepperAxis):
-        return axis.range
-    if isinstance(axis, PiezoAxis):
+    if not isinstance(axis, ForceAxis):
         reached = sorted(bound / axis.gain for bound in axis.range)
         low, high = axis.voltage_range or (reached[0], reached[1])
         return low, high

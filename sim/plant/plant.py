@@ -23,7 +23,7 @@ from rotemina.sim.plant.segment_steps import steps_of_run
 from rotemina.sim.plant.settling import lead_of
 from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
 from rotemina.sim.quantities import rounded
-from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
+from rotemina.sim.robot.model import CascadeController, ForceAxis, Robot
 
 _TRIES = 50  # of the input with which a controller holds an axis
 _HELD = 1e-12  # relative change of that input which is none
@@ -80,7 +80,8 @@ class Plant:
         V for piezos, the command itself for steppers; none (0 V) for axes moved by a force, whose
         voltage a command does not tell.
         """
-        share = np.array([_input_per_command(axis) for axis in self.robot.axes.values()])
+        axes = self.robot.axes.values()
+        share = np.array([0.0 if isinstance(one, ForceAxis) else 1.0 / one.gain for one in axes])
         with np.errstate(over="ignore"):  # found, and said, after the run
             return np.asarray(command * share)
 
@@ -465,9 +466,3 @@ def _rest(plant: Plant, command: bytes) -> PlantState:
         if isinstance(value, np.ndarray):
             value.flags.writeable = False
     return state
-
-
-def _input_per_command(axis: Axis) -> float:
-    if isinstance(axis, PiezoAxis):
-        return 1.0 / axis.gain
-    return 1.0 if isinstance(axis, StepperAxis) else 0.0
