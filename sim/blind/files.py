@@ -105,15 +105,10 @@ def _signals(case: Case, robot: Robot, commands: Commands, number: int) -> dict[
     response, reading = measured(case, commands, number)
     chance = np.random.default_rng((case.seed, 78, number))
     gains = [robot.axes[name].gain for name in case.names]
-    noise = [_reference_noise(robot, name) for name in case.names]
+    noise = [robot.reference.noise_rms.of(robot.unit(name)) or 0.0 for name in case.names]
     shape = response.motion.shape
     return {
         "u": response.drive / gains + chance.normal(0.0, _VOLTAGE_NOISE, shape),
         "ref": response.motion + chance.normal(0.0, 1.0, shape) * noise,
         "meas": reading,
     }
-
-
-def _reference_noise(robot: Robot, name: str) -> float:
-    noise = robot.reference.noise_rms
-    return (noise.angular if file_unit(robot, name)[0] == "urad" else noise.linear) or 0.0

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.regression_columns import (
     Choice,
     Gram,
@@ -72,7 +72,7 @@ def fit(
         [
             table[block].T @ (target - table @ parameters)[block]
             for table, target in tables
-            for block in _blocks(len(target))
+            for block in np.array_split(np.arange(len(target)), BLOCKS)
         ]
     )
     inverse = total.inverse()
@@ -157,7 +157,3 @@ def _gains(before: FloatArray, after: FloatArray) -> bool:
     fall = before - after
     error = float(fall.std(ddof=1)) / np.sqrt(len(fall))
     return bool(fall.mean() > max(error, _WORTH * float(before.mean())))
-
-
-def _blocks(rows: int) -> list[IntArray]:
-    return np.array_split(np.arange(rows), BLOCKS)

@@ -43,8 +43,7 @@ def _declared(robot: Robot, record: Record, axis: str, tap: Tap) -> float | None
         own = record.reference_noise(axis)
         if own is not None:
             return own
-        noise = robot.reference.noise_rms
-        return noise.angular if record.units[axis] == "rad" else noise.linear
+        return robot.reference.noise_rms.of(record.units[axis])
     sensor = robot.axes[axis].sensor
     if sensor is None:
         return None

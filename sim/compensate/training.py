@@ -80,7 +80,10 @@ def train(
     first = common([*samples, *held_out])
     tell(marked("engine", "lag and creep"), 0.0)
     kept = [_split(each, whole=bool(held_out)) for each in samples]
-    known = [_early(each, last) for each, last in zip(samples, kept, strict=True)]
+    known = [
+        replace(each, command=each.command[:last], position=each.position[:last])
+        for each, last in zip(samples, kept, strict=True)
+    ]
     if sum(len(each.command) - each.first for each in known) < _FEWEST:
         raise CompensationError(
             message(
@@ -129,10 +132,6 @@ def _split(samples: Samples, *, whole: bool) -> int:
     """Return the row at which training ends."""
     rows = len(samples.command)
     return rows if whole else rows - int(HELD_OUT * (rows - samples.first))
-
-
-def _early(samples: Samples, last: int) -> Samples:
-    return replace(samples, command=samples.command[:last], position=samples.position[:last])
 
 
 def _least_lag_s(axis: PiezoAxis, samples: Samples) -> float:

@@ -185,6 +185,10 @@ class ReferenceNoise:
     linear: NotNegative | None = None
     angular: NotNegative | None = None
 
+    def of(self, unit: str | None) -> float | None:
+        """Return the rms on an axis whose unit is ``rad``, or ``m``; None where undeclared."""
+        return self.angular if unit == "rad" else self.linear
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)
 class Reference:
