@@ -8,7 +8,6 @@ from rotemina.drivers.abilities import VOLTAGE_SLEW
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.sim.messages import marked, message
 from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
-from rotemina.sim.trajectory.axis_limits import controller_of
 
 PER_AXIS = 8
 _START = 0xFFFF  # of the check, as of a frame's
@@ -83,7 +82,7 @@ def _of(robot: Robot, own: BoardAxis) -> tuple[int, ...]:
         )
     assert isinstance(axis, PiezoAxis), "boards move nothing else"
     first, last = axis.voltage_range or (low / axis.gain, high / axis.gain)
-    assert controller_of(axis) is None or axis.voltage_range is not None
+    assert axis.controller is None or axis.voltage_range is not None
     return (
         *shared,
         round(1e3 * first),

@@ -91,9 +91,7 @@ class SimulatedDevice:
         self._chance = Chance(np.random.default_rng(seed))
         self._laser = np.random.default_rng([seed, _LASER])  # apart: it changes no sensor's noise
         noise = robot.reference.noise_rms
-        self._laser_rms = np.array(
-            [(noise.angular if axis.unit == "rad" else noise.linear) or 0.0 for axis in axes]
-        )
+        self._laser_rms = np.array([noise.of(axis.unit) or 0.0 for axis in axes])
         self._phase = _Phase.HOLD
         self._playing: Playing | None = None
         self._settled = 0

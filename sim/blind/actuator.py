@@ -6,7 +6,7 @@ import numba
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind.curves import draw_curve
+from rotemina.sim.blind.curves import Curve, draw_curve
 from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 from rotemina.sim.blind.preisach import draw_plane, run_plane
 
@@ -23,12 +23,16 @@ def gain_error(axis: Axis, rng: np.random.Generator) -> Part:
 
 def static_nonlinearity(axis: Axis, rng: np.random.Generator) -> Part:
     """Bowed characteristic; size in m or rad."""
-    curve = draw_curve(axis, rng)
+    return _added("static_nonlinearity", axis, draw_curve(axis, rng), (axis.floor, 0.1 * axis.span))
+
+
+def _added(effect: str, axis: Axis, curve: Curve, sizes: tuple[float, float]) -> Part:
+    """Return a part that adds a curve over position, as often as its size says."""
 
     def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return values + size * curve(values)
 
-    return Part("static_nonlinearity", axis, Stage.ACTUATOR, act, (axis.floor, 0.1 * axis.span))
+    return Part(effect, axis, Stage.ACTUATOR, act, sizes)
 
 
 def hysteresis(axis: Axis, rng: np.random.Generator) -> Part:
@@ -37,16 +41,16 @@ def hysteresis(axis: Axis, rng: np.random.Generator) -> Part:
 
 
 def _preisach(axis: Axis, rng: np.random.Generator) -> Part:
-    plane = draw_plane(rng)
+    everett = draw_plane(rng)
     # The nominal gain is that of a wide loop in the middle of the range.
     ramp = np.concatenate([[0.0], np.linspace(0.15, 0.85, 400), np.linspace(0.85, 0.15, 400)])
-    loop = run_plane(plane.everett, np.concatenate([ramp, ramp[1:401]]))[401:]
+    loop = run_plane(everett, np.concatenate([ramp, ramp[1:401]]))[401:]
     slope, rest = np.polyfit(np.concatenate([ramp[401:], ramp[1:401]]), loop, 1)
     width = float(np.max(loop[:400][::-1] - loop[400:]))
 
     def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         inputs = (values - axis.low) / axis.span
-        bent = run_plane(plane.everett, inputs) - (slope * inputs + rest)
+        bent = run_plane(everett, inputs) - (slope * inputs + rest)
         return np.asarray(values + axis.span * size / width * bent)
 
     return Part("hysteresis", axis, Stage.ACTUATOR, act, (0.002, 0.15))
@@ -142,63 +146,33 @@ def _busiest(
     return [int(at) + width for at in near]
 
 
-def periodic(
-    axis: Axis, period: float, rng: np.random.Generator, harmonics: int, wander: float
-) -> "Wave":
-    """Draw a wave over position with harmonics, whose phase wanders slowly along the axis."""
+def _periodic(period: float, rng: np.random.Generator, harmonics: int, wander: float) -> Curve:
+    """Draw a wave over position, of rms 0.7; its phase wanders slowly along the axis."""
     orders = np.arange(1, harmonics + 1)
     shares = rng.uniform(0.0, 0.5, harmonics) / orders
     shares[0] = 1.0
-    return Wave(
-        period,
-        orders / 1.0,
-        shares / np.sqrt(np.sum(shares**2)),
-        rng.uniform(0.0, 2.0 * pi, harmonics),
-        wander * rng.uniform(0.3, 1.0),
-        rng.uniform(6.0, 20.0) * period,
-    )
+    shares /= np.sqrt(np.sum(shares**2))
+    phases = rng.uniform(0.0, 2.0 * pi, harmonics)
+    wander, length = wander * rng.uniform(0.3, 1.0), rng.uniform(6.0, 20.0) * period
 
-
-class Wave:
-    """A function of position, periodic but for a slow wander of its phase; rms 0.7."""
-
-    def __init__(
-        self,
-        period: float,
-        orders: FloatArray,
-        shares: FloatArray,
-        phases: FloatArray,
-        wander: float,
-        length: float,
-    ) -> None:
-        self.period, self.orders, self.shares = period, orders, shares
-        self.phases, self.wander, self.length = phases, wander, length
-
-    def __call__(self, position: FloatArray) -> FloatArray:
-        """Return the wave at ``position`` (n,)."""
-        turn = 2.0 * pi * position / self.period
-        turn = turn + self.wander * np.sin(2.0 * pi * position / self.length)
+    def wave(position: FloatArray) -> FloatArray:
+        turn = 2.0 * pi * position / period
+        turn = turn + wander * np.sin(2.0 * pi * position / length)
         out = np.zeros_like(position)
-        for order, share, phase in zip(self.orders, self.shares, self.phases, strict=True):
+        for order, share, phase in zip(orders, shares, phases, strict=True):
             out += share * np.sin(order * turn + phase)
         return out
+
+    return wave
 
 
 def microstep_error(axis: Axis, rng: np.random.Generator) -> Part:
     """Error with a period of four full steps; size is its amplitude, m."""
-    wave = periodic(axis, 4.0 * axis.full_step, rng, 4, 0.0)
-
-    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
-        return values + size * wave(values)
-
-    return Part("microstep_error", axis, Stage.ACTUATOR, act, (5e-8, 3e-6))
+    wave = _periodic(4.0 * axis.full_step, rng, 4, 0.0)
+    return _added("microstep_error", axis, wave, (5e-8, 3e-6))
 
 
 def leadscrew_error(axis: Axis, rng: np.random.Generator) -> Part:
     """Error with a period of one pitch or a fraction, phase slowly modulated; size in m."""
-    wave = periodic(axis, axis.pitch / rng.choice([1.0, 1.0, 1.0, 2.0]), rng, 3, 0.3)
-
-    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
-        return values + size * wave(values)
-
-    return Part("leadscrew_error", axis, Stage.ACTUATOR, act, (5e-8, 2e-5))
+    wave = _periodic(axis.pitch / rng.choice([1.0, 1.0, 1.0, 2.0]), rng, 3, 0.3)
+    return _added("leadscrew_error", axis, wave, (5e-8, 2e-5))

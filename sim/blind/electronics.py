@@ -19,7 +19,7 @@ def delay(axis: Axis, rng: np.random.Generator) -> Part:
     return Part("delay", axis, Stage.DRIVE, act, (1e-4, 1.5e-2))
 
 
-def lag_poles(rng: np.random.Generator) -> ComplexArray:
+def _lag_poles(rng: np.random.Generator) -> ComplexArray:
     """Draw a low-pass whose low-frequency delay is 1 s: one to three poles, in various places."""
     match rng.integers(4):
         case 0:
@@ -35,7 +35,7 @@ def lag_poles(rng: np.random.Generator) -> ComplexArray:
 
 def amplifier_lag(axis: Axis, rng: np.random.Generator) -> Part:
     """Bandwidth of the amplifier; size is its low-frequency delay in seconds."""
-    poles = lag_poles(rng)
+    poles = _lag_poles(rng)
 
     def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
         return lagged(values, poles / size, run.step_s)

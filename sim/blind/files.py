@@ -13,7 +13,7 @@ from rotemina.sim.blind.catalogue import CATALOGUE
 from rotemina.sim.blind.force import ForceCase
 from rotemina.sim.blind.machine import Commands
 from rotemina.sim.records.writing import open_export
-from rotemina.sim.robot.model import PiezoAxis, Robot
+from rotemina.sim.robot.model import Robot
 
 _HEAD = "# rotemina-record: 1\n# mode: {}\n"
 _VOLTAGE_NOISE = 0.003
@@ -104,16 +104,11 @@ def _columns(
 def _signals(case: Case, robot: Robot, commands: Commands, number: int) -> dict[str, FloatArray]:
     response, reading = measured(case, commands, number)
     chance = np.random.default_rng((case.seed, 78, number))
-    gains = [a.gain if isinstance(a := robot.axes[n], PiezoAxis) else 1.0 for n in case.names]
-    noise = [_reference_noise(robot, name) for name in case.names]
+    gains = [robot.axes[name].gain for name in case.names]
+    noise = [robot.reference.noise_rms.of(robot.unit(name)) or 0.0 for name in case.names]
     shape = response.motion.shape
     return {
         "u": response.drive / gains + chance.normal(0.0, _VOLTAGE_NOISE, shape),
         "ref": response.motion + chance.normal(0.0, 1.0, shape) * noise,
         "meas": reading,
     }
-
-
-def _reference_noise(robot: Robot, name: str) -> float:
-    noise = robot.reference.noise_rms
-    return (noise.angular if file_unit(robot, name)[0] == "urad" else noise.linear) or 0.0

@@ -6,10 +6,8 @@ from typing import BinaryIO
 import numpy as np
 
 
-def draw_confusion(
-    counts: Mapping[tuple[str, str], int], file: BinaryIO, picture_format: str = "svg"
-) -> None:
-    """Draw how often each truth (rows) was named as what (columns), as shares of the row."""
+def draw_confusion(counts: Mapping[tuple[str, str], int], file: BinaryIO) -> None:
+    """Draw as SVG how often each truth (rows) was named as what (columns), as shares of the row."""
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
@@ -28,5 +26,4 @@ def draw_confusion(
         for i, j in zip(*np.nonzero(table), strict=True):
             colour = "white" if shares[i, j] > 0.5 else "black"
             axes.text(j, i, str(table[i, j]), ha="center", va="center", fontsize=6, color=colour)
-        metadata = {"Date": None} if picture_format == "svg" else None
-        figure.savefig(file, format=picture_format, metadata=metadata)
+        figure.savefig(file, format="svg", metadata={"Date": None})

@@ -1,7 +1,5 @@
 """A Preisach plane with a smooth density, evaluated through its Everett function."""
 
-from typing import NamedTuple
-
 import numba
 import numpy as np
 
@@ -11,14 +9,11 @@ _CELLS = 200
 _DEEPEST = 4000
 
 
-class Plane(NamedTuple):
-    """``everett[i, j]``: output change from input j/n up to i/n (i ≥ j), for a plane on [0, 1]."""
+def draw_plane(rng: np.random.Generator) -> FloatArray:
+    """Draw a density over switching thresholds α ≥ β, and integrate it to the Everett function.
 
-    everett: FloatArray
-
-
-def draw_plane(rng: np.random.Generator) -> Plane:
-    """Draw a density over switching thresholds α ≥ β, and integrate it to the Everett function."""
+    Return the output change from input j/n up to i/n (i ≥ j), [i, j], for a plane on [0, 1].
+    """
     centre = (np.arange(_CELLS) + 0.5) / _CELLS
     up, down = np.meshgrid(centre, centre, indexing="ij")
     middle, width = (up + down) / 2.0, up - down
@@ -32,7 +27,7 @@ def draw_plane(rng: np.random.Generator) -> Plane:
     whole = np.zeros((_CELLS + 1, _CELLS + 1))
     whole[1:, 1:] = np.cumsum(np.cumsum(np.nan_to_num(density)[:, ::-1], axis=1), axis=0)
     everett = whole[:, ::-1].copy()
-    return Plane(everett / everett[_CELLS, 0])
+    return np.asarray(everett / everett[_CELLS, 0])
 
 
 @numba.njit(cache=True, error_model="numpy")

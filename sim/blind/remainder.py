@@ -1,6 +1,5 @@
 """A remainder that no catalogue names: small, smooth and the same in every run."""
 
-from collections.abc import Callable
 from math import pi
 
 import numpy as np
@@ -13,13 +12,10 @@ REMAINDER = "remainder"
 LEAST_SHARE, MOST_SHARE = 0.05, 0.3  # of the gap's rms
 _WAVES = 16
 
-Maker = Callable[[Axis, np.random.Generator], Part]
-
 
 def draw_remainder(axis: Axis, rng: np.random.Generator) -> Part:
     """Draw the shape of a remainder on an axis; its size is in m or rad."""
-    maker: Maker = _of_motion if rng.uniform() < 0.6 else _of_time
-    return maker(axis, rng)
+    return _of_motion(axis, rng) if rng.uniform() < 0.6 else _of_time(axis, rng)
 
 
 def _of_motion(axis: Axis, rng: np.random.Generator) -> Part:

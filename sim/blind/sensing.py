@@ -1,44 +1,31 @@
 """Sensors of the generator: gain, curve, lag, noise, steps, drift, outliers, clock."""
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.blind.curves import draw_curve
-from rotemina.sim.blind.electronics import lag_poles
-from rotemina.sim.blind.filters import lagged, smoothly_shifted
+from rotemina.sim.blind.actuator import gain_error, static_nonlinearity
+from rotemina.sim.blind.electronics import amplifier_lag, quantization
+from rotemina.sim.blind.filters import smoothly_shifted
 from rotemina.sim.blind.part import Axis, Part, SimulationRun, Stage
 
 
 def sensor_gain(axis: Axis, rng: np.random.Generator) -> Part:
     """Sensitivity of the sensor off by a share; size is the share."""
-    sign = rng.choice([-1.0, 1.0])
-
-    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
-        return np.asarray(values * (1.0 + sign * size))
-
-    return Part("sensor_gain", axis, Stage.READING, act, (1e-5, 0.1))
+    return replace(gain_error(axis, rng), effect="sensor_gain", stage=Stage.READING)
 
 
 def sensor_nonlinearity(axis: Axis, rng: np.random.Generator) -> Part:
     """Bowed characteristic of the sensor; size in m or rad."""
-    curve = draw_curve(axis, rng)
-
-    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
-        return values + size * curve(values)
-
-    return Part("sensor_nonlinearity", axis, Stage.READING, act, (axis.floor, 0.1 * axis.span))
+    bowed = static_nonlinearity(axis, rng)
+    return replace(bowed, effect="sensor_nonlinearity", stage=Stage.READING)
 
 
 def sensor_lag(axis: Axis, rng: np.random.Generator) -> Part:
     """Bandwidth of the sensor; size is its low-frequency delay in seconds."""
-    poles = lag_poles(rng)
-
-    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
-        return lagged(values, poles / size, run.step_s)
-
-    return Part("sensor_lag", axis, Stage.SENSOR, act, (1e-4, 2e-2))
+    return replace(amplifier_lag(axis, rng), effect="sensor_lag", stage=Stage.SENSOR)
 
 
 def sensor_noise(axis: Axis, rng: np.random.Generator) -> Part:
@@ -57,14 +44,8 @@ def sensor_noise(axis: Axis, rng: np.random.Generator) -> Part:
 
 def sensor_quantization(axis: Axis, rng: np.random.Generator) -> Part:
     """Coarser steps than declared, mid-tread with an offset; size is the step, m or rad."""
-    phase = rng.uniform()
-
-    def act(values: FloatArray, run: SimulationRun, size: float) -> FloatArray:
-        return np.asarray((np.round(values / size + phase) - phase) * size)
-
-    return Part(
-        "sensor_quantization", axis, Stage.READING, act, (4.0 * axis.floor, 0.02 * axis.span)
-    )
+    coarse, sizes = quantization(axis, rng), (4.0 * axis.floor, 0.02 * axis.span)
+    return replace(coarse, effect="sensor_quantization", stage=Stage.READING, sizes=sizes)
 
 
 def sensor_drift(axis: Axis, rng: np.random.Generator) -> Part:

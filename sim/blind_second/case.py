@@ -91,7 +91,8 @@ class SecondCase:
             own = {
                 Tap.CMD: asked.values[:, i],
                 Tap.U: taps.drive[:, i] / axis.volt + _VOLTAGE_NOISE * noise[0],
-                Tap.REF: taps.motion[:, i] + _reference(robot, axis) * noise[1],
+                Tap.REF: taps.motion[:, i]
+                + (robot.reference.noise_rms.of(robot.unit(axis.name)) or 0.0) * noise[1],
                 Tap.MEAS: np.round(read) * axis.resolution,
             }
             if axis.kind == "stepper":
@@ -100,11 +101,6 @@ class SecondCase:
         time_s = np.asarray(np.arange(len(asked.values)) * asked.step_s, dtype=np.float64)
         units = {axis.name: robot.unit(axis.name) or "m" for axis in self.machine.axes}
         return Record.from_signals(time_s, signals, units, {"mode": "open_loop"})
-
-
-def _reference(robot: Robot, axis: AxisFacts) -> float:
-    noise = robot.reference.noise_rms
-    return (noise.angular if robot.unit(axis.name) == "rad" else noise.linear) or 0.0
 
 
 def draw_second(robot: Robot, seed: int) -> SecondCase:

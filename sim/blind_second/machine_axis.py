@@ -66,5 +66,5 @@ def facts_of(robot: Robot, name: str, index: int, commands: FloatArray) -> AxisF
         *axis.inertia,
         pitch / steps,
         pitch,
-        axis.gain if isinstance(axis, PiezoAxis) else 1.0,
+        axis.gain,
     )

@@ -71,7 +71,7 @@ def compared(record: Record, axis: str, robot: Robot, name: str = "record") -> C
     sound = ~_widened(lost)
     parts = tuple(
         _part(record, axis, rows, interval_s)
-        for rows in _stretches(sound, breaks)
+        for rows in stretches(sound, breaks)
         if (rows.stop - rows.start) * interval_s >= LEAST_PART_S
     )
     kept = sum(part.rows.stop - part.rows.start for part in parts)
@@ -175,12 +175,11 @@ def _widened(lost: BoolArray) -> BoolArray:
 
 
 def _told(time_s: FloatArray, lost: BoolArray, breaks: np.ndarray) -> tuple[str, ...]:
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], lost.astype(np.int8), [0]])))
     told = [
         message("engine", "the laser was lost from {begin} s to {end} s").fill(
-            begin=fixed(time_s[begin], 3), end=fixed(time_s[end - 1], 3)
+            begin=fixed(time_s[rows.start], 3), end=fixed(time_s[rows.stop - 1], 3)
         )
-        for begin, end in zip(edges[::2], edges[1::2], strict=True)
+        for rows in stretches(lost)
     ]
     told += [
         message("engine", "no rows from {begin} s to {end} s").fill(
@@ -191,10 +190,11 @@ def _told(time_s: FloatArray, lost: BoolArray, breaks: np.ndarray) -> tuple[str,
     return tuple(told)
 
 
-def _stretches(sound: BoolArray, breaks: np.ndarray) -> list[slice]:
-    """Return the runs of sound rows, cut at breaks."""
+def stretches(sound: BoolArray, breaks: np.ndarray | None = None) -> list[slice]:
+    """Return the runs of sound rows, cut behind the rows of ``breaks``."""
     number = np.zeros(len(sound), dtype=np.int64)
-    number[breaks + 1] = 1
+    if breaks is not None:
+        number[breaks + 1] = 1
     number = 2 * np.cumsum(number) + sound
     edges = np.concatenate([[0], np.flatnonzero(np.diff(number)) + 1, [len(sound)]])
     return [slice(int(begin), int(end)) for begin, end in itertools.pairwise(edges) if sound[begin]]

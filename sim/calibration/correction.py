@@ -10,7 +10,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.sensor import SensorModel
 from rotemina.sim.calibration.sensor_lag import Lag
-from rotemina.sim.calibration.stops import stops
+from rotemina.sim.stops import stops
 
 _ROUNDS = 4  # each leaves a few per cent of the error at the most
 _SMOOTHED_S = 5e-3  # over which the speed is taken, or the lag where that is longer

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray, IntArray
+from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.regression_columns import (
     Choice,
     Gram,
@@ -73,7 +73,7 @@ def fit(
         [
             table[block].T @ (target - table @ parameters)[block]
             for table, target in tables
-            for block in _blocks(len(target))
+            for block in np.array_split(np.arange(len(target)), BLOCKS)
         ]
     )
     inverse = total.inverse()
@@ -120,18 +120,14 @@ def chosen(runs: list[Run], bounds: tuple[float, float], period: float, lags: bo
         if _gains(best.errors(best.whole), candidate.errors(candidate.whole)):
             best = candidate
     choice = best.whole
-    for less in _simpler(choice):
-        if not _gains(best.errors(less), best.errors(choice)):
-            choice = less
+    less = choice._replace(hysteresis=False)
+    if not _gains(best.errors(less), best.errors(choice)):
+        choice = less
     for bends in range(choice.bends):
         fewer = choice._replace(bends=bends)
         if not _gains(best.errors(fewer), best.errors(choice)):
             return fewer
     return choice
-
-
-def _simpler(choice: Choice) -> list[Choice]:
-    return [choice._replace(hysteresis=False)]
 
 
 class _Candidate(NamedTuple):
@@ -162,7 +158,3 @@ def _gains(before: FloatArray, after: FloatArray) -> bool:
     fall = before - after
     error = float(fall.std(ddof=1)) / np.sqrt(len(fall))
     return bool(fall.mean() > max(error, _WORTH * float(before.mean())))
-
-
-def _blocks(rows: int) -> list[IntArray]:
-    return np.array_split(np.arange(rows), BLOCKS)

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import BoolArray, FloatArray
+from rotemina.sim.calibration.comparable_parts import stretches
 from rotemina.sim.calibration.regression_columns import Gram, Run
 from rotemina.sim.calibration.sensor import waves
 
@@ -106,7 +107,8 @@ def _stretches(runs: list[Run], remainders: list[FloatArray]) -> _Stretches | No
     found = [
         (run.reference[rows], remainder[rows])
         for run, remainder in zip(runs, remainders, strict=True)
-        for rows in _lasting(_creeping(_paces(run), fastest))
+        for rows in stretches(_creeping(_paces(run), fastest))
+        if rows.stop - rows.start >= _LEAST_ROWS
     ]
     if not found:
         return None
@@ -129,12 +131,3 @@ def _paces(run: Run) -> FloatArray:
     """Return smoothed speeds (n,), m or rad a row."""
     window = np.ones(25) / 25.0
     return np.abs(np.convolve(np.gradient(run.reference), window, mode="same"))
-
-
-def _lasting(mask: BoolArray) -> list[slice]:
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(np.int8), [0]])))
-    return [
-        slice(int(begin), int(end))
-        for begin, end in zip(edges[::2], edges[1::2], strict=True)
-        if end - begin >= _LEAST_ROWS
-    ]

@@ -25,8 +25,8 @@ from rotemina.sim.excitation.moves import (
 )
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import PiezoAxis, Robot, StepperAxis
-from rotemina.sim.trajectory.axis_limits import voltage_bounds
+from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.trajectory.axis_limits import reachable
 
 RUNS = ISO_RUNS
 TARGETS = 11
@@ -116,11 +116,7 @@ class _Path:
 
     def __init__(self, robot: Robot, axis: str, rate_hz: float) -> None:
         model = robot.axes[axis]
-        low, high = model.range
-        bounds = voltage_bounds(model)
-        if bounds is not None and isinstance(model, PiezoAxis):
-            ends = sorted(bound * model.gain for bound in bounds)
-            low, high = max(low, ends[0]), min(high, ends[1])
+        low, high = reachable(model)
         self._low = low + _MARGIN * (high - low)
         self._span = (1.0 - 2.0 * _MARGIN) * (high - low)
         self._rate_hz = rate_hz

@@ -12,7 +12,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.sensor import SHARES, SensorModel, waves
 from rotemina.sim.calibration.sensor_lag import Lag, lagged, slope_by_lag
-from rotemina.sim.calibration.stops import stops
+from rotemina.sim.stops import stops
 
 _TINY = 1e-9  # of the largest: a singular value that is none
 
@@ -111,25 +111,25 @@ class Gram(NamedTuple):
 
     def solved(self) -> FloatArray:
         """Return the least-squares solution; undetermined parameters are 0."""
-        scale = _scale(self.matrix)
-        inverse = np.linalg.pinv(self.matrix / np.outer(scale, scale), rcond=_TINY, hermitian=True)
+        scale, inverse = self._scaled_inverse()
         return np.asarray(inverse @ (self.vector / scale) / scale)
 
     def inverse(self) -> FloatArray:
         """Return the pseudo-inverse of the matrix."""
-        scale = _scale(self.matrix)
-        inverse = np.linalg.pinv(self.matrix / np.outer(scale, scale), rcond=_TINY, hermitian=True)
+        scale, inverse = self._scaled_inverse()
         return np.asarray(inverse / np.outer(scale, scale))
+
+    def _scaled_inverse(self) -> tuple[FloatArray, FloatArray]:
+        """Return the sizes of the columns (k,), and the pseudo-inverse with all of size 1."""
+        scale = np.sqrt(np.diag(self.matrix))
+        scale = np.where(scale > 0.0, scale, 1.0)
+        equal = self.matrix / np.outer(scale, scale)
+        return scale, np.linalg.pinv(equal, rcond=_TINY, hermitian=True)
 
     def mean_square(self, parameters: FloatArray) -> float:
         """Return the mean square residual of parameters."""
         left = self.square - 2.0 * parameters @ self.vector + parameters @ self.matrix @ parameters
         return max(float(left), 0.0) / self.rows
-
-
-def _scale(matrix: FloatArray) -> FloatArray:
-    scale = np.sqrt(np.diag(matrix))
-    return np.where(scale > 0.0, scale, 1.0)
 
 
 def model_of(

@@ -4,7 +4,7 @@
 
 of the position q̃ that came through the lag; ξ = −1 … 1 over the range, ``φ = 2π q̃/p``. So offset
 and gain are those of the line through both ends of the range, and the bend is the terminal-based
-nonlinearity. ``E_j`` are stop operators (:mod:`rotemina.sim.calibration.stops`).
+nonlinearity. ``E_j`` are stop operators (:mod:`rotemina.sim.stops`).
 """
 
 from dataclasses import dataclass
@@ -15,6 +15,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.sensor_lag import Lag
 
 SHARES = (0.0005, 0.002, 0.01, 0.04, 0.15)  # of the range: radii of the stops
+PLACES = np.linspace(-1.0, 1.0, 401)  # ξ at which the greatest bend is looked for
 BENDS = 6  # coefficients of the bend at the most
 
 
@@ -50,12 +51,16 @@ class SensorModel:
         """Return ξ."""
         return np.asarray((2.0 * position - self.low - self.high) / (self.high - self.low))
 
+    def bend_at(self, place: FloatArray) -> FloatArray:
+        """Return the bend (n,) at ξ, m or rad; there must be one."""
+        curve = np.polynomial.polynomial.polyval(place, self.bend)
+        return np.asarray((1.0 - place**2) * curve)
+
     def bent(self, position: FloatArray) -> FloatArray:
         """Return the error (n,) of bend and interpolation, m or rad."""
         error = np.zeros_like(position)
         if self.bend:
-            place = self.place(position)
-            error += (1.0 - place**2) * np.polynomial.polynomial.polyval(place, self.bend)
+            error += self.bend_at(self.place(position))
         if self.period:
             error += waves(position, self.period) @ np.array(self.harmonics)
         return error
@@ -68,12 +73,7 @@ class SensorModel:
     @property
     def nonlinearity(self) -> float:
         """Greatest bend over the range, m or rad."""
-        if not self.bend:
-            return 0.0
-        place = np.linspace(-1.0, 1.0, 401)
-        return float(
-            np.abs((1.0 - place**2) * np.polynomial.polynomial.polyval(place, self.bend)).max()
-        )
+        return float(np.abs(self.bend_at(PLACES)).max()) if self.bend else 0.0
 
     @property
     def interpolation(self) -> float:

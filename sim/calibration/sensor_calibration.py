@@ -19,7 +19,7 @@ from rotemina.sim.calibration.fitting import Fitted, chosen, fit
 from rotemina.sim.calibration.interpolation import found_period
 from rotemina.sim.calibration.iso230 import Positioning, positioning
 from rotemina.sim.calibration.regression_columns import Run
-from rotemina.sim.calibration.sensor import SHARES, SensorModel
+from rotemina.sim.calibration.sensor import PLACES, SHARES, SensorModel
 from rotemina.sim.calibration.zero_drift import zero_drifts
 from rotemina.sim.messages import marked, message
 from rotemina.sim.quantities import rounded
@@ -257,9 +257,7 @@ def _figures(fitted: Fitted, unit: str, step_s: float) -> tuple[Figure, ...]:
     ]
     at = 2
     if choice.bends:
-        place = np.linspace(-1.0, 1.0, 401)
-        curve = (1.0 - place**2) * np.polynomial.polynomial.polyval(place, model.bend)
-        worst = float(place[np.argmax(np.abs(curve))])
+        worst = float(PLACES[np.argmax(np.abs(model.bend_at(PLACES)))])
         weights = {at + k: (1.0 - worst**2) * worst**k for k in range(choice.bends)}
         figures.append(
             Figure(

@@ -13,7 +13,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.plant.response import Response, nominal_response
 from rotemina.sim.records.record import VOLTAGE_TAPS, Record, Tap
-from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.robot.model import Robot
 
 FORMAT = "rotemina-comparison 1"
 #: Rows, beside the first one, without which a record of a motion says nothing about a model.
@@ -134,12 +134,8 @@ def _plain(tap: TapComparison) -> dict[str, Any]:
 
 def _is_answer(robot: Robot, record: Record, axis: str, tap: Tap) -> bool:
     """Whether the model answers with this tap, rather than being driven by it or lacking it."""
-    described = robot.axes[axis]
-    if tap is not Tap.U:
-        return True
-    if isinstance(described, StepperAxis):
-        return False
-    return described.kind == "piezo" or record.closed_loop
+    kind = robot.axes[axis].kind
+    return tap is not Tap.U or kind == "piezo" or (kind == "force" and record.closed_loop)
 
 
 def _compare_tap(
@@ -198,7 +194,7 @@ def _refitted(
 
 def _span(robot: Robot, axis: str, tap: Tap) -> float | None:
     described = robot.axes[axis]
-    if tap is not Tap.U or isinstance(described, StepperAxis):
+    if tap is not Tap.U:
         return described.span
     if described.voltage_range is not None:
         return described.voltage_range[1] - described.voltage_range[0]

@@ -9,7 +9,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.records.record import Record, Tap
-from rotemina.sim.robot.model import CascadeController, Robot, StepperAxis
+from rotemina.sim.robot.model import CascadeController, Robot
 
 _ROUNDING = 1e-12  # of a signal's size
 _REST_ROWS = 50  # a hold shorter than this says nothing about noise
@@ -43,8 +43,7 @@ def _declared(robot: Robot, record: Record, axis: str, tap: Tap) -> float | None
         own = record.reference_noise(axis)
         if own is not None:
             return own
-        noise = robot.reference.noise_rms
-        return noise.angular if record.units[axis] == "rad" else noise.linear
+        return robot.reference.noise_rms.of(record.units[axis])
     sensor = robot.axes[axis].sensor
     if sensor is None:
         return None
@@ -63,7 +62,7 @@ def _noise_gain(robot: Robot, axis: str, period_s: float) -> float | None:
     equals a set-point of ``-n``, less ``(n_k - n_{k-1}) / (kp dt)`` where speed is differenced.
     """
     described = robot.axes[axis]
-    if isinstance(described, StepperAxis) or described.controller is None:
+    if described.controller is None:
         return None
     loop = described.controller
     linear: CascadeController = replace(loop, limit=1e300)

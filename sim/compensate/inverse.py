@@ -210,8 +210,7 @@ def resting_at(model: InverseModel, sample_s: float, command: float) -> tuple[In
 
 def numbers_of(model: InverseModel, sample_s: float, *, preview: bool = False) -> Numbers:
     """Return what the kernel needs of a model at one sampling rate."""
-    # The command of another rate is held for longer or shorter.
-    lag = 0.0 if preview else model.lag_s + 0.5 * (sample_s - model.sample_s)
+    lag = 0.0 if preview else model.lag_at(sample_s)
     # Differences to the back, of second order: 3/2, −2, 1/2 of ẏ; 1, −2, 1 of ÿ.
     slope, bow = lag / (2.0 * sample_s), (0.5 * lag**2 + model.mode_s2) / sample_s**2
     premises = model.premises

@@ -24,10 +24,6 @@ def _none() -> FloatArray:
     return np.zeros(0)
 
 
-def _straight() -> FloatArray:
-    return np.ones(1)
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Premises:
     """Gaussian memberships on a grid: every combination of one of each input is a rule.
@@ -104,4 +100,8 @@ class InverseModel:
     creep_weights: FloatArray = field(default_factory=_none)
     bend_offset: float = 0.0
     bend_at: FloatArray = field(default_factory=_none)
-    bend: FloatArray = field(default_factory=_straight)
+    bend: FloatArray = field(default_factory=lambda: np.ones(1))
+
+    def lag_at(self, sample_s: float) -> float:
+        """Return the lag, s, where commands come ``sample_s`` apart: each is held that long."""
+        return self.lag_s + 0.5 * (sample_s - self.sample_s)

@@ -62,7 +62,7 @@ def residual(model: InverseModel, runs: Sequence[tuple[Samples, int]]) -> Residu
     free = replace(model, desired_range=(-np.inf, np.inf))
     for samples, first in runs:
         command = Inverse(free, samples.sample_s, preview=True).run(samples.position)
-        late = model.lag_s + 0.5 * (samples.sample_s - model.sample_s) if model.lag_s else 0.0
+        late = model.lag_at(samples.sample_s) if model.lag_s else 0.0
         true = delayed(samples.command, late / samples.sample_s)
         apart.append((command - true)[first:])
         given.append(true[first:])

@@ -160,22 +160,6 @@ def uncrept(creep: FloatArray, positions: FloatArray) -> FloatArray:
 
 
 @numba.njit(cache=True, error_model="numpy")
-def stops(radii: FloatArray, initial: FloatArray, positions: FloatArray) -> FloatArray:
-    """Return the stops (n, p) ``z − P(z)`` of ``positions`` (n,).
-
-    The plays come from their ``initial`` (p,) states in a rise from z = 0.
-    """
-    plays = initial.copy()
-    out = np.empty((len(positions), len(radii)))
-    for k in range(len(positions)):
-        z = positions[k]
-        for j in range(len(radii)):
-            plays[j] = max(z - radii[j], min(z + radii[j], plays[j]))
-            out[k, j] = z - plays[j]
-    return out
-
-
-@numba.njit(cache=True, error_model="numpy")
 def graded(grid: FloatArray, values: FloatArray) -> FloatArray:
     """Return how much each rule of ``grid`` (2, k, m) holds (n, rules) for ``values`` (n, k)."""
     out = np.ones((len(values), grid.shape[2] ** grid.shape[1]))

@@ -13,6 +13,7 @@ import scipy
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate import kernel
 from rotemina.sim.compensate.samples import Samples
+from rotemina.sim.stops import stops
 
 PLAYS = 12
 MOST_LAG = 20  # samples more than the least
@@ -136,15 +137,15 @@ def _rows(stages: Stages, samples: Sequence[Samples], every: int) -> tuple[Float
     return np.concatenate(rows), np.concatenate(goals)
 
 
-def _bent_features(z: FloatArray, stops: FloatArray) -> FloatArray:
+def _bent_features(z: FloatArray, held: FloatArray) -> FloatArray:
     """Return what can tell a loop (n, …) whose slope and width change along the range."""
     powers = z[:, None] ** np.arange(5)
-    return np.column_stack([powers, stops, stops * z[:, None], stops * z[:, None] ** 2])
+    return np.column_stack([powers, held, held * z[:, None], held * z[:, None] ** 2])
 
 
 def stops_of(z: FloatArray, initial: FloatArray) -> FloatArray:
     """Return the stops (n, p) of z (n,), whose plays begin in ``initial`` (p,) states."""
-    return kernel.stops(thresholds(), initial, z)
+    return stops(z, thresholds(), initial.copy())
 
 
 def solved(rows: FloatArray, goals: FloatArray) -> FloatArray:

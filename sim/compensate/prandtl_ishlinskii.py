@@ -15,7 +15,7 @@ import numpy as np
 import scipy
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.compensate import kernel
+from rotemina.sim.stops import stops
 
 LEAST_SLOPE = 0.02  # straight after a reversal, of the slope from end to end
 
@@ -34,7 +34,7 @@ class Hysteresis:
 
     def answer(self, commands: FloatArray) -> FloatArray:
         """Return the output (n,) for ``commands`` (n,), after a rise from 0."""
-        plays = commands[:, None] - kernel.stops(self.radii, self.initial, commands)
+        plays = commands[:, None] - stops(commands, self.radii, self.initial.copy())
         return np.asarray(self.offset + self.weights[0] * commands + plays @ self.weights[1:])
 
     def inverse(self) -> "Hysteresis":

@@ -1,7 +1,7 @@
 """Inverses of all kinds from the same rows, compared on rows that none was trained with."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,9 +12,8 @@ from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse_parameters import InverseModel, Kind
 from rotemina.sim.compensate.judgement import Residual, reason, recommended, residual
 from rotemina.sim.compensate.lag_and_creep import Stages, find_stages, stops_of, thresholds
-from rotemina.sim.compensate.linear import fit_line
 from rotemina.sim.compensate.modified_prandtl_ishlinskii import fit_modified
-from rotemina.sim.compensate.prandtl_ishlinskii import fit_hysteresis
+from rotemina.sim.compensate.prandtl_ishlinskii import Hysteresis, fit_hysteresis
 from rotemina.sim.compensate.samples import Samples, common, one_size
 from rotemina.sim.messages import Message, marked, message
 from rotemina.sim.quantities import percent
@@ -81,7 +80,10 @@ def train(
     first = common([*samples, *held_out])
     tell(marked("engine", "lag and creep"), 0.0)
     kept = [_split(each, whole=bool(held_out)) for each in samples]
-    known = [_early(each, last) for each, last in zip(samples, kept, strict=True)]
+    known = [
+        replace(each, command=each.command[:last], position=each.position[:last])
+        for each, last in zip(samples, kept, strict=True)
+    ]
     if sum(len(each.command) - each.first for each in known) < _FEWEST:
         raise CompensationError(
             message(
@@ -130,18 +132,6 @@ def _split(samples: Samples, *, whole: bool) -> int:
     """Return the row at which training ends."""
     rows = len(samples.command)
     return rows if whole else rows - int(HELD_OUT * (rows - samples.first))
-
-
-def _early(samples: Samples, last: int) -> Samples:
-    return Samples(
-        samples.name,
-        samples.axis,
-        samples.unit,
-        samples.sample_s,
-        samples.command[:last],
-        samples.position[:last],
-        samples.first,
-    )
 
 
 def _least_lag_s(axis: PiezoAxis, samples: Samples) -> float:
@@ -235,37 +225,32 @@ def _anfis(
 
 def _modified(facts: dict[str, Any], pool: _Pool) -> InverseModel:
     whole, bend = fit_modified(thresholds(), pool.commanded, pool.command, pool.plays, pool.z)
-    inverse = whole.inverse()
-    return InverseModel(
-        kind="modified_prandtl_ishlinskii",
-        radii=inverse.radii,
-        initial=inverse.initial,
-        consequents=inverse.consequents(),
-        bend_offset=bend.offset,
-        bend_at=bend.at,
-        bend=bend.slopes,
-        **facts,
-    )
+    bends = {"bend_offset": bend.offset, "bend_at": bend.at, "bend": bend.slopes}
+    return _inverted("modified_prandtl_ishlinskii", whole, facts | bends)
 
 
 def _classical(facts: dict[str, Any], pool: _Pool) -> InverseModel:
     whole = fit_hysteresis(thresholds(), pool.commanded, pool.command, pool.plays, pool.z)
+    return _inverted("prandtl_ishlinskii", whole, facts | {"bend_offset": -whole.offset})
+
+
+def _inverted(kind: Kind, whole: Hysteresis, facts: dict[str, Any]) -> InverseModel:
     inverse = whole.inverse()
     return InverseModel(
-        kind="prandtl_ishlinskii",
+        kind=kind,
         radii=inverse.radii,
         initial=inverse.initial,
         consequents=inverse.consequents(),
-        bend_offset=-whole.offset,
         **facts,
     )
 
 
 def _linear(facts: dict[str, Any], samples: Sequence[Samples]) -> InverseModel:
-    """Return the line, which has no stages besides."""
+    """Return the straight line from position to command, without memory or stages besides."""
     z = np.concatenate([each.position[each.first :] for each in samples]) - facts["origin"]
     x = np.concatenate([each.command[each.first :] for each in samples]) - facts["command_origin"]
-    span = facts["span"]
+    rows = np.column_stack([np.ones_like(z), z / facts["span"]])
+    consequents = np.linalg.lstsq(rows, x / facts["span"])[0][None]
     empty = np.zeros(0)
     plain = facts | {"lag_s": 0.0, "mode_s2": 0.0, "creep_times_s": empty, "creep_weights": empty}
-    return InverseModel(kind="linear", consequents=fit_line(z / span, x / span), **plain)
+    return InverseModel(kind="linear", consequents=consequents, **plain)

@@ -8,6 +8,7 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.errors import CompensationError
 from rotemina.sim.compensate.inverse import Exceedance, Inverse
 from rotemina.sim.compensate.inverse_parameters import InverseModel
+from rotemina.sim.compensate.lag_and_creep import delayed
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, rounded
 from rotemina.sim.records.record import Record, Tap
@@ -95,9 +96,7 @@ def _sent(
     inverse = Inverse(model, sample_s, preview=preview)
     inverse.check(desired)
     if preview and model.lag_s:
-        rows = np.arange(len(desired), dtype=np.float64)
-        ahead = model.lag_s + 0.5 * (sample_s - model.sample_s)
-        desired = np.interp(rows + ahead / sample_s, rows, desired)
+        desired = delayed(desired, -model.lag_at(sample_s) / sample_s)
     sent, said = inverse.run_and_tell(desired)
     beyond = (said & Exceedance.COMMAND) != 0
     if beyond.any():

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import pi, sqrt
 from typing import Self
 
-from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, StepperAxis
+from rotemina.sim.robot.model import Axis, ForceAxis, StepperAxis
 
 _FORCE_SHARE = 1e-4  # of stiffness times range: a force that bends an axis noticeably
 _PITCHES = 50  # that a range is taken to hold where the robot file names no screw
@@ -78,7 +78,6 @@ class Facts:
     def of(cls, axis: Axis) -> Self:
         """Gather the figures of an axis."""
         low, high = axis.range
-        gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
         inputs = _inputs(axis)
         inertia = axis.inertia
         mass, damping, stiffness = inertia if inertia is not None else (0.0, 0.0, 0.0)
@@ -95,7 +94,7 @@ class Facts:
             input_low=inputs[0],
             input_high=inputs[1],
             input_span=inputs[1] - inputs[0],
-            gain=gain,
+            gain=axis.gain,
             mass=mass,
             damping=damping,
             stiffness=stiffness,
@@ -113,9 +112,7 @@ class Facts:
 
 def _inputs(axis: Axis) -> tuple[float, float]:
     """Return the ends of the input's range."""
-    if isinstance(axis, StepperAxis):
-        return axis.range
-    if isinstance(axis, PiezoAxis):
+    if not isinstance(axis, ForceAxis):
         reached = sorted(bound / axis.gain for bound in axis.range)
         low, high = axis.voltage_range or (reached[0], reached[1])
         return low, high

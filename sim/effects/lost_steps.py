@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import (
     Drive,
     Effect,
@@ -10,7 +9,6 @@ from rotemina.sim.effects.formulation import (
     Parameter,
     Stage,
     Trait,
-    Values,
 )
 from rotemina.sim.effects.identification import Identification, Sign
 
@@ -41,14 +39,6 @@ def event(x, other, t, h, a, b, p, s):  # type: ignore[no-untyped-def]  # compil
     return x + p[1] * (t + h - p[0]) / h
 
 
-def _inner_step(_values: Values, facts: Facts) -> float:
-    return _INNER_SHARE / facts.pace_hz
-
-
-def _slip(values: Values, facts: Facts) -> tuple[float, ...]:
-    return (values["time"], _STEPS * facts.full_step * values["slips"])
-
-
 LOST_STEPS = Effect(
     id="lost_steps",
     title="Lost steps",
@@ -75,7 +65,7 @@ LOST_STEPS = Effect(
             ),
             acts=Drive(step=overload, states=1, timed=True),
             prepare=lambda values, facts: (values["limit"], _STEPS * facts.full_step),
-            inner_step_s=_inner_step,
+            inner_step_s=lambda _, facts: _INNER_SHARE / facts.pace_hz,
         ),
         Formulation(
             name="event",
@@ -93,7 +83,10 @@ LOST_STEPS = Effect(
                 ),
             ),
             acts=Drive(step=event),
-            prepare=_slip,
+            prepare=lambda values, facts: (
+                values["time"],
+                _STEPS * facts.full_step * values["slips"],
+            ),
             traits=frozenset({Trait.LOCKED_TO_TIME}),
         ),
     ),

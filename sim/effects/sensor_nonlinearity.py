@@ -32,10 +32,6 @@ def _over_the_range(values: Values, facts: Facts) -> tuple[float, ...]:
     return middle, 2.0 / facts.span, values["bow"], values["cubic"] / _CUBIC_PEAK
 
 
-def _series(values: Values, facts: Facts) -> tuple[float, ...]:
-    return bends.numbers(values, facts.low, facts.span)
-
-
 _TRAITS = frozenset({Trait.MEMORYLESS, Trait.RATE_INDEPENDENT, Trait.READING_ONLY})
 
 SENSOR_NONLINEARITY = Effect(
@@ -76,7 +72,7 @@ SENSOR_NONLINEARITY = Effect(
             source=bends.SOURCE,
             parameters=bends.parameters(),
             acts=Reading(step=bends.bent),
-            prepare=_series,
+            prepare=lambda values, facts: bends.numbers(values, facts.low, facts.span),
             traits=_TRAITS,
         ),
     ),

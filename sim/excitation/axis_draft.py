@@ -11,8 +11,8 @@ from rotemina.sim.excitation.moves import shortest_duration
 from rotemina.sim.excitation.quantity import Amount, ExcitationError, Share
 from rotemina.sim.messages import Listed, Message, message
 from rotemina.sim.quantities import exact, rounded
-from rotemina.sim.robot.model import Axis, PiezoAxis
-from rotemina.sim.trajectory.axis_limits import voltage_bounds
+from rotemina.sim.robot.model import Axis
+from rotemina.sim.trajectory.axis_limits import reachable
 
 AMPLITUDE = 0.3  # of the range, to each side, where nothing is asked
 MOST_ROWS = 20_000_000
@@ -97,11 +97,7 @@ class Draft:
         most: float = inf,
     ) -> "Draft":
         """Start the draft of an axis: its room is the range that its voltage reaches, too."""
-        low, high = axis.range
-        bounds = voltage_bounds(axis)
-        if bounds is not None and isinstance(axis, PiezoAxis):
-            reach = sorted(voltage * axis.gain for voltage in bounds)
-            low, high = max(low, reach[0]), min(high, reach[1])
+        low, high = reachable(axis)
         return cls(
             axis=name,
             unit=axis.unit or "m",
@@ -161,6 +157,13 @@ class Draft:
         """
         self.centre = (self.low + self.high) / 2.0 if asked is None else self._stated(asked)
         return self.centre
+
+    def signal(
+        self, values: FloatArray, period: int | None = None, /, **parameters: object
+    ) -> Signal:
+        """Return a signal with its parameters after the amplitude and offset that were given."""
+        moved = {f"amplitude_{self.unit}": self.reach, f"offset_{self.unit}": self.centre}
+        return Signal(values, moved | parameters, period)
 
     def _stated(self, asked: Amount) -> float:
         share = isinstance(asked, Share)

@@ -50,14 +50,9 @@ class Sine:
         shape = -np.cos(2.0 * np.pi * (index * cycles % rows) / rows)
         offset = draft.offset(self.offset)
         amplitude = draft.amplitude(self.amplitude, offset, draft.shape_amplitudes(shape))
-        parameters = {
-            f"amplitude_{draft.unit}": amplitude,
-            f"offset_{draft.unit}": offset,
-            "frequency_hz": frequency,
-            "cycles": cycles,
-        }
         period = rows // gcd(rows, cycles) if self.periodic else None
-        return Signal(offset + amplitude * shape, parameters, period)
+        values = offset + amplitude * shape
+        return draft.signal(values, period, frequency_hz=frequency, cycles=cycles)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,15 +99,13 @@ class Chirp:
         shape = -np.cos(2.0 * np.pi * factor * phase)
         offset = draft.offset(self.offset)
         amplitude = draft.amplitude(self.amplitude, offset, draft.shape_amplitudes(shape))
-        parameters = {
-            f"amplitude_{draft.unit}": amplitude,
-            f"offset_{draft.unit}": offset,
-            "low_hz": low * factor,
-            "high_hz": high * factor,
-            "spacing": self.spacing,
-            "duration_s": rows / draft.rate_hz,
-        }
-        return Signal(offset + amplitude * shape, parameters)
+        return draft.signal(
+            offset + amplitude * shape,
+            low_hz=low * factor,
+            high_hz=high * factor,
+            spacing=self.spacing,
+            duration_s=rows / draft.rate_hz,
+        )
 
     def _cycles(self, share: FloatArray, low: float, high: float) -> FloatArray:
         """Return the integral of the frequency over the share (n,) of the duration, Hz."""
@@ -160,16 +153,14 @@ class Multisine:
         if not self.periodic:
             shape = np.append(shape, one[0])
         amplitude = draft.amplitude(self.amplitude, offset, draft.shape_amplitudes(shape))
-        parameters = {
-            f"amplitude_{draft.unit}": amplitude,
-            f"offset_{draft.unit}": offset,
-            "period_s": rows / draft.rate_hz,
-            "periods": periods,
-            "lines": " ".join(str(line) for line in lines),
-            "slope": self.slope,
-        }
-        period = rows if self.periodic else None
-        return Signal(offset + amplitude * shape, parameters, period)
+        return draft.signal(
+            offset + amplitude * shape,
+            rows if self.periodic else None,
+            period_s=rows / draft.rate_hz,
+            periods=periods,
+            lines=" ".join(str(line) for line in lines),
+            slope=self.slope,
+        )
 
     def _check(self) -> None:
         check_positive(

@@ -54,13 +54,7 @@ class Staircase:
         for level in up[1:] + up[-2::-1]:
             path.move(level)
             path.hold(self.hold_s)
-        parameters = {
-            f"amplitude_{draft.unit}": amplitude,
-            f"offset_{draft.unit}": offset,
-            "levels": self.levels,
-            "hold_s": self.hold_s,
-        }
-        return Signal(path.values, parameters)
+        return draft.signal(path.values, levels=self.levels, hold_s=self.hold_s)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,14 +86,7 @@ class Steps:
         for way in (1.0, 0.0, -1.0, 0.0) * self.cycles:
             path.curve(offset + way * amplitude, rise)
             path.hold(self.hold_s)
-        parameters = {
-            f"amplitude_{draft.unit}": amplitude,
-            f"offset_{draft.unit}": offset,
-            "rise_s": rise,
-            "hold_s": self.hold_s,
-            "cycles": self.cycles,
-        }
-        return Signal(path.values, parameters)
+        return draft.signal(path.values, rise_s=rise, hold_s=self.hold_s, cycles=self.cycles)
 
     def _jerk(self, draft: Draft) -> float:
         if self.jerk is None:
@@ -154,16 +141,10 @@ class Prbs:
         amplitude = draft.amplitude(self.amplitude, offset, {draft.stroke_cause(): stroke / 2.0})
         chips = sequence(self.order, draft.rng)
         values = np.tile(_rows(draft, offset + amplitude * chips, chip), periods)
-        parameters = {
-            f"amplitude_{draft.unit}": amplitude,
-            f"offset_{draft.unit}": offset,
-            "frequency_hz": clock,
-            "order": self.order,
-            "periods": periods,
-        }
-        if self.periodic:
-            return Signal(values, parameters, period)
-        return Signal(np.append(values, values[0]), parameters)
+        if not self.periodic:
+            values = np.append(values, values[0])
+        own = {"frequency_hz": clock, "order": self.order, "periods": periods}
+        return draft.signal(values, period if self.periodic else None, **own)
 
     def _clock(self, draft: Draft) -> tuple[int, float]:
         asked = self.frequency_hz or draft.useful_hz()

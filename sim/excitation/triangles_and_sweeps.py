@@ -55,16 +55,11 @@ class Triangle:
         path.move(low, half)
         one = path.values
         values = np.tile(one[:-1], cycles)
-        parameters = {
-            f"amplitude_{draft.unit}": amplitude,
-            f"offset_{draft.unit}": offset,
-            "frequency_hz": frequency,
-            "cycles": cycles,
-            **_slope(draft, 2.0 * amplitude, half, acceleration),
-        }
-        if self.periodic:
-            return Signal(values, parameters, 2 * half)
-        return Signal(np.append(values, low), parameters)
+        if not self.periodic:
+            values = np.append(values, low)
+        slope = _slope(draft, 2.0 * amplitude, half, acceleration)
+        period = 2 * half if self.periodic else None
+        return draft.signal(values, period, frequency_hz=frequency, cycles=cycles, **slope)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,15 +95,9 @@ class DecayingTriangle:
         for index, extreme in enumerate(extremes.tolist()):
             path.move(offset + extreme, quarter if index == 0 else 2 * quarter)
         path.move(offset, quarter)
-        parameters = {
-            f"amplitude_{draft.unit}": amplitude,
-            f"offset_{draft.unit}": offset,
-            "frequency_hz": frequency,
-            "cycles": cycles,
-            "growing": self.growing,
-        }
-        values = path.values
-        return Signal(values[::-1].copy() if self.growing else values, parameters)
+        values = path.values[::-1].copy() if self.growing else path.values
+        own = {"frequency_hz": frequency, "cycles": cycles, "growing": self.growing}
+        return draft.signal(values, **own)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,13 +125,8 @@ class Sweeps:
         path.hold(self.hold_s)
         for speed in speeds:
             self._there_and_back(draft, path, speed, 2.0 * amplitude)
-        parameters = {
-            f"amplitude_{draft.unit}": amplitude,
-            f"offset_{draft.unit}": offset,
-            f"speeds_{draft.unit}_per_s": " ".join(f"{speed:.9g}" for speed in speeds),
-            "hold_s": self.hold_s,
-        }
-        return Signal(path.values, parameters)
+        told = {f"speeds_{draft.unit}_per_s": " ".join(f"{speed:.9g}" for speed in speeds)}
+        return draft.signal(path.values, **told, hold_s=self.hold_s)
 
     def _speeds(self, draft: Draft, stroke: float) -> list[float]:
         unit = f"{draft.unit}/s"

@@ -11,12 +11,11 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.feedback import loop_kernel
-from rotemina.sim.feedback.controller import Controller, numbers_of, rested
+from rotemina.sim.feedback.controller import numbers_of, rested
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.gains import Gains, OutputLimits
 from rotemina.sim.feedback.sampled_axis import SampledAxis, late_intervals
-from rotemina.sim.feedback.stability import PEAK_SENSITIVITY, check_stability
 from rotemina.sim.messages import message
 from rotemina.sim.plant import kernel
 from rotemina.sim.plant.coupled_groups import asked_position
@@ -26,7 +25,7 @@ from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.plant.segment_steps import steps_through
 from rotemina.sim.plant.state import Behind, PlantState
 from rotemina.sim.plant.zero_order_hold import cut, ticks_of
-from rotemina.sim.robot.model import ForceAxis, Robot, StepperAxis
+from rotemina.sim.robot.model import ForceAxis, Robot
 
 FASTEST_HZ = 1e6  # rate of a loop: beyond that nobody closes one about a motor or a piezo
 _LONGEST_DELAY = 1000  # intervals
@@ -97,38 +96,17 @@ class AxisLoop:
     def limits(self) -> OutputLimits:
         """What may be asked of the axis: its range, or what its voltages reach."""
         low, high = self.robot_axis.range
-        voltages = (
-            None if isinstance(self.robot_axis, StepperAxis) else self.robot_axis.voltage_range
-        )
+        voltages = self.robot_axis.voltage_range
         if voltages is not None:
             asked = asked_position(self.robot_axis)
             low, high = sorted(asked * voltage for voltage in voltages)
         return OutputLimits(low, high)
-
-    def controller(
-        self,
-        gains: Gains,
-        *,
-        limits: OutputLimits | None = None,
-        feed_forward: FeedForward | None = None,
-        peak_sensitivity: float = PEAK_SENSITIVITY,
-    ) -> Controller:
-        """Return a controller for the axis; gains are checked first.
-
-        Raises
-        ------
-        UnstableError
-            If the loop would be unstable, or nearer to it than ``peak_sensitivity`` allows.
-        """
-        check_stability(self.sampled, gains, peak_sensitivity)
-        return Controller(gains, self.interval_s, limits or self.limits, feed_forward)
 
     def follow(
         self,
         gains: Gains,
         reference: FloatArray,
         *,
-        limits: OutputLimits | None = None,
         feed_forward: FeedForward | None = None,
         feed: FloatArray | None = None,
         rng: np.random.Generator | None = None,
@@ -140,7 +118,7 @@ class AxisLoop:
         """
         if feed is None:
             feed = (feed_forward or FeedForward()).run(reference)
-        numbers = numbers_of(gains, self.interval_s, limits or self.limits)
+        numbers = numbers_of(gains, self.interval_s, self.limits)
         start = float(reference[0])
         if start not in self._rests:  # a search begins at the same places again and again
             self._rests[start] = self._held(start)

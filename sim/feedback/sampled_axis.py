@@ -8,7 +8,7 @@ that effects bring, so that the analysis and the simulation are of the same axis
 g is that of a static axis, which is read before the new command acts.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -74,15 +74,7 @@ class SampledAxis:
 
     def scaled(self, gain: float) -> "SampledAxis":
         """Return the axis that goes ``gain`` times as far."""
-        return SampledAxis(
-            self.axis,
-            self.interval_s,
-            self.a,
-            gain * self.b,
-            self.c,
-            gain * self.through,
-            self.delay,
-        )
+        return replace(self, b=gain * self.b, through=gain * self.through)
 
     def response(self, z: ComplexArray) -> ComplexArray:
         """Return the frequency response (m,) at points (m,) of the unit circle."""

@@ -33,7 +33,6 @@ class Resonance(NamedTuple):
     rest: complex
     frequency_deviation: float
     damping_deviation: float
-    gain_deviation: float
     misfit: float
 
 
@@ -44,7 +43,6 @@ def fit_resonance(
     band_hz: tuple[float, float],
     deviation: FloatArray | None = None,
     held_at_hz: float | None = None,
-    with_rest: bool = True,
 ) -> Resonance:
     """Fit a single mode to the lines of a band.
 
@@ -59,7 +57,6 @@ def fit_resonance(
     deviation : (k,) standard deviation of each line; equal weights if left out.
     held_at_hz : rate of commands held between samples; the hold ``sinc(f/rate) e^(−jπf/rate)`` is
         then divided out (what folds back from above half the rate is not).
-    with_rest : whether to fit ``rest``, else it is 0.
 
     Raises
     ------
@@ -90,21 +87,19 @@ def fit_resonance(
     weight = np.ones(len(line_hz))
     if deviation is not None:
         weight = 1.0 / np.maximum(deviation[inside], 1e-12 * float(np.abs(target).max()))
-    return _fit(line_hz, target, weight, deviation is not None, with_rest)
+    return _fit(line_hz, target, weight, deviation is not None)
 
 
-def _fit(
-    line_hz: FloatArray, target: ComplexArray, weight: FloatArray, known: bool, with_rest: bool
-) -> Resonance:
+def _fit(line_hz: FloatArray, target: ComplexArray, weight: FloatArray, known: bool) -> Resonance:
     """Fit in units of the band's middle and of the largest response."""
     middle, size = float(line_hz.mean()), float(np.abs(target).max())
     if size == 0.0:
         raise ExcitationError(message("engine", "resonance: the response is zero over the band"))
     s, goal = line_hz / middle, target / size
-    parameters = _start(s, goal, with_rest)
+    parameters = _start(s, goal)
     cost = np.inf
     for _ in range(_MOST_STEPS):
-        model, jacobian = _model(s, parameters, with_rest)
+        model, jacobian = _model(s, parameters)
         error = _stacked(weight * (goal - model))
         now = float(error @ error)
         if now >= cost * (1.0 - _CONVERGED):
@@ -112,8 +107,8 @@ def _fit(
         cost = now
         step, *_ = np.linalg.lstsq(_stacked(weight[:, None] * jacobian), error, rcond=None)
         change = np.asarray(step, dtype=np.float64)
-        parameters = _limited(s, goal, weight, parameters, change, with_rest)
-    model, jacobian = _model(s, parameters, with_rest)
+        parameters = _limited(s, goal, weight, parameters, change)
+    model, jacobian = _model(s, parameters)
     real = _stacked(weight[:, None] * jacobian)
     error = _stacked(weight * (goal - model))
     variance = float(error @ error) / max(len(error) - len(parameters), 1)
@@ -138,32 +133,23 @@ def _fit(
                 high_hz=line_hz[-1],
             )
         )
-    along = parameters[2:4] / max(abs(gain), 1e-300)
-    rest = complex(parameters[4], parameters[5]) * size if with_rest else 0j
     return Resonance(
         root * middle,
         damping,
         abs(gain) * size,
         float(np.angle(gain)),
-        rest,
+        complex(parameters[4], parameters[5]) * size,
         float(spread[0]) * middle,
         float(spread[1]),
-        float(np.sqrt(along @ covariance[2:4, 2:4] @ along)) * size,
         float(np.linalg.norm(goal - model) / np.linalg.norm(goal)),
     )
 
 
-def _start(s: FloatArray, goal: ComplexArray, with_rest: bool) -> FloatArray:
-    """Return ω0, ζ, complex gain (and rest) of the linear fit ``H (a − s² + jbs) = c + r (…)``."""
-    columns: list[ComplexArray] = [
-        -goal,
-        -1j * s * goal,
-        np.ones_like(goal),
-        1j * np.ones_like(goal),
-    ]
-    if with_rest:  # the rest times the denominator, its coefficients left free
-        line = s.astype(np.complex128)
-        columns += [line, 1j * line, line**2, 1j * line**2]
+def _start(s: FloatArray, goal: ComplexArray) -> FloatArray:
+    """Return ω0, ζ, complex gain and rest of the linear fit ``H (a − s² + jbs) = c + r (…)``."""
+    one, line = np.ones_like(goal), s.astype(np.complex128)
+    # Last the rest times the denominator, its coefficients left free.
+    columns = [-goal, -1j * s * goal, one, 1j * one, line, 1j * line, line**2, 1j * line**2]
     solution, *_ = np.linalg.lstsq(
         _stacked(np.column_stack(columns)), _stacked(-goal * s**2), rcond=None
     )
@@ -173,9 +159,7 @@ def _start(s: FloatArray, goal: ComplexArray, with_rest: bool) -> FloatArray:
     if not s[0] < root < s[-1] or damping == 0.0:
         root, damping = float(s[peak]), 0.02
     shape = _shape(s, root, damping)
-    parts = [shape, 1j * shape] + (
-        [np.ones_like(goal), 1j * np.ones_like(goal)] if with_rest else []
-    )
+    parts = [shape, 1j * shape, one, 1j * one]
     linear, *_ = np.linalg.lstsq(_stacked(np.column_stack(parts)), _stacked(goal), rcond=None)
     return np.concatenate([[root, damping], linear])
 
@@ -184,34 +168,25 @@ def _shape(s: FloatArray, root: float, damping: float) -> ComplexArray:
     return np.asarray(root**2 / (root**2 - s**2 + 2j * damping * root * s), dtype=np.complex128)
 
 
-def _model(
-    s: FloatArray, parameters: FloatArray, with_rest: bool
-) -> tuple[ComplexArray, ComplexArray]:
-    """Return the model (k,) and its derivatives (k, 4 or 6)."""
+def _model(s: FloatArray, parameters: FloatArray) -> tuple[ComplexArray, ComplexArray]:
+    """Return the model (k,) and its derivatives (k, 6)."""
     root, damping = parameters[:2]
     gain = parameters[2] + 1j * parameters[3]
     shape = _shape(s, root, damping)
     by_root = gain * (2.0 * shape / root - shape**2 / root**2 * (2.0 * root + 2j * damping * s))
     by_damping = -gain * shape**2 / root**2 * 2j * root * s
-    columns, model = [by_root, by_damping, shape, 1j * shape], gain * shape
-    if with_rest:
-        columns += [np.ones_like(shape), 1j * np.ones_like(shape)]
-        model = model + parameters[4] + 1j * parameters[5]
-    return model, np.column_stack(columns)
+    one = np.ones_like(shape)
+    model = gain * shape + parameters[4] + 1j * parameters[5]
+    return model, np.column_stack([by_root, by_damping, shape, 1j * shape, one, 1j * one])
 
 
 def _limited(
-    s: FloatArray,
-    goal: ComplexArray,
-    weight: FloatArray,
-    parameters: FloatArray,
-    step: FloatArray,
-    with_rest: bool,
+    s: FloatArray, goal: ComplexArray, weight: FloatArray, parameters: FloatArray, step: FloatArray
 ) -> FloatArray:
     """Halve a step until it lowers the error; return the old parameters if it never does."""
 
     def cost(at: FloatArray) -> float:
-        return float(np.sum(np.abs(weight * (goal - _model(s, at, with_rest)[0])) ** 2))
+        return float(np.sum(np.abs(weight * (goal - _model(s, at)[0])) ** 2))
 
     before = cost(parameters)
     for _ in range(30):

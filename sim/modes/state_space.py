@@ -25,7 +25,7 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 from rotemina.sim.plant.coupled_groups import input_gain
 from rotemina.sim.robot.matrices import inertia_matrices
-from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.robot.model import Robot
 
 
 class StateSpaceError(InputError):
@@ -94,7 +94,7 @@ def state_space(robot: Robot, output: Output = Output.POSITION) -> StateSpace:
         first = 0 if output is Output.POSITION else m
         c[place, first + np.arange(m)] = 1.0
     if output is Output.POSITION:
-        d += np.diag([_static_gain(robot, name) for name in inputs])
+        d += np.diag([axis.gain if axis.static else 0.0 for axis in robot.axes.values()])
     return StateSpace(inputs, names, *(read_only(matrix) for matrix in (a, b, c, d)))
 
 
@@ -151,10 +151,3 @@ def perturbed_state_space(
         through[place] = by_level[m:]
     matrices = (driven.a, driven.a @ by_rate + by_level, driven.c, through)
     return StateSpace(driven.inputs, driven.states, *(read_only(matrix) for matrix in matrices))
-
-
-def _static_gain(robot: Robot, name: str) -> float:
-    axis = robot.axes[name]
-    if not axis.static:
-        return 0.0
-    return 1.0 if isinstance(axis, StepperAxis) else axis.gain

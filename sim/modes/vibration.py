@@ -13,7 +13,6 @@ ones the first.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -60,10 +59,11 @@ def damped_modes(robot: Robot) -> DampedModes:
     poles: list[complex] = []
     columns: list[ComplexArray] = []
     for members, part in _parts(robot, whole):
-        for pole, vector in _pole_vectors(part):
-            poles.append(pole)
+        own, vectors = _eigen(part)
+        for k in np.flatnonzero(own.imag >= 0.0):
+            poles.append(complex(own[k]))
             columns.append(np.zeros(len(whole.axes), dtype=np.complex128))
-            columns[-1][members] = vector
+            columns[-1][members] = vectors[:, k]
     found = np.array(poles, dtype=np.complex128)
     order = np.argsort(np.abs(found), kind="stable")
     shapes = np.array(columns, dtype=np.complex128).reshape(len(found), len(whole.axes)).T
@@ -81,11 +81,6 @@ def poles_of(robot: Robot) -> dict[tuple[str, ...], ComplexArray]:
     return {part.axes: _eigen(part)[0] for _, part in _parts(robot, whole)}
 
 
-class _Eigen(NamedTuple):
-    poles: ComplexArray
-    vectors: ComplexArray
-
-
 def _parts(robot: Robot, whole: InertiaMatrices) -> Iterator[tuple[list[int], InertiaMatrices]]:
     """Yield the places and matrices of each group of coupled axes."""
     for group in groups_of(robot):
@@ -95,7 +90,7 @@ def _parts(robot: Robot, whole: InertiaMatrices) -> Iterator[tuple[list[int], In
         yield members, InertiaMatrices(group.axes, *matrices)
 
 
-def _eigen(part: InertiaMatrices) -> _Eigen:
+def _eigen(part: InertiaMatrices) -> tuple[ComplexArray, ComplexArray]:
     """Solve ``A s = λ s`` of one group: poles (2m,), positions of the vectors (m, 2m)."""
     m = len(part.axes)
     a = np.zeros((2 * m, 2 * m))
@@ -107,7 +102,7 @@ def _eigen(part: InertiaMatrices) -> _Eigen:
     free, edge = _free_motions(part), _DOUBLE_POLE_SHARE * float(np.abs(poles[-1]))
     poles[:free] = 0.0
     poles[: 2 * free][np.abs(poles[: 2 * free]) <= edge] = 0.0
-    return _Eigen(poles, vectors.astype(np.complex128))
+    return poles, vectors.astype(np.complex128)
 
 
 def _free_motions(part: InertiaMatrices) -> int:
@@ -117,18 +112,12 @@ def _free_motions(part: InertiaMatrices) -> int:
     return int((np.linalg.eigvalsh(part.stiffness * np.outer(scale, scale)) <= _SINGULAR).sum())
 
 
-def _pole_vectors(part: InertiaMatrices) -> Iterator[tuple[complex, ComplexArray]]:
-    poles, vectors = _eigen(part)
-    for k in np.flatnonzero(poles.imag >= 0.0):
-        yield complex(poles[k]), vectors[:, k]
-
-
 def _normalised(
-    whole: InertiaMatrices, shapes: FloatArray | ComplexArray
+    whole: InertiaMatrices, shapes: ComplexArray
 ) -> tuple[ComplexArray, tuple[str, ...]]:
     """Scale each column to unit modal mass and turn it real and positive where it is strongest."""
     if not whole.axes:
-        return shapes.astype(np.complex128), ()
+        return shapes, ()
     modal_mass = np.einsum("ik,ij,jk->k", shapes.conj(), whole.mass, shapes).real
     carried = np.diag(whole.mass)[:, None] * np.abs(shapes) ** 2
     strongest = np.argmax(carried >= (1.0 - _EQUAL) * carried.max(axis=0), axis=0)

@@ -19,7 +19,7 @@ import numpy as np
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.formulation import LinearPart
 from rotemina.sim.robot.matrices import inertia_matrices
-from rotemina.sim.robot.model import Axis, ForceAxis, PiezoAxis, Robot, StepperAxis
+from rotemina.sim.robot.model import Axis, ForceAxis, Robot
 
 
 class PlacedPart(NamedTuple):
@@ -103,29 +103,27 @@ def input_gain(axis: Axis) -> float:
         return axis.gain
     inertia = axis.inertia
     stiffness = inertia.stiffness if inertia is not None else 0.0
-    return stiffness * axis.gain if isinstance(axis, PiezoAxis) else stiffness
+    return stiffness * axis.gain
 
 
 def asked_position(axis: Axis) -> float:
     """Position that one unit of input asks for: gain of a piezo, 1 of a stepper or a force."""
-    return axis.gain if isinstance(axis, PiezoAxis) else 1.0
+    return 1.0 if isinstance(axis, ForceAxis) else axis.gain
 
 
 def groups_of(robot: Robot, parts: Sequence[PlacedPart] = ()) -> tuple[Group, ...]:
     """Split the axes with dynamics into groups of coupled ones, each in the robot's order."""
     names, mass, damping, stiffness = inertia_matrices(robot)
-    coupled = (mass != 0) | (damping != 0) | (stiffness != 0)
     return tuple(
         _group(robot, [names[i] for i in members], mass, damping, stiffness, members, parts)
-        for members in _connected(coupled)
+        for members in _connected(mass, damping, stiffness)
     )
 
 
 def coupled_axes(robot: Robot) -> list[set[str]]:
     """Return the sets of axes with dynamics that are coupled."""
     names, mass, damping, stiffness = inertia_matrices(robot)
-    coupled = (mass != 0) | (damping != 0) | (stiffness != 0)
-    return [{names[i] for i in members} for members in _connected(coupled)]
+    return [{names[i] for i in members} for members in _connected(mass, damping, stiffness)]
 
 
 def static_groups_of(robot: Robot, parts: Sequence[PlacedPart] = ()) -> tuple[Group, ...]:
@@ -133,20 +131,11 @@ def static_groups_of(robot: Robot, parts: Sequence[PlacedPart] = ()) -> tuple[Gr
     return tuple(_static(name, a, parts) for name, a in robot.axes.items() if a.static)
 
 
-def _connected(coupled: np.ndarray) -> list[list[int]]:
-    """Return the connected components of a symmetric (m, m) relation, each sorted."""
-    remaining = list(range(len(coupled)))
-    components = []
-    while remaining:
-        reached = {remaining[0]}
-        frontier = [remaining[0]]
-        while frontier:
-            near = set(np.flatnonzero(coupled[frontier.pop()]).tolist()) - reached
-            reached |= near
-            frontier.extend(near)
-        components.append(sorted(reached))
-        remaining = [index for index in remaining if index not in reached]
-    return components
+def _connected(*matrices: FloatArray) -> list[list[int]]:
+    """Return which of m axes matrices (m, m) join, each set sorted."""
+    coupled = np.any([matrix != 0.0 for matrix in matrices], axis=0)
+    reached = np.linalg.matrix_power(coupled | np.eye(len(coupled), dtype=np.bool_), len(coupled))
+    return [np.flatnonzero(row).tolist() for i, row in enumerate(reached) if not row[:i].any()]
 
 
 def _group(
@@ -219,13 +208,15 @@ def _static(name: str, axis: Axis, parts: Sequence[PlacedPart]) -> Group:
     """Return the group of a static axis: its position is ``gain·u``, and what its parts add."""
     own = [placed for placed in parts if placed.axis == name]
     n = sum(len(placed.part.a) for placed in own)
-    gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
+    gain = axis.gain
     generator = np.zeros((n + 3, n + 3))
     whole, outputs, first = Output(name, None, np.zeros(n), gain), [], 0
     for placed in own:
-        part = placed.part
+        part, z = placed.part, slice(first, first + len(placed.part.a))
+        generator[z, z] = part.a
+        generator[z, n] = (part.b[:, 0] + part.b[:, 2]) * gain
         leak = np.zeros(n)
-        leak[_fill(generator, part, first, n, gain)] = part.output
+        leak[z] = part.output
         if placed.port is None:
             left = 1.0 - part.share
             whole = whole._replace(
@@ -233,17 +224,9 @@ def _static(name: str, axis: Axis, parts: Sequence[PlacedPart]) -> Group:
             )
         else:
             outputs.append(Output(name, placed.port, leak, part.share * gain))
-        first += len(part.a)
+        first = z.stop
     none = np.zeros(1)
     by_force = np.zeros(1, dtype=np.bool_)
     return Group(
         (name,), generator, np.zeros((1, 1)), none, none, by_force, (whole, *outputs), static=True
     )
-
-
-def _fill(generator: FloatArray, part: LinearPart, first: int, n: int, gain: float) -> slice:
-    """Enter a part of a static axis, whose position is what its input asks for."""
-    z = slice(first, first + len(part.a))
-    generator[z, z] = part.a
-    generator[z, n] = (part.b[:, 0] + part.b[:, 2]) * gain
-    return z

@@ -23,7 +23,7 @@ from rotemina.sim.plant.segment_steps import steps_of_run
 from rotemina.sim.plant.settling import lead_of
 from rotemina.sim.plant.state import Behind, Motion, PlantState, Stack
 from rotemina.sim.quantities import rounded
-from rotemina.sim.robot.model import Axis, CascadeController, PiezoAxis, Robot, StepperAxis
+from rotemina.sim.robot.model import CascadeController, ForceAxis, Robot
 
 _TRIES = 50  # of the input with which a controller holds an axis
 _HELD = 1e-12  # relative change of that input which is none
@@ -66,7 +66,7 @@ class Plant:
         assembly = assemble(robot, only)
         robot = assembly.robot
         axes = tuple(robot.axes)
-        loops = tuple(_controller(robot, name) if closed_loop else None for name in axes)
+        loops = tuple(one.controller if closed_loop else None for one in robot.axes.values())
         return cls(robot, axes, assembly.groups, loops, assembly)
 
     @property
@@ -80,7 +80,8 @@ class Plant:
         V for piezos, the command itself for steppers; none (0 V) for axes moved by a force, whose
         voltage a command does not tell.
         """
-        share = np.array([_input_per_command(axis) for axis in self.robot.axes.values()])
+        axes = self.robot.axes.values()
+        share = np.array([0.0 if isinstance(one, ForceAxis) else 1.0 / one.gain for one in axes])
         with np.errstate(over="ignore"):  # found, and said, after the run
             return np.asarray(command * share)
 
@@ -386,11 +387,8 @@ class Plant:
 
     def _static_position(self, inputs: FloatArray) -> FloatArray:
         """Position (n, axes) of the static axes, ``gain·u`` or the command; 0 for the others."""
-        gains = []
-        for axis in self.robot.axes.values():
-            static_gain = 1.0 if isinstance(axis, StepperAxis) else axis.gain
-            gains.append(static_gain if axis.static else 0.0)
-        static: FloatArray = np.array(gains)
+        axes = self.robot.axes.values()
+        static: FloatArray = np.array([axis.gain if axis.static else 0.0 for axis in axes])
         return np.asarray(np.where(static != 0.0, inputs, 0.0) * static)
 
     def _index(self, group: Group) -> IntArray:
@@ -468,14 +466,3 @@ def _rest(plant: Plant, command: bytes) -> PlantState:
         if isinstance(value, np.ndarray):
             value.flags.writeable = False
     return state
-
-
-def _input_per_command(axis: Axis) -> float:
-    if isinstance(axis, PiezoAxis):
-        return 1.0 / axis.gain
-    return 1.0 if isinstance(axis, StepperAxis) else 0.0
-
-
-def _controller(robot: Robot, name: str) -> CascadeController | None:
-    axis = robot.axes[name]
-    return None if isinstance(axis, StepperAxis) else axis.controller

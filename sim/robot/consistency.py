@@ -57,7 +57,7 @@ def _ranges(axis: Axis) -> Iterator[Problem]:
         yield Problem(
             "range", list(axis.range), marked("engine", "the first value must be below the second")
         )
-    voltage = None if isinstance(axis, StepperAxis) else axis.voltage_range
+    voltage = axis.voltage_range
     if voltage is not None and voltage[0] >= voltage[1]:
         yield Problem(
             "voltage_range",

@@ -117,6 +117,11 @@ class _Axis:
 class StepperAxis(_Axis):
     """A stepper with ball screw: its input is the commanded table position (m or rad)."""
 
+    #: It goes where it is told, by no voltage and under no controller.
+    gain: ClassVar[float] = 1.0
+    voltage_range: ClassVar[None] = None
+    controller: ClassVar[None] = None
+
     kind: Literal["stepper"]
     steps_per_rev: Count | None = None
     microsteps_per_step: Count | None = None
@@ -179,6 +184,10 @@ class ReferenceNoise:
 
     linear: NotNegative | None = None
     angular: NotNegative | None = None
+
+    def of(self, unit: str | None) -> float | None:
+        """Return the rms on an axis whose unit is ``rad``, or ``m``; None where undeclared."""
+        return self.angular if unit == "rad" else self.linear
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=FORBID_UNKNOWN)

@@ -138,16 +138,14 @@ def _checked(robot: Robot, effects: tuple[AxisEffect, ...]) -> tuple[AxisEffect,
 
 def _require_same(wanted: Robot, read_back: Robot, source: str) -> None:
     if read_back != wanted:
-        names = [f.name for f in fields(Robot) if _differs(wanted, read_back, f.name)]
+        names = [
+            f.name for f in fields(Robot) if getattr(wanted, f.name) != getattr(read_back, f.name)
+        ]
         raise RobotFileError(
             message("engine", "{source}: would not read back to the same {names}").fill(
                 source=source, names=", ".join(names)
             )
         )
-
-
-def _differs(one: Robot, other: Robot, name: str) -> bool:
-    return bool(getattr(one, name) != getattr(other, name))
 
 
 def _table(thing: Any) -> dict[str, Any]:

@@ -5,10 +5,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from rotemina.sim.arrays import FloatArray
 from rotemina.sim.effects.formulation import Trait, Values
 from rotemina.sim.plant.errors import PlantError
-from rotemina.sim.records.record import RecordError, Tap
+from rotemina.sim.records.record import RecordError
 from rotemina.sim.simulation.check_bench import SEED, Bench, moves, waves
 from rotemina.sim.simulation.check_result import Check, exceeds, left_out, measured, stated
 from rotemina.sim.simulation.simulation import Simulation
@@ -149,7 +148,8 @@ def _rest(bench: Bench) -> Check:
     name = "starts at rest"
     if Trait.LOCKED_TO_TIME in bench.formulation.traits:
         return left_out(name, "it acts by itself")
-    reading = _at_rest(bench)
+    shape = np.full(60, 0.37) if bench.held else np.zeros(60)
+    reading = bench.seen(bench.run(bench.record(shape)))
     span = bench.own.span
     if bench.held:
         return measured(
@@ -157,11 +157,3 @@ def _rest(bench: Bench) -> Check:
         )
     jump = float(np.abs(np.diff(reading, axis=0)).max()) / span
     return measured(name, jump, _FREE, "it jumps at the start")
-
-
-def _at_rest(bench: Bench) -> FloatArray:
-    shape = np.full(60, 0.37)
-    if not bench.held:
-        shape = np.zeros(60)
-    record = bench.run(bench.record(shape))
-    return np.stack([record.signal(bench.axis, tap) for tap in (Tap.REF, Tap.MEAS)], axis=1)

@@ -53,12 +53,9 @@ def check_effect(
         return Report(effect_id, (Check("can be loaded", False, note=str(error)),))
     shipped = robots is None
     if robots is None:
-        robots = [load_robot(name) for name in sorted(nominal_robots(), key=_roteminas_first)]
+        names = sorted(nominal_robots(), key=lambda name: (name != "rotemina", name))
+        robots = [load_robot(name) for name in names]
     return Report(effect_id, tuple(_checks(effect, robots, clock, shipped)))
-
-
-def _roteminas_first(name: str) -> tuple[bool, str]:
-    return name != "rotemina", name
 
 
 def _checks(

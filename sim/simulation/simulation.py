@@ -17,7 +17,7 @@ from rotemina.sim.plant.run_start import steady_start
 from rotemina.sim.plant.state import Motion, PlantState
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.record_pieces import PIECE_ROWS, join_records
-from rotemina.sim.robot.model import AxisEffect, ReferenceNoise, Robot, StepperAxis
+from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
 
 
 def simulate(
@@ -167,7 +167,7 @@ class Simulation:
 
     def _reference_noise(self, number: int, unit: str, rows: int) -> FloatArray | float:
         """Return the noise (rows,) of the reference on an axis of the record."""
-        rms = _rms(self._plant.robot.reference.noise_rms, unit)
+        rms = self._plant.robot.reference.noise_rms.of(unit)
         if not self._reference or rms is None:
             return 0.0
         return np.asarray(rms * self._reference[number].standard_normal(rows))
@@ -175,7 +175,3 @@ class Simulation:
 
 def _with(robot: Robot, effects: Sequence[AxisEffect] | None) -> Robot:
     return robot if effects is None else replace(robot, effects=tuple(effects))
-
-
-def _rms(noise: ReferenceNoise, unit: str) -> float | None:
-    return noise.linear if unit == "m" else noise.angular

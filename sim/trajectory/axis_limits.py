@@ -12,25 +12,13 @@ from numbers import Real
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import AxisName, message
 from rotemina.sim.quantities import exact, rounded
-from rotemina.sim.robot.model import (
-    VOLTAGE_SLACK,
-    Axis,
-    CascadeController,
-    PiezoAxis,
-    Robot,
-    StepperAxis,
-)
+from rotemina.sim.robot.model import VOLTAGE_SLACK, Axis, PiezoAxis, Robot
 
 RANGE_SLACK = 1e-9  # of the range's length: units are converted with rounding
 
 
 class OutOfLimitsError(InputError):
     """A target or trajectory that the machine must not be given."""
-
-
-def controller_of(axis: Axis) -> CascadeController | None:
-    """Return the controller that an axis runs under, or None: it is driven open loop."""
-    return None if isinstance(axis, StepperAxis) else axis.controller
 
 
 def is_finite(value: object) -> bool:
@@ -122,6 +110,16 @@ def voltage_bounds(axis: Axis) -> tuple[float, float] | None:
     if not isinstance(axis, PiezoAxis) or axis.controller is not None:
         return None
     return axis.voltage_range
+
+
+def reachable(axis: Axis) -> tuple[float, float]:
+    """Return the part of the range that an axis' amplifier can hold it in, m or rad."""
+    low, high = axis.range
+    bounds = voltage_bounds(axis)
+    if bounds is None or not isinstance(axis, PiezoAxis):
+        return low, high
+    ends = sorted(voltage * axis.gain for voltage in bounds)
+    return max(low, ends[0]), min(high, ends[1])
 
 
 def resolution_of(axis: Axis) -> float:

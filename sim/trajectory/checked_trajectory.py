@@ -8,7 +8,6 @@ import numpy as np
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
-from rotemina.sim.trajectory.axis_limits import controller_of
 from rotemina.sim.trajectory.trajectory_excesses import (
     TrajectoryError,
     check_trajectory,
@@ -55,7 +54,7 @@ class CheckedTrajectory:
     def holds_for(self, setpoint_period_s: float) -> bool:
         """Whether a device with this period is no stricter, and closes loops at the same rate."""
         shorter = setpoint_period_s / self.setpoint_period_s
-        controlled = any(controller_of(self.robot.axes[name]) for name in self.commands.axes)
+        controlled = any(self.robot.axes[name].controller for name in self.commands.axes)
         most = 1.0 + _SAME_PERIOD if controlled else float("inf")
         return 1.0 - _SAME_PERIOD <= shorter <= most
 

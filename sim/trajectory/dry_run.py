@@ -13,7 +13,6 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Axis, Robot
 from rotemina.sim.trajectory.axis_limits import (
     OutOfLimitsError,
-    controller_of,
     resolution_of,
     voltage_bounds,
 )
@@ -146,7 +145,7 @@ def dry_run(
 
 def mode_of(robot: Robot, axes: Iterable[str]) -> str:
     """Return the ``mode`` of a record in which these axes move."""
-    under_control = any(controller_of(robot.axes[name]) for name in axes)
+    under_control = any(robot.axes[name].controller for name in axes)
     return "closed_loop" if under_control else "open_loop"
 
 

@@ -6,8 +6,8 @@ from typing import Self
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.robot.model import Axis, PiezoAxis, Robot
-from rotemina.sim.trajectory.axis_limits import voltage_bounds
+from rotemina.sim.robot.model import Robot
+from rotemina.sim.trajectory.axis_limits import reachable
 
 # What an axis without declared bounds is given: its range in a second, that speed in a tenth.
 _CROSSING_S = 1.0
@@ -35,15 +35,5 @@ class SetpointLimits:
             axis.max_acceleration or fastest / _STARTING_S
             for axis, fastest in zip(axes, speed, strict=True)
         ]
-        low, high = np.array([_reach(axis) for axis in axes], dtype=np.float64).T
+        low, high = np.array([reachable(axis) for axis in axes], dtype=np.float64).T
         return cls(low.copy(), high.copy(), speed, np.array(acceleration, dtype=np.float64))
-
-
-def _reach(axis: Axis) -> tuple[float, float]:
-    """Return the part of the range that an axis' amplifier can hold it in, m or rad."""
-    low, high = axis.range
-    bounds = voltage_bounds(axis)
-    if bounds is None or not isinstance(axis, PiezoAxis):
-        return low, high
-    ends = sorted(voltage * axis.gain for voltage in bounds)
-    return max(low, ends[0]), min(high, ends[1])

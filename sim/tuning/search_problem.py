@@ -124,7 +124,8 @@ class TuningProblem:
         peak = max(sensitivity_peak(analysis, gains) for analysis in self._analyses)
         if peak > self.constraints.peak_sensitivity:
             return replace(UNUSABLE, peak_sensitivity=peak)
-        return worst([self._figures(loop, gains, peak) for loop in self._simulated])
+        tries = [self._tries(loop, gains) for loop in self._simulated]
+        return worst([self._judged(step, triangle, peak) for step, triangle in tries])
 
     def try_out(self, gains: Gains) -> tuple[tuple[Evaluation, Evaluation], Figures]:
         """Return step and triangle with the axis as it is, and the figures of these two.
@@ -137,10 +138,6 @@ class TuningProblem:
         found = check_stability(self.loop.sampled, gains, self.constraints.peak_sensitivity)
         step, triangle = self._tries(self.loop, gains)
         return (step, triangle), self._judged(step, triangle, found.peak_sensitivity)
-
-    def _figures(self, loop: AxisLoop, gains: Gains, peak: float) -> Figures:
-        step, triangle = self._tries(loop, gains)
-        return self._judged(step, triangle, peak)
 
     def _tries(self, loop: AxisLoop, gains: Gains) -> tuple[Evaluation, Evaluation]:
         step, triangle = (

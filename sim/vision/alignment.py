@@ -21,6 +21,7 @@ from rotemina.sim.vision.image import Image
 FLOOR_PX = 0.01  # what interpolation leaves, however little noise there is
 _TUKEY = 4.685  # of the residuals' scale: 95 % efficient on normal noise
 _MARGIN = 2  # px that the interpolation needs about a patch
+_TURNS = 15
 _SETTLED_PX = 2e-3
 _LEAST_GAIN = 1e-3
 
@@ -74,11 +75,8 @@ def align(
     image: Image,
     start: FloatArray,
     *,
-    robust: bool = True,
-    weights: Image | None = None,
     stride: int = 1,
     most_px: float = 8.0,
-    turns: int = 15,
 ) -> Alignment | None:
     """Find where ``template`` lies in ``image``, from ``start`` (2,) on.
 
@@ -87,16 +85,10 @@ def align(
     template, image : images
     start : (2,)
         A guess of its corner, px, within about the size of its details.
-    robust : bool
-        Whether pixels that do not fit are left out.
-    weights : image, optional
-        What each of the template's pixels counts, 0 to 1.
     stride : int
         Only every so many rows and columns are looked at: a large image has pixels to spare.
     most_px : float
         How far it may wander from the guess.
-    turns : int
-        Iterations at most.
 
     Returns
     -------
@@ -105,11 +97,9 @@ def align(
     """
     thin = (slice(None, None, stride),) * 2
     columns, fit = _columns(template, thin), np.zeros(4)
-    flat = np.ones_like(template) if weights is None else weights
-    prior = flat[thin].ravel().astype(np.float64)
     corner = np.array(start, dtype=np.float64)
-    weighed, settled = prior, False
-    for turn in range(turns):
+    weighed, settled = np.ones(len(columns)), False
+    for turn in range(_TURNS):
         patch = patch_at(image, corner, template.shape)
         if patch is None:
             return None
@@ -124,18 +114,16 @@ def align(
         if np.linalg.norm(corner - start) > most_px:
             return None
         residual = seen - columns @ fit
-        if robust:
-            weighed = prior * _tukey(residual, prior)
+        weighed = _tukey(residual)
         settled = bool(np.abs(step).max() < _SETTLED_PX)
-        if settled and (turn > 1 or not robust):
+        if settled and turn > 1:
             break
-    return _judged(columns, weighed, prior, residual, float(fit[2]), corner, settled)
+    return _judged(columns, weighed, residual, float(fit[2]), corner, settled)
 
 
 def _judged(
     columns: FloatArray,
     weighed: FloatArray,
-    prior: FloatArray,
     residual: FloatArray,
     gain: float,
     corner: FloatArray,
@@ -155,7 +143,7 @@ def _judged(
         corner=corner,
         covariance=spread + FLOOR_PX**2 * np.eye(2),
         correlation=float(np.sqrt(power / (power + variance))),
-        used=total / float(prior.sum()),
+        used=total / len(weighed),
         residual_rms=float(np.sqrt(variance)),
         settled=settled,
     )
@@ -176,9 +164,8 @@ def _solved(normal: FloatArray, right: FloatArray) -> FloatArray | None:
         return None
 
 
-def _tukey(residual: FloatArray, prior: FloatArray) -> FloatArray:
-    counted = np.abs(residual[prior > 0.0])
-    scale = 1.4826 * float(np.median(counted)) * _TUKEY
+def _tukey(residual: FloatArray) -> FloatArray:
+    scale = 1.4826 * float(np.median(np.abs(residual))) * _TUKEY
     if scale == 0.0:
         return np.ones_like(residual)
     return np.asarray(np.clip(1.0 - (residual / scale) ** 2, 0.0, None) ** 2)

@@ -16,7 +16,15 @@ from numpy.typing import NDArray
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.vision.image import Image, relative_to
 from rotemina.sim.vision.pipette import Pipette
-from rotemina.sim.vision.tip_fit import DEPTH_FLOOR, Depth, TipFit, least_squares, tukey
+from rotemina.sim.vision.tip_fit import (
+    DEPTH_FLOOR,
+    Depth,
+    TipFit,
+    averaged,
+    least_squares,
+    surface,
+    tukey,
+)
 
 _YIELDING_PX = 45.0  # about the tip, for which the next three are right
 _AHEAD_PX, _HALF_PX, _STRIDE_PX = 140.0, 150.0, 6.0
@@ -62,6 +70,8 @@ def fit_body(
     depth: float,
     contrast: float,
     background: Image | None = None,
+    *,
+    learning: bool = False,
 ) -> TipFit | None:
     """Fit the tip within some px of ``start`` (2,), and near ``depth``, m; None if none fits.
 
@@ -78,35 +88,10 @@ def fit_body(
         Share of the light that the body was seen to take, negative.
     background : (rows, columns), optional
         The same view without the tip.
+    learning : bool
+        Whether it presses on nothing, and what its body looks like is fitted too: direction and
+        contrast.
     """
-    return _fit_near(image, pipette, start, depth, contrast, background, learning=False)
-
-
-def learn_body(
-    image: NDArray[Any],
-    pipette: Pipette,
-    start: FloatArray,
-    depth: float,
-    contrast: float,
-    background: Image | None = None,
-) -> TipFit | None:
-    """Fit a tip that presses on nothing, with what its body looks like: direction and contrast.
-
-    Parameters as of :func:`fit_body`.
-    """
-    return _fit_near(image, pipette, start, depth, contrast, background, learning=True)
-
-
-def _fit_near(
-    image: NDArray[Any],
-    pipette: Pipette,
-    start: FloatArray,
-    depth: float,
-    contrast: float,
-    background: Image | None,
-    *,
-    learning: bool,
-) -> TipFit | None:
     way = np.array([np.cos(pipette.direction), np.sin(pipette.direction)])
     body = BodyPart.of(pipette)
     corner = np.rint(start + body.ahead * way).astype(int) - body.half
@@ -120,16 +105,10 @@ def _fit_near(
         part = relative_to(part, background[window])
     place = np.asarray(start, dtype=np.float64) - low
     blind = 0.0 if learning else pipette.yielding
-    fitting = _Fitting(_binned(part, body.stride), place, body.stride, blind)
+    fitting = _Fitting(averaged(part, body.stride), place, body.stride, blind)
     if not fitting.settle(pipette, depth, contrast):
         return None
     return fitting.result(low)
-
-
-def _binned(part: Image, stride: int) -> FloatArray:
-    rows, columns = part.shape[0] // stride, part.shape[1] // stride
-    cells = part[: rows * stride, : columns * stride].reshape(rows, stride, columns, stride)
-    return np.asarray(cells.mean(axis=(1, 3), dtype=np.float64))
 
 
 class _Fitting:
@@ -146,9 +125,8 @@ class _Fitting:
         down, across = np.indices(seen.shape, dtype=np.float64)
         away = np.hypot(stride * across - self.place[0], stride * down - self.place[1])
         self.counted = (away >= blind).ravel().astype(np.float64)
-        x = (2.0 * across / seen.shape[1] - 1.0).ravel()
-        y = (2.0 * down / seen.shape[0] - 1.0).ravel()
-        self.ground = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y])
+        x, y = 2.0 * across / seen.shape[1] - 1.0, 2.0 * down / seen.shape[0] - 1.0
+        self.ground = surface(x.ravel(), y.ravel())
         self.level, self.variance, self.weights = float(np.median(seen)), 0.0, self.counted
 
     def settle(self, pipette: Pipette, depth: float, contrast: float) -> bool:

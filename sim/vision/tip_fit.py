@@ -159,17 +159,12 @@ class _Fitting:
         contrast: float | None,
     ) -> None:
         # Where the blur is wide, averages of pixels say as much as all of them.
-        rows, columns = part.shape[0] // stride, part.shape[1] // stride
-        kept = part[: rows * stride, : columns * stride]
-        self.seen = kept.reshape(rows, stride, columns, stride).mean(axis=(1, 3), dtype=np.float64)
+        self.seen = averaged(part, stride)
         self.stride, self.pipette, self.placed = stride, pipette, placed
         self.dimple, self.contrast = dimple, contrast
         self.reach = 0.5 * max(part.shape)
-        down, across = np.meshgrid(
-            np.linspace(-1.0, 1.0, rows), np.linspace(-1.0, 1.0, columns), indexing="ij"
-        )
-        x, y = across.ravel(), down.ravel()
-        self.ground = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y])
+        y, x = np.meshgrid(*(np.linspace(-1.0, 1.0, n) for n in self.seen.shape), indexing="ij")
+        self.ground = surface(x.ravel(), y.ravel())
         self.body = len(self.ground) + dimple  # where its coefficients begin
         free = [2, 3]
         if pipette.defocus > 0.0:
@@ -284,6 +279,18 @@ class _Fitting:
             noise=float(np.sqrt(variance)),
             squares=total,
         )
+
+
+def averaged(part: Image, stride: int) -> FloatArray:
+    """Return the means of whole squares of ``stride`` pixels along each side, (rows, columns)."""
+    rows, columns = part.shape[0] // stride, part.shape[1] // stride
+    cells = part[: rows * stride, : columns * stride].reshape(rows, stride, columns, stride)
+    return np.asarray(cells.mean(axis=(1, 3), dtype=np.float64))
+
+
+def surface(x: FloatArray, y: FloatArray) -> FloatArray:
+    """Return the terms (6, pixels) of a background of second order at places (pixels,)."""
+    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y])
 
 
 def least_squares(

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import FloatArray, IntArray
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import fixed
-from rotemina.sim.vision.body_fit import fit_body, learn_body
+from rotemina.sim.vision.body_fit import fit_body
 from rotemina.sim.vision.errors import VisionError
 from rotemina.sim.vision.image import Image, relative_to
 from rotemina.sim.vision.pipette import Pipette
@@ -164,7 +164,9 @@ def learn(track: TipTrack, image: NDArray[Any], *, background: Image | None = No
     become better with the square root of the frames; 30 are enough.
     """
     depth = track.depth.distance
-    fit = learn_body(image, track.pipette, track.pixel, depth, track.contrast, background)
+    fit = fit_body(
+        image, track.pipette, track.pixel, depth, track.contrast, background, learning=True
+    )
     if fit is None or _doubt(fit, track):
         return follow(track, image, background=background)
     share = 1.0 / (track.learnt + 1)
@@ -185,10 +187,7 @@ def _near(
 ) -> TipFit | None:
     """Look for it where it should be, in the part of the picture that may be needed."""
     expected = track.pixel + (track.speed if moved is None else moved)
-    half = round(REACH_PX + _WIDER_PX * track.lost_for) + _LOOK_PX + _PART_PX
-    middle = np.rint(expected).astype(int)
-    low = np.maximum(middle - half, 0)
-    high = np.minimum(middle + half + 1, image.shape[::-1])
+    low, high = _around(track, expected, image.shape, _PART_PX)
     if (high - low < 2 * _LOOK_PX).any():
         return None
     window = slice(low[1], high[1]), slice(low[0], high[0])
@@ -222,15 +221,21 @@ def _fitted(track: TipTrack, image: Image) -> TipFit | None:
 
 
 def _likely_place(track: TipTrack, image: Image, depths: tuple[float, ...]) -> FloatArray | None:
-    half = round(REACH_PX + _WIDER_PX * track.lost_for) + _LOOK_PX
-    middle = np.rint(track.pixel).astype(int)
-    low = np.maximum(middle - half, 0)
-    high = np.minimum(middle + half + 1, image.shape[::-1])
+    low, high = _around(track, track.pixel, image.shape, 0)
     if (high - low < 2 * _LOOK_PX).any():
         return None
     part = image[low[1] : high[1], low[0] : high[0]]
     _, place = likeliest(part, track.pipette, depths, 2, _LOOK_PX)
     return np.asarray(place + low)
+
+
+def _around(
+    track: TipTrack, place: FloatArray, shape: tuple[int, ...], beyond: int
+) -> tuple[IntArray, IntArray]:
+    """Return where the part about a place (2,), px, that is searched begins and ends, (2,) each."""
+    half = round(REACH_PX + _WIDER_PX * track.lost_for) + _LOOK_PX + beyond
+    middle = np.rint(place).astype(int)
+    return np.maximum(middle - half, 0), np.minimum(middle + half + 1, shape[::-1])
 
 
 def _doubt(fit: TipFit | None, track: TipTrack) -> str:

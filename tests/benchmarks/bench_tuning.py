@@ -15,6 +15,7 @@ import numpy as np
 
 from rotemina.drivers.clock import VirtualClock
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.sim.feedback.controller import Controller
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.reference_lead import lead_taps
 from rotemina.sim.feedback.regulation import Regulation
@@ -90,7 +91,7 @@ def test_the_time_of_a_sample() -> None:
     begin_s = time.perf_counter()
     problem.loop.follow(gains, reference)
     simulated_s = (time.perf_counter() - begin_s) / len(reference)
-    controller = problem.loop.controller(gains)
+    controller = Controller(gains, 1.0 / RATE_HZ, problem.loop.limits)
     controller.start(30e-6)
     begin_s = time.perf_counter()
     for _ in range(50_000):

@@ -7,7 +7,6 @@ import pytest
 
 from rotemina.sim.blind.actuator import creep, hysteresis
 from rotemina.sim.blind.machine import Commands, machine_of
-from rotemina.sim.compensate import kernel
 from rotemina.sim.compensate.anfis import Settings
 from rotemina.sim.compensate.samples import Samples, samples_of
 from rotemina.sim.compensate.training import train
@@ -15,6 +14,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.simulation.simulation import simulate
+from rotemina.sim.stops import stops
 
 ROBOT = load_robot("rotemina")
 RATE_HZ = 2000.0
@@ -111,7 +111,7 @@ def bent_run():
     fading = np.linspace(1.0, 0.1, rows) * np.sin(np.linspace(0.0, 60.0, rows))
     shares = np.clip(0.5 + 0.48 * fading + 0.05 * np.sin(np.linspace(0.0, 500.0, rows)), 0.0, 1.0)
     radii = np.linspace(0.03, 0.45, 8)
-    plays = shares[:, None] - kernel.stops(radii, np.zeros(8), shares)
+    plays = shares[:, None] - stops(shares, radii, np.zeros(8))
     inner = 0.8 * shares + plays @ np.full(8, 0.03)
     rows_late = np.arange(rows) - 0.519  # the held command, and the damping of the nominal axis
     inner = np.interp(rows_late, np.arange(rows), inner)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from rotemina.sim.compensate import kernel
 from rotemina.sim.compensate.modified_prandtl_ishlinskii import fit_modified
 from rotemina.sim.compensate.prandtl_ishlinskii import Hysteresis, fit_hysteresis
+from rotemina.sim.stops import stops
 
 RADII = np.array([0.02, 0.08, 0.15, 0.3])
 
@@ -32,7 +33,7 @@ def test_the_inverse_is_exact_from_any_beginning(weights, direct, memory, seed):
 
 
 def plays_of(commands):
-    return commands[:, None] - kernel.stops(RADII, np.zeros(4), commands)
+    return commands[:, None] - stops(commands, RADII, np.zeros(4))
 
 
 def test_the_fit_finds_the_weights():

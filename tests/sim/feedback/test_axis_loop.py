@@ -7,6 +7,7 @@ import pytest
 
 from rotemina.sim.effects.errors import EffectError
 from rotemina.sim.feedback.axis_loop import AxisLoop
+from rotemina.sim.feedback.controller import Controller
 from rotemina.sim.feedback.errors import FeedbackError
 from rotemina.sim.feedback.feed_forward import FeedForward
 from rotemina.sim.feedback.gains import Gains, Notch
@@ -25,7 +26,7 @@ def swing(rows=300):
 
 def live(loop, reference, seed, feed_forward=None):
     """Drive the engine's plant and a controller in turn, as a live session does."""
-    controller = loop.controller(TUNED, feed_forward=feed_forward)
+    controller = Controller(TUNED, H, loop.limits, feed_forward)
     held, state = loop._held(reference[0])
     controller.start(reference[0], held)
     plant, chance = loop.plant, Chance(np.random.default_rng(seed))
@@ -55,7 +56,7 @@ def test_the_loop_is_to_the_bit_that_of_live_steps(worn_loop, led):
 def test_the_controller_answers_the_loops_readings_to_the_bit(worn_loop):
     reference = swing()
     traces = worn_loop.follow(TUNED, reference, rng=np.random.default_rng(3))
-    controller = worn_loop.controller(TUNED)
+    controller = Controller(TUNED, H, worn_loop.limits)
     controller.start(reference[0], worn_loop._held(reference[0])[0])
     answers = [controller.step(*pair) for pair in zip(reference, traces.reading, strict=True)]
     assert np.array(answers).tobytes() == traces.output.tobytes()

@@ -104,12 +104,10 @@ def test_a_notch_lets_the_loop_be_faster(loop):
 
 
 def test_unstable_gains_are_refused_with_the_reason(loop):
-    with pytest.raises(UnstableError, match=r"largest pole .* not inside the unit circle"):
+    with pytest.raises(UnstableError, match=r"largest pole .* not inside .* nothing was applied"):
         check_stability(loop.sampled, Gains(integral=900.0))
     with pytest.raises(UnstableError, match=r"peak sensitivity Ms = .* must be at most 1\.2"):
         check_stability(loop.sampled, TUNED, 1.2)
-    with pytest.raises(UnstableError, match="nothing was applied"):
-        loop.controller(Gains(integral=900.0))
     assert check_stability(loop.sampled, TUNED).stable
     assert sensitivity_peak(LoopAnalysis(loop.sampled), Gains(integral=900.0)) == inf
 
