@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QProgressBar,
     QPushButton,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -20,6 +19,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.layouts import in_column
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.calibration.words import NOTHING, cycles, progress
 from rotemina.sim.calibration.plan import RUNS, TARGETS
@@ -142,15 +142,8 @@ class Procedure(QWidget):
         buttons = QGridLayout()
         for place, button in enumerate((self.plan, self.run, self.stop, self.fit)):
             buttons.addWidget(button, place // 2, place % 2)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 6, 0)
-        column.setSpacing(4)
-        column.addLayout(form)
-        column.addWidget(self.absolute)
-        column.addLayout(buttons)
-        column.addWidget(self.progress)
-        column.addWidget(self.told)
-        column.addStretch(1)
+        parts = form, self.absolute, buttons, self.progress, self.told, 1
+        in_column(*parts, on=self, margins=(0, 0, 6, 0), spacing=4)
 
 
 def _count(name: str, least: int, most: int, preset: int) -> QSpinBox:

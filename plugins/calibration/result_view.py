@@ -3,13 +3,14 @@
 from html import escape
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSplitter, QWidget
 
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import allow
 from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.calibration.words import (
     FIGURES_HEAD,
@@ -113,21 +114,11 @@ class ResultView(QWidget):
 
     def _lay_out(self) -> None:
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.title)
-        column.addWidget(self.plot, 1)
+        in_column(self.title, (self.plot, 1), on=left, margins=0, spacing=2)
         tables = QSplitter(Qt.Orientation.Horizontal)
         tables.addWidget(left)
         tables.addWidget(self.figures)
         tables.setSizes([380, 340])
-        foot = QHBoxLayout()
-        foot.addWidget(self.verdict, 1)
-        foot.addStretch(0)
+        foot = in_row((self.verdict, 1), 0)
         foot.addWidget(self.store, 0, Qt.AlignmentFlag.AlignTop)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(4)
-        outer.addWidget(tables, 1)
-        outer.addLayout(foot)
+        in_column((tables, 1), foot, on=self, margins=0, spacing=4)

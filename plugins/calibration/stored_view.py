@@ -3,11 +3,12 @@
 from pathlib import Path
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from rotemina.app.calibration.store import Stored
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.calibration.words import STORED_HEAD, shown, stored_row
 
@@ -35,15 +36,7 @@ class StoredView(QWidget):
         )
         self.on.clicked.connect(lambda: self._switch(on=True))
         self.off.clicked.connect(lambda: self._switch(on=False))
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        buttons.addWidget(self.on)
-        buttons.addWidget(self.off)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        column.addWidget(self.table, 1)
-        column.addLayout(buttons)
+        in_column((self.table, 1), in_row(1, self.on, self.off), on=self, margins=0, spacing=4)
         self._allow()
 
     @property

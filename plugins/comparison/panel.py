@@ -5,11 +5,9 @@ from html import escape
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -22,6 +20,7 @@ from rotemina.app.shell.report_files import RUN_REPORT, RUN_REPORT_TIP, ask_run_
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.sim.comparison.comparison import TapComparison
 from rotemina.sim.comparison.gap import GapFigure, gap_text
@@ -89,20 +88,13 @@ class ComparisonPanel(Panel):
         workbench.theme_changed.connect(self._use_theme)
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.open)
-        buttons.addWidget(self.save)
-        buttons.addWidget(self.report)
-        buttons.addWidget(self.summary, 1)
+        buttons = in_row(self.open, self.save, self.report, (self.summary, 1))
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
         split.addWidget(_titled(self.signals_title, self.signals))
         split.addWidget(_titled(self.gap_title, self.gap))
         split.setSizes([620, 220, 220])
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(10, 8, 10, 8)
-        outer.addLayout(buttons)
-        outer.addWidget(split, 1)
+        in_column(buttons, (split, 1), on=self, margins=(10, 8, 10, 8))
 
     def _show_run(self, run: Run) -> None:
         record = run.record
@@ -166,11 +158,7 @@ def _worst(taps: Sequence[TapComparison]) -> int:
 
 def _titled(title: QLabel, plot: SignalPlot) -> QWidget:
     box = QWidget()
-    column = QVBoxLayout(box)
-    column.setContentsMargins(4, 0, 0, 0)
-    column.setSpacing(2)
-    column.addWidget(title)
-    column.addWidget(plot, 1)
+    in_column(title, (plot, 1), on=box, margins=(4, 0, 0, 0), spacing=2)
     return box
 
 

@@ -9,12 +9,12 @@ from PySide6.QtWidgets import (
     QProgressBar,
     QPushButton,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.layouts import in_column
 from rotemina.plugins.compensation.trial_motion import Aid
 from rotemina.plugins.compensation.typed_gains import TypedGains
 from rotemina.plugins.compensation.words import APPLY, LIVE_LOOP, SWITCH
@@ -132,13 +132,9 @@ class Controls(QWidget):
                 column += span
         remark = _told(translate("compensation", LIVE_LOOP))
         remark.setProperty("quiet", True)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 4, 0)
-        whole.addLayout(grid)
-        whole.addWidget(remark)
-        for widget in (self.doing, self.progress, self.stop):
-            whole.addWidget(widget)
-        whole.addStretch(1)
+        in_column(
+            grid, remark, self.doing, self.progress, self.stop, 1, on=self, margins=(0, 0, 4, 0)
+        )
 
 
 def _told(text: str) -> QLabel:

@@ -7,9 +7,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -17,6 +15,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.compensation.inverse_training import Learned
 from rotemina.plugins.compensation.trial_motion import Aid, Trial
@@ -63,11 +62,7 @@ class Curves(QWidget):
         item.getAxis("left").setWidth(_AXIS_WIDTH)
         for name, role in roles.items():
             self.plot.add_curve(name, Line(role))
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.title)
-        column.addWidget(self.plot, 1)
+        in_column(self.title, (self.plot, 1), on=self, margins=0, spacing=2)
         self.set_theme(theme)
 
     def draw(self, name: str, x: FloatArray, y: FloatArray) -> None:
@@ -117,13 +112,7 @@ class CheckView(QWidget):
             roles,
             marked("compensation", "command [{unit}]"),
         )
-        left = QVBoxLayout()
-        left.addWidget(self.table, 1)
-        left.addWidget(self.why)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addLayout(left, 3)
-        row.addWidget(self.loop, 2)
+        in_row((in_column((self.table, 1), self.why), 3), (self.loop, 2), on=self, margins=0)
 
     def set_unit(self, unit: str) -> None:
         """Name the unit, "m" or "rad", of what will be drawn."""
@@ -164,10 +153,7 @@ class LiveView(QWidget):
             roles,
             marked("compensation", "reference [{unit}]"),
         )
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.loop, 1)
-        row.addWidget(self.left, 1)
+        in_row((self.loop, 1), (self.left, 1), on=self, margins=0)
 
     def set_unit(self, unit: str) -> None:
         """Name the unit, "m" or "rad", of what will be drawn."""
@@ -236,10 +222,7 @@ class FrontView(QWidget):
             tries,
             marked("compensation", "time [ms]"),
         )
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        for view in (self.front, self.step, self.triangle):
-            row.addWidget(view, 1)
+        in_row((self.front, 1), (self.step, 1), (self.triangle, 1), on=self, margins=0)
         self.set_theme(theme)
 
     def set_unit(self, unit: str) -> None:

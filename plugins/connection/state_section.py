@@ -1,6 +1,6 @@
 """The state of the session: its phase, locks, and the emergency stop."""
 
-from PySide6.QtWidgets import QHBoxLayout, QLabel
+from PySide6.QtWidgets import QLabel
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
@@ -8,6 +8,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import PhaseLabel
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
 from rotemina.plugins.connection import unavailable_reasons
 
@@ -20,11 +21,7 @@ class StateSection(Section):
         self.phase = PhaseLabel()
         self.device = QLabel()
         self.device.setProperty("quiet", True)
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(self.phase)
-        row.addWidget(self.device, 1)
-        self.column.addLayout(row)
+        self.column.addLayout(in_row(self.phase, (self.device, 1), spacing=8))
         self.reason = self.add_text()
         self.emergency = button(translate("connection", "Stop and lock"), workbench.emergency_stop)
         self.release = button(translate("connection", "Release"), workbench.release)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QLineEdit, QPushButton
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.ranges import Range
@@ -14,6 +14,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.control.hold_to_jog import Holding
@@ -161,13 +162,7 @@ class AxisRow(QFrame):
         self.name.setTextFormat(Qt.TextFormat.PlainText)  # a name from a file is no markup
         self.name.setProperty("heading", True)
         self.name.setMinimumWidth(_NAME)
-        controls = QHBoxLayout()
-        controls.setSpacing(4)
-        controls.addWidget(self.minus)
-        controls.addWidget(self.plus)
-        controls.addWidget(self.target, 1)
-        controls.addWidget(self.go)
-        controls.addWidget(self.left)
+        controls = in_row(self.minus, self.plus, (self.target, 1), self.go, self.left, spacing=4)
         self._roomy: bool | None = None
         grid = self._grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 3)

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from math import isfinite
 from typing import NamedTuple
 
-from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QLabel, QWidget
 
 from rotemina.app.motion.saved_positions import LOAD, WORK
 from rotemina.app.motion.state import SessionState
@@ -12,6 +12,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.connection.unavailable_reasons import against_teaching, in_motion
 
 LIFT = "z"
@@ -61,13 +62,7 @@ class ChangeGuide(QDialog):
         self.skip = button(
             translate("control", "Skip"), self._next, translate("control", "Skip this step")
         )
-        column = QVBoxLayout(self)
-        for line in self.lines:
-            column.addWidget(line)
-        row = QHBoxLayout()
-        row.addWidget(self.do, 1)
-        row.addWidget(self.skip)
-        column.addLayout(row)
+        in_column(*self.lines, on=self).addLayout(in_row((self.do, 1), self.skip))
         workbench.refreshed.connect(self.refresh)
 
     @property

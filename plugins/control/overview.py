@@ -1,6 +1,6 @@
 """Overview above the axes: steering, the tip, and the speed of moves."""
 
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
@@ -9,6 +9,7 @@ from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.control.step_choice import SpeedChoice
 from rotemina.plugins.control.wording import above_floor, steering_text, tip_short, tip_text
 from rotemina.plugins.teleoperation.wording import driver_text, standing, trust_text
@@ -33,10 +34,7 @@ class Overview(QWidget):
         self.device, self.tip = ElidedLabel(), ElidedLabel()
         self.device.setAccessibleName(translate("control", "Device, mode and scaling"))
         self.tip.setAccessibleName(translate("control", "Height of the tip"))
-        first = QHBoxLayout()
-        first.setSpacing(8)
-        first.addWidget(self.stick)
-        first.addWidget(self.device, 1)
+        first = in_row(self.stick, (self.device, 1), spacing=8)
         grid = QGridLayout(self)
         grid.setContentsMargins(10, 4, 10, 2)
         grid.setVerticalSpacing(3)

@@ -6,7 +6,6 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QScrollArea,
     QStackedWidget,
@@ -20,6 +19,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.control.axes_page import AxesPage
 from rotemina.plugins.control.axis_row import AxisRow
@@ -113,13 +113,8 @@ class ControlPanel(Panel):
             self.tabs.addTab(name)
             self.pages.addWidget(page)
         self.tabs.currentChanged.connect(self._turn_to)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
-        outer.addWidget(self.head)
-        outer.addWidget(self._scrolled_axes(), 1)
-        outer.addWidget(self.tabs)
-        outer.addWidget(self.pages)
+        parts = self.head, (self._scrolled_axes(), 1), self.tabs, self.pages
+        in_column(*parts, on=self, margins=0, spacing=0)
         workbench.shown.connect(self._show)
         self.follow(self._refresh)
 
@@ -134,9 +129,7 @@ class ControlPanel(Panel):
 
     def _scrolled_axes(self) -> QScrollArea:
         content = QWidget()
-        column = QVBoxLayout(content)
-        column.setContentsMargins(10, 0, 8, 0)
-        column.setSpacing(1)
+        column = in_column(on=content, margins=(10, 0, 8, 0), spacing=1)
         for stage, axes in stages(self.workbench.robot).items():
             self._add_stage(column, stage, axes)
         column.addStretch(1)
@@ -161,10 +154,7 @@ class ControlPanel(Panel):
         heading.setTextFormat(Qt.TextFormat.PlainText)
         steps = StepChoice(self.workbench.robot, axes)
         self.steps[stage] = steps
-        line = QHBoxLayout()
-        line.addWidget(heading, 1)
-        line.addWidget(steps)
-        column.addLayout(line)
+        column.addLayout(in_row((heading, 1), steps))
         for name in axes:
             row = AxisRow(name, self.workbench, steps, self.head.speed)
             self.rows[name] = row

@@ -3,7 +3,7 @@
 import time
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
 from rotemina.app.motion.penetration.status import UNDER_WAY, Phase
 from rotemina.app.motion.state import SessionState
@@ -13,6 +13,7 @@ from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.penetration.plan_preview import PlanPreview
 from rotemina.plugins.penetration.words import (
@@ -63,18 +64,9 @@ class PenetrationPage(QWidget):
         self.parameters = plain_text()
         self.phase.setMinimumSize(130, 22)
         self.phase.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
-        row = QHBoxLayout()
-        row.setSpacing(6)
-        row.addWidget(self.arm, 1)
-        row.addWidget(self.button, 2)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 6, 10, 4)
-        column.setSpacing(4)
-        column.addLayout(row)
-        column.addWidget(self.phase)
-        column.addWidget(self.message)
-        column.addWidget(self.parameters)
-        column.addStretch(1)
+        row = in_row((self.arm, 1), (self.button, 2), spacing=6)
+        parts = row, self.phase, self.message, self.parameters, 1
+        in_column(*parts, on=self, margins=(10, 6, 10, 4), spacing=4)
 
     def refresh(self, state: SessionState) -> None:
         """Show a moment, and lock what cannot be done now."""

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QWidget
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.saved_positions import HOME, LOAD, LONGEST_NAME, WORK, SavedPositions
@@ -13,6 +13,7 @@ from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.connection.unavailable_reasons import (
     against_going_back,
@@ -70,15 +71,17 @@ class PositionsPage(QWidget):
         self._guide: ChangeGuide | None = None
         self.home = button(translate("control", "Home all"), workbench.home)
         self.back = button(translate("control", "Back"), workbench.undo)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 3, 10, 2)
-        column.setSpacing(3)
-        column.addLayout(_row((self.names, 1), (self.go, 0), (self.delete, 0)))
-        column.addWidget(self.place)
-        column.addLayout(_row((self.name, 1), (self.keep, 0)))
-        column.addLayout(_row(*((one, 1) for one in (*self.places.values(), self.change))))
-        column.addLayout(_row((self.home, 1), (self.back, 1)))
-        column.addStretch(1)
+        in_column(
+            _row((self.names, 1), (self.go, 0), (self.delete, 0)),
+            self.place,
+            _row((self.name, 1), (self.keep, 0)),
+            _row(*((one, 1) for one in (*self.places.values(), self.change))),
+            _row((self.home, 1), (self.back, 1)),
+            1,
+            on=self,
+            margins=(10, 3, 10, 2),
+            spacing=3,
+        )
         if workbench.ask(self.positions.read):
             self._list()
 
@@ -238,8 +241,7 @@ class PositionsPage(QWidget):
 
 
 def _row(*widgets: tuple[QWidget, int]) -> QHBoxLayout:
-    row = QHBoxLayout()
-    row.setSpacing(6)
+    row = in_row(spacing=6)
     for widget, stretch in widgets:
         row.addWidget(widget, stretch, Qt.AlignmentFlag.AlignVCenter)
     return row

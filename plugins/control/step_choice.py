@@ -2,10 +2,11 @@
 
 from collections.abc import Iterable
 
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from rotemina.app.display_units import step_presets
 from rotemina.app.shell.language import translate
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.sim.quantities import rounded, scale_in
 from rotemina.sim.robot.model import Robot
@@ -23,10 +24,7 @@ class StepChoice(QWidget):
 
     def __init__(self, robot: Robot, axes: tuple[str, ...]) -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(6)
-        row.addWidget(QLabel(translate("control", "Step")))
+        row = in_row(QLabel(translate("control", "Step")), on=self, margins=0, spacing=6)
         self.boxes: dict[str, SteadyChoice] = {}
         self._quantities = {name: robot.axes[name].unit or "m" for name in axes}
         for quantity in dict.fromkeys(self._quantities.values()):

@@ -3,10 +3,8 @@
 from PySide6.QtWidgets import (
     QButtonGroup,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -18,6 +16,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.control.wording import owners_text, taken
 from rotemina.plugins.teleoperation.wording import law_choices, mode_choice, reason_text, trust_text
@@ -50,26 +49,11 @@ class HandPage(QWidget):
         self.trust, self.reason, self.owners = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.reason.setProperty("quiet", True)
         self.over = button(translate("control", "Take over"), self._take_over)
-        scaling = QHBoxLayout()
-        scaling.setSpacing(6)
-        for widget, stretch in (
-            (QLabel(translate("control", "Scaling")), 0),
-            (self.law, 1),
-            (self.preset, 1),
-        ):
-            scaling.addWidget(widget, stretch)
-        owned = QHBoxLayout()
-        owned.addWidget(self.owners, 1)
-        owned.addWidget(self.over)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 6, 10, 4)
-        column.setSpacing(4)
-        column.addLayout(self._mode_buttons())
-        column.addLayout(scaling)
-        column.addWidget(self.trust)
-        column.addWidget(self.reason)
-        column.addLayout(owned)
-        column.addStretch(1)
+        heading = QLabel(translate("control", "Scaling"))
+        scaling = in_row(heading, (self.law, 1), (self.preset, 1), spacing=6)
+        owned = in_row((self.owners, 1), self.over)
+        parts = self._mode_buttons(), scaling, self.trust, self.reason, owned, 1
+        in_column(*parts, on=self, margins=(10, 6, 10, 4), spacing=4)
 
     def refresh(self, state: SessionState) -> None:
         """Show a moment of the machine."""

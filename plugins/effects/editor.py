@@ -4,17 +4,16 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QScrollArea,
     QSizePolicy,
-    QVBoxLayout,
     QWidget,
 )
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.effects.parameter_display import Quantity
 from rotemina.plugins.effects.parameter_field import ParameterField
@@ -72,18 +71,8 @@ class Editor(QWidget):
         self.show_effect(None, -1)
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(6)
-        head.addWidget(self.title)
-        head.addStretch(1)
-        for widget in (self.formulation, self._from, self.source):
-            head.addWidget(widget)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(8, 0, 0, 0)
-        column.setSpacing(3)
-        column.addLayout(head)
-        column.addWidget(self.equation)
-        column.addWidget(self._scroll, 1)
+        head = in_row(self.title, 1, self.formulation, self._from, self.source, spacing=6)
+        in_column(head, self.equation, (self._scroll, 1), on=self, margins=(8, 0, 0, 0), spacing=3)
 
     def show_effect(self, one: Attached | None, place: int) -> None:
         """Show an effect at its place in the list, or that there is none."""

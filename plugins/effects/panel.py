@@ -5,13 +5,11 @@ from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QMenu,
     QPushButton,
     QSizePolicy,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,6 +21,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.effects.chosen_effects import Chain, with_formulation, with_value
 from rotemina.plugins.effects.editor import Editor
 from rotemina.plugins.effects.effect_table import EffectTable
@@ -114,33 +113,16 @@ class EffectsPanel(Panel):
         )
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.setSpacing(6)
-        for widget in (
-            self.machine,
-            self.add,
-            self.up,
-            self.down,
-            self.remove,
-            self.undo,
-            self.all_off,
-        ):
-            buttons.addWidget(widget)
-        buttons.addWidget(self.status, 1)
-        for widget in (self.left_out, self.load, self.save):
-            buttons.addWidget(widget)
+        changes = self.add, self.up, self.down, self.remove, self.undo, self.all_off
+        files = self.left_out, self.load, self.save
+        buttons = in_row(self.machine, *changes, (self.status, 1), *files, spacing=6)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
         split.addWidget(self.editor)
         split.setSizes([450, 500])
         self._body = QWidget()
-        body = QVBoxLayout(self._body)
-        body.setContentsMargins(10, 8, 10, 8)
-        body.addLayout(buttons)
-        body.addWidget(split, 1)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._body)
+        in_column(buttons, (split, 1), on=self._body, margins=(10, 8, 10, 8))
+        in_column(self._body, on=self, margins=0)
 
     def _offer_effects(self) -> None:
         effects, broken = all_effects()

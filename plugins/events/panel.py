@@ -6,11 +6,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
     QListWidget,
     QListWidgetItem,
     QPushButton,
-    QVBoxLayout,
 )
 
 from rotemina.app.motion.state import SessionState
@@ -20,6 +18,7 @@ from rotemina.app.shell.model_chip import model_name
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.events.journal import Entry, Journal, Moment
 
 MOST_SHOWN = 100
@@ -58,14 +57,8 @@ class EventsPanel(Panel):
         workbench.theme_changed.connect(self._colour)
 
     def _lay_out(self) -> None:
-        foot = QHBoxLayout()
-        foot.addStretch(1)
-        foot.addWidget(self.show_log)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(8, 6, 8, 6)
-        column.setSpacing(4)
-        column.addWidget(self.list, 1)
-        column.addLayout(foot)
+        foot = in_row(1, self.show_log)
+        in_column((self.list, 1), foot, on=self, margins=(8, 6, 8, 6), spacing=4)
 
     def _look(self, state: SessionState) -> None:
         bench = self.workbench

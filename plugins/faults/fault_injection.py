@@ -6,10 +6,8 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -17,6 +15,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice, SteadyNumber
 from rotemina.plugins.faults.board_process import TAKES_COMMANDS, BoardProcess
 from rotemina.plugins.faults.fault_catalogue import Fault, Number, Pick, faults
@@ -92,11 +91,7 @@ class FaultRow:
         title = QLabel(self.fault.title)
         title.setToolTip(plain_tip(self.fault.meaning))
         grid.addWidget(title, row, 0)
-        fields = QHBoxLayout()
-        fields.setSpacing(6)
-        for field in self.fields:
-            fields.addWidget(field, 1)
-        grid.addLayout(fields, row, 1)
+        grid.addLayout(in_row(*((field, 1) for field in self.fields), spacing=6), row, 1)
         grid.addWidget(self.button, row, 2)
 
 
@@ -155,13 +150,8 @@ class Injection(QWidget):
     def _lay_out(self) -> None:
         about = plain_text(translate("faults", _ABOUT), wrap=True)
         self.state.setProperty("quiet", True)
-        buttons, options = QHBoxLayout(), QHBoxLayout()
-        for widget in (self.start, self.end):
-            buttons.addWidget(widget)
-        buttons.addWidget(self.state, 1)
-        for widget in (self.lines, self.homed):
-            options.addWidget(widget)
-        options.addStretch(1)
+        buttons = in_row(self.start, self.end, (self.state, 1))
+        options = in_row(self.lines, self.homed, 1)
         grid = QGridLayout()
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(5)
@@ -172,14 +162,7 @@ class Injection(QWidget):
             made = FaultRow(fault, self._inject)
             made.place(grid, row)
             self.rows.append(made)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(2, 0, 8, 4)
-        column.setSpacing(6)
-        column.addLayout(buttons)
-        column.addLayout(options)
-        column.addLayout(grid)
-        column.addWidget(about)
-        column.addStretch(1)
+        in_column(buttons, options, grid, about, 1, on=self, margins=(2, 0, 8, 4), spacing=6)
 
     def _connect(self) -> None:
         self.board.listening.connect(self._offer)

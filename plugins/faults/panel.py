@@ -6,9 +6,7 @@ from pathlib import Path
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -19,6 +17,7 @@ from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
 from rotemina.plugins.faults.fault_history import Entry, History, Kind, as_text
 from rotemina.plugins.faults.fault_injection import Injection
@@ -76,17 +75,9 @@ class FaultsPanel(Panel):
         )
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.setSpacing(6)
-        buttons.addWidget(self.clear_fault)
-        buttons.addStretch(1)
-        for widget in (self.copy, self.save, self.empty):
-            buttons.addWidget(widget)
+        buttons = in_row(self.clear_fault, 1, self.copy, self.save, self.empty, spacing=6)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 4, 0)
-        column.addLayout(buttons)
-        column.addWidget(self.table, 1)
+        in_column(buttons, (self.table, 1), on=left, margins=(0, 0, 4, 0))
         scroll = scrolled(self.injection)
         scroll.setMinimumWidth(least_width(scroll))
         split = QSplitter(Qt.Orientation.Horizontal)
@@ -94,9 +85,7 @@ class FaultsPanel(Panel):
         split.addWidget(scroll)
         split.setSizes([400, 520])
         split.setChildrenCollapsible(False)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(10, 8, 10, 8)
-        outer.addWidget(split)
+        in_column(split, on=self, margins=(10, 8, 10, 8))
 
     def _refresh(self, state: SessionState) -> None:
         self.history.note_latch(now(), state.latched)

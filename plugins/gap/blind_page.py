@@ -6,13 +6,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QIntValidator
 from PySide6.QtWidgets import (
     QDialog,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QProgressBar,
     QPushButton,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -21,6 +19,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.blind_figures import HEAD, BlindResult
 from rotemina.plugins.gap.blind_run import BlindRun
@@ -92,16 +91,14 @@ class BlindPage(QDialog):
     def _lay_out(self) -> None:
         about = QLabel(translate("gap", ABOUT))
         about.setWordWrap(True)
-        row = QHBoxLayout()
-        for text, field in (
-            (translate("gap", "Cases"), self.cases),
-            (translate("gap", "Seed"), self.seed),
-        ):
-            row.addWidget(QLabel(text))
-            row.addWidget(field)
-        for widget in (self.start, self.stop, self.score, self.progress):
-            row.addWidget(widget)
-        row.addWidget(self.doing, 1)
+        row = in_row(
+            QLabel(translate("gap", "Cases")),
+            self.cases,
+            QLabel(translate("gap", "Seed")),
+            self.seed,
+            *(self.start, self.stop, self.score, self.progress),
+            (self.doing, 1),
+        )
         split = self.shown = QSplitter(Qt.Orientation.Vertical)
         split.addWidget(
             _titled(translate("gap", "Figures, each with its 95 % interval"), self.figures)
@@ -116,12 +113,8 @@ class BlindPage(QDialog):
                 self.matrix,
             )
         )
-        column = QVBoxLayout(self)
-        column.addWidget(about)
-        column.addLayout(row)
         self.nothing = hint(translate("gap", NOTHING))
-        column.addWidget(self.nothing, 1)
-        column.addWidget(split, 1)
+        in_column(about, row, (self.nothing, 1), (split, 1), on=self)
         split.hide()
         self.resize(900, 640)
 
@@ -277,12 +270,7 @@ def _field(text: str, most: int, least: int, tooltip: str) -> QLineEdit:
 
 
 def _titled(text: str, table: Table) -> QWidget:
-    box = QWidget()
-    column = QVBoxLayout(box)
-    column.setContentsMargins(0, 0, 0, 0)
-    column.setSpacing(2)
-    heading = QLabel(text)
+    box, heading = QWidget(), QLabel(text)
     heading.setProperty("quiet", True)
-    column.addWidget(heading)
-    column.addWidget(table, 1)
+    in_column(heading, (table, 1), on=box, margins=0, spacing=2)
     return box

@@ -5,12 +5,13 @@ from itertools import pairwise
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.heat_cell import parts
@@ -71,11 +72,9 @@ class DistributionView(QSplitter):
         self.cell = HeatCellView(theme)
         self.cell.closed.connect(lambda: self.right.setCurrentIndex(0))
         whole = QWidget()
-        column = QVBoxLayout(whole)
-        column.setContentsMargins(4, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.heat_title)
-        column.addWidget(self.heat, 1)
+        column = in_column(
+            self.heat_title, (self.heat, 1), on=whole, margins=(4, 0, 0, 0), spacing=2
+        )
         self.right = QStackedWidget()
         self.right.addWidget(whole)
         self.right.addWidget(self.cell)

@@ -3,12 +3,13 @@
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.engine_words import WindowWording
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.gap.answer_quality import TONES, Tone, change, why_worse
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.unseen_motion_reduction import Proof
@@ -33,23 +34,9 @@ class Headline(QFrame):
             text.setWordWrap(True)
         self.sentence.setProperty("sentence", True)
         self.remainder.setProperty("remainder", True)
-        words = QVBoxLayout()
-        words.setSpacing(0)
-        words.addWidget(self.sentence)
-        words.addWidget(self.remainder)
-        words.addStretch(1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(12, 6, 8, 6)
-        row.setSpacing(12)
-        row.addLayout(words, 1)
-        buttons = QVBoxLayout()
-        for widgets in (first, more):
-            line = QHBoxLayout()
-            line.addStretch(1)
-            for widget in widgets:
-                line.addWidget(widget)
-            buttons.addLayout(line)
-        row.addLayout(buttons)
+        words = in_column(self.sentence, self.remainder, 1, spacing=0)
+        buttons = in_column(in_row(1, *first), in_row(1, *more))
+        in_row((words, 1), buttons, on=self, margins=(12, 6, 8, 6), spacing=12)
 
     def show_answer(self, answer: Answer, proof: Proof | None) -> None:
         """Show a diagnosis, and what a motion that it has not seen says of it."""

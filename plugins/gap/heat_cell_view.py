@@ -5,11 +5,12 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QWidget
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.gap.heat_cell import Part
 from rotemina.sim.quantities import amount, scale_of
 
@@ -48,16 +49,8 @@ class HeatCellView(QWidget):
         for name, role in CURVES:
             self.plot.add_curve(name, Line(role))
         self.plot.show_times(True)
-        head = QHBoxLayout()
-        head.addWidget(self.back)
-        head.addWidget(self.title, 1)
-        head.addWidget(self.choice)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(4, 0, 0, 0)
-        column.setSpacing(2)
-        column.addLayout(head)
-        column.addWidget(self.legend)
-        column.addWidget(self.plot, 1)
+        head = in_row(self.back, (self.title, 1), self.choice)
+        in_column(head, self.legend, (self.plot, 1), on=self, margins=(4, 0, 0, 0), spacing=2)
 
     def show_parts(self, title: str, names: Sequence[str], parts: Sequence[Part]) -> None:
         """Show what records hold of a cell."""

@@ -1,11 +1,12 @@
 """While a diagnosis is under way: what is done now, and how the candidates of each axis stand."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QWidget
+from PySide6.QtWidgets import QLabel, QSplitter, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.gap.ranking_view import RankingView
 from rotemina.sim.gap.diagnosis_progress import Progress
 
@@ -26,9 +27,7 @@ class ProgressView(QSplitter):
         super().__init__(Qt.Orientation.Horizontal)
         self._theme = theme
         self.rankings: dict[str, RankingView] = {}
-        self._row = QHBoxLayout()
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(12)
+        self._row = in_row(margins=0, spacing=12)
         rankings = QWidget()
         rankings.setLayout(self._row)
         self.text = QLabel()

@@ -2,13 +2,11 @@
 
 from PySide6.QtCore import QSignalBlocker
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QMenu,
     QPushButton,
     QStackedWidget,
     QTabBar,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -16,6 +14,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import allow, plain_tip, set_property
 from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.gap.axis_cards import AxisCells
 from rotemina.plugins.gap.causes_view import CausesView
 from rotemina.plugins.gap.diagnosis_answer import Answer
@@ -113,20 +112,9 @@ class ResultSection(QWidget):
         self.cells = AxisCells(theme)
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(8)
-        head.addWidget(self.tabs)
-        head.addStretch(1)
-        head.addWidget(self.plan)
-        head.addWidget(self.motion)
+        head = in_row(self.tabs, 1, self.plan, self.motion, spacing=8)
         self.setMaximumWidth(_WIDEST)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(6)
-        for widget in (self.headline, self.cells):
-            column.addWidget(widget)
-        column.addLayout(head)
-        column.addWidget(self.views, 1)
+        in_column(self.headline, self.cells, head, (self.views, 1), on=self, margins=0, spacing=6)
 
     # --- what is shown ----------------------------------------------------------------------------
 

@@ -6,12 +6,13 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QLabel, QSizePolicy, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QSplitter, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.layouts import in_column
 from rotemina.plugins.gap.answer_quality import change
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.trace_view import TraceView
@@ -117,11 +118,7 @@ class ShrinkageView(QSplitter):
         self.bars = Bars(theme)
         self.traces = TraceView(theme)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(4, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.title)
-        column.addWidget(self.bars, 1)
+        in_column(self.title, (self.bars, 1), on=left, margins=(4, 0, 0, 0), spacing=2)
         self.addWidget(left)
         self.addWidget(self.traces)
         self.setSizes([470, 470])

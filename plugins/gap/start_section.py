@@ -4,7 +4,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QBoxLayout,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QProgressBar,
     QPushButton,
@@ -13,6 +12,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.gap.record_views import RecordList, RecordMenu
 from rotemina.plugins.gap.records import Records
 from rotemina.plugins.gap.robot_choice import RobotChoice
@@ -41,15 +41,12 @@ class StartSection(QFrame):
         self.doing.setTextFormat(Qt.TextFormat.PlainText)
         self.doing.setWordWrap(True)
         self._model = QLabel(translate("gap", "Model"))
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.start)
-        buttons.addWidget(self.stop)
         self._line = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._line.setContentsMargins(0, 0, 0, 0)
         self._line.setSpacing(6)
         for widget in (self.menu, self.list, self._model, self.robots):
             self._line.addWidget(widget)
-        self._line.addLayout(buttons)
+        self._line.addLayout(in_row(self.start, self.stop))
         self._line.addWidget(self.progress)
         self._line.addWidget(self.doing, 1)
         self._line.addStretch(0)

@@ -4,11 +4,12 @@ from collections.abc import Sequence
 from html import escape
 
 import numpy as np
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.sim.gap.report.traces import Trace
 from rotemina.sim.quantities import scale_of
 
@@ -33,14 +34,8 @@ class TraceView(QWidget):
         for name, role in (*FLOOR, ("before", "command"), ("after", "model")):
             self.plot.add_curve(name, Line(role))
         self.plot.show_times(True)
-        head = QHBoxLayout()
-        head.addWidget(self.choice)
-        head.addWidget(self.title, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(4, 0, 0, 0)
-        column.setSpacing(2)
-        column.addLayout(head)
-        column.addWidget(self.plot, 1)
+        head = in_row(self.choice, (self.title, 1))
+        in_column(head, (self.plot, 1), on=self, margins=(4, 0, 0, 0), spacing=2)
 
     def show_traces(self, named: Sequence[tuple[str, Trace]], chosen: int = 0) -> None:
         """Offer traces by their names, and draw one of them."""

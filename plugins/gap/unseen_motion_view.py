@@ -2,13 +2,14 @@
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.gap_words import RUN
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.answer_quality import change
 from rotemina.plugins.gap.trace_view import TraceView
@@ -54,11 +55,7 @@ class ProofView(QStackedWidget):
         self.table.currentCellChanged.connect(lambda row, *_: self._choose(row))
         self.traces = TraceView(theme)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.title)
-        column.addWidget(self.table, 1)
+        in_column(self.title, (self.table, 1), on=left, margins=0, spacing=2)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(left)
         split.addWidget(self.traces)

@@ -3,10 +3,11 @@
 from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
+from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.record_query import Question, first_axis, taps_of
 from rotemina.plugins.identification.views import View
@@ -134,17 +135,13 @@ class Controls(QWidget):
         )
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(6)
-        for widget in (self.excite, self.open, self.axis, self.drive, self.answer, self.view):
-            row.addWidget(widget)
-        for widget in (self.averages, self.method, self.poles):
-            row.addWidget(widget)
-        row.addStretch(1)
-        row.addWidget(self.keep)
-        row.addWidget(self.copy)
-        row.addWidget(self.save)
+        choices = self.axis, self.drive, self.answer, self.view
+        settings, results = (
+            (self.averages, self.method, self.poles),
+            (self.keep, self.copy, self.save),
+        )
+        parts = self.excite, self.open, *choices, *settings, 1, *results
+        in_row(*parts, on=self, margins=0, spacing=6)
 
     def _change_axis(self) -> None:
         self._offer_taps()

@@ -6,11 +6,9 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QGridLayout,
-    QHBoxLayout,
     QLineEdit,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,6 +22,7 @@ from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.app.widgets.controls import allow, set_property
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.identification.excitation import ExcitationRequest, Prepared, Wave, prepared
 from rotemina.sim.errors import InputError
@@ -282,19 +281,8 @@ class ExciteView(QWidget):
             field.setMinimumWidth(0)
         for column in (0, 1):
             grid.setColumnStretch(column, 1)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(4)
-        buttons.addWidget(self.play)
-        buttons.addWidget(self.stop)
-        buttons.addWidget(self.progress, 1)
-        rows = QVBoxLayout(self)
-        rows.setContentsMargins(0, 0, 8, 0)
-        rows.setSpacing(4)
-        rows.addLayout(grid)
-        rows.addLayout(buttons)
-        rows.addWidget(self.owner)
-        rows.addWidget(self.told)
-        rows.addStretch(1)
+        buttons = in_row(self.play, self.stop, (self.progress, 1), spacing=4)
+        in_column(grid, buttons, self.owner, self.told, 1, on=self, margins=(0, 0, 8, 0), spacing=4)
 
 
 def _field(name: str, tip: str) -> QLineEdit:

@@ -5,12 +5,10 @@ from pathlib import Path
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
     QScrollArea,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -22,6 +20,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.identification.chart import Chart
@@ -83,29 +82,16 @@ class IdentificationPanel(Panel):
 
     def _lay_out(self) -> None:
         side = QWidget()
-        column = QVBoxLayout(side)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.summary)
-        column.addWidget(self.sheet, 1)
+        in_column(self.summary, (self.sheet, 1), on=side, margins=0, spacing=2)
         self._split = QSplitter(Qt.Orientation.Horizontal)
         self._split.addWidget(side)
         for chart in self.charts:
             self._split.addWidget(chart)
-        looks = QVBoxLayout()
-        looks.setSpacing(4)
-        looks.addWidget(self.notices)
-        looks.addWidget(self._split, 1)
+        looks = in_column(self.notices, (self._split, 1), spacing=4)
         self._exciting = _scrolled(self.excite)
         self._exciting.hide()
-        row = QHBoxLayout()
-        row.addWidget(self._exciting)
-        row.addLayout(looks, 1)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(10, 6, 10, 6)
-        outer.setSpacing(4)
-        outer.addWidget(self.controls)
-        outer.addLayout(row, 1)
+        row = in_row(self._exciting, (looks, 1))
+        in_column(self.controls, (row, 1), on=self, margins=(10, 6, 10, 6), spacing=4)
         self.setMinimumHeight(HEIGHT)
 
     def _connect(self) -> None:

@@ -6,13 +6,13 @@ from PySide6.QtWidgets import (
     QLabel,
     QListWidget,
     QListWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import plain_text, show_text
+from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.section import Section, clear
 from rotemina.plugins.inputs.words import Entry, Trouble
 
@@ -82,9 +82,7 @@ class Troubles(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(0, 0, 0, 0)
-        self._column.setSpacing(4)
+        self._column = in_column(on=self, margins=0, spacing=4)
         self._shown: tuple[Trouble, ...] = ()
 
     def show_troubles(self, troubles: tuple[Trouble, ...]) -> None:
@@ -105,8 +103,7 @@ class Troubles(QWidget):
 def _frame(trouble: Trouble) -> QFrame:
     frame = QFrame()
     frame.setObjectName("question")
-    column = QVBoxLayout(frame)
-    column.setContentsMargins(8, 5, 8, 6)
+    column = in_column(on=frame, margins=(8, 5, 8, 6))
     for words in (trouble.text, trouble.remedy):
         if words:
             column.addWidget(_selectable(words))

@@ -1,7 +1,7 @@
 """Live readings of a device: axis bars and button lamps."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QVBoxLayout
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
@@ -10,6 +10,7 @@ from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.labels import ElidedLabel, show_text
+from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.section import Section, clear
 from rotemina.plugins.inputs.reading_bars import AxisBar, Lamps
 from rotemina.plugins.inputs.words import target_name
@@ -70,8 +71,7 @@ class LiveSection(Section):
         super().__init__(translate("inputs", "Live"))
         self._theme = theme
         self.said = self.add_text()
-        self._rows_column = QVBoxLayout()
-        self._rows_column.setSpacing(4)
+        self._rows_column = in_column(spacing=4)
         self.column.addLayout(self._rows_column)
         self.rows: dict[str, AxisRow] = {}
         self.lamps = Lamps(theme)

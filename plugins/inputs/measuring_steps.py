@@ -1,7 +1,7 @@
 """The steps of measuring a device: choice of axes, rest, ends, outcome."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QWidget
 
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.shell.engine_words import spoken
@@ -9,6 +9,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text, show_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.section import clear
 from rotemina.plugins.inputs.calibration_progress import Calibrating, Step
 
@@ -49,16 +50,8 @@ class Measuring(QWidget):
         self.problems = plain_text(wrap=True)
         self.next = button(translate("inputs", "Measure …"), self._next)
         self.cancel = button(translate("inputs", "Cancel"), self._cancel)
-        row = QHBoxLayout()
-        row.setSpacing(6)
-        row.addWidget(self.next, 1)
-        row.addWidget(self.cancel)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        for widget in (self.text, self.choice, self.problems):
-            column.addWidget(widget)
-        column.addLayout(row)
+        row = in_row((self.next, 1), self.cancel, spacing=6)
+        in_column(self.text, self.choice, self.problems, row, on=self, margins=0, spacing=4)
 
     def refresh(self, now: Calibrating, device: DeviceView, now_s: float) -> None:
         """Show where the measurement of a device is."""

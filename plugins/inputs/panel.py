@@ -7,10 +7,8 @@ from enum import StrEnum
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QHideEvent
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QPushButton,
     QTabBar,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,6 +22,7 @@ from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.inputs.calibration_section import CalibrationSection
 from rotemina.plugins.inputs.device_list import DeviceList, Troubles
@@ -96,29 +95,13 @@ class InputsPanel(Panel):
         self.calibration: CalibrationSection | None = None
 
     def _lay_out(self) -> None:
-        self._head = head = QVBoxLayout()
-        head.setContentsMargins(10, 8, 10, 4)
-        head.setSpacing(6)
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(self.headline, 1)
-        row.addWidget(self.set_up)
-        head.addWidget(self.banner)
-        head.addLayout(row)
-        head.addWidget(self.tabs)
+        row = in_row((self.headline, 1), self.set_up, spacing=8)
+        self._head = in_column(self.banner, row, self.tabs, margins=(10, 8, 10, 4), spacing=6)
         content = QWidget()
-        self._column = column = QVBoxLayout(content)
-        column.setContentsMargins(10, 0, 10, 8)
-        column.setSpacing(4)
-        for part in (self.list, self.live, self.troubles, self.profile):
-            column.addWidget(part)
-        column.addStretch(1)
+        parts = self.list, self.live, self.troubles, self.profile
+        self._column = in_column(*parts, 1, on=content, margins=(10, 0, 10, 8), spacing=4)
         self._scroll = scrolled(content)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
-        outer.addLayout(head)
-        outer.addWidget(self._scroll, 1)
+        in_column(self._head, (self._scroll, 1), on=self, margins=0, spacing=0)
         self._show_page(None)
         self._widen()
 

@@ -1,7 +1,7 @@
 """Choice of the profile in use; saving a changed one."""
 
 from PySide6.QtGui import QStandardItemModel
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QLineEdit, QToolButton, QWidget
 
 from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.shell.engine_words import spoken
@@ -10,6 +10,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.labels import show_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.inputs.profiles import AUTOMATIC, Offer, ProfileChoice
@@ -44,12 +45,7 @@ class ProfileSection(Section):
         self.discard = button(translate("inputs", "Discard"), self._discard)
         self.discard.setToolTip(translate("inputs", "Discard the changes of the profile"))
         self.keeping = QWidget()
-        row = QHBoxLayout(self.keeping)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(6)
-        row.addWidget(self.name, 1)
-        row.addWidget(self.save)
-        row.addWidget(self.discard)
+        in_row((self.name, 1), self.save, self.discard, on=self.keeping, margins=0, spacing=6)
         self.column.addWidget(self.keeping)
         self.question = Question()
         self.column.addWidget(self.question)

@@ -6,11 +6,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,6 +21,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow, fill, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.job import words
 from rotemina.plugins.job.words import Running
@@ -48,9 +47,7 @@ class Card(QFrame):
         self.bar.setRange(0, _STEPS)
         self.bar.setTextVisible(False)
         self.bar.setAccessibleName(kind)
-        self._buttons = QHBoxLayout()
-        self._buttons.setSpacing(6)
-        self._buttons.addStretch(1)
+        self._buttons = in_row(1, spacing=6)
         grid = QGridLayout(self)
         grid.setContentsMargins(2, 4, 2, 6)
         grid.setVerticalSpacing(3)
@@ -99,8 +96,7 @@ class ResultView(QFrame):
         self.name.setProperty("heading", True)
         self.gaps = QGridLayout()
         self.gaps.setHorizontalSpacing(12)
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
+        buttons = in_row(1)
         for text, tip, panel in (
             (
                 translate("job", "Compare"),
@@ -117,13 +113,7 @@ class ResultView(QFrame):
             button.setToolTip(plain_tip(tip))
             button.clicked.connect(lambda _=False, panel=panel: bring_up(panel))
             buttons.addWidget(button)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(2, 4, 2, 6)
-        column.setSpacing(3)
-        for widget in (heading, self.name):
-            column.addWidget(widget)
-        column.addLayout(self.gaps)
-        column.addLayout(buttons)
+        in_column(heading, self.name, self.gaps, buttons, on=self, margins=(2, 4, 2, 6), spacing=3)
         self.hide()
 
     def show_run(self, run: Run) -> None:
@@ -155,15 +145,9 @@ class JobPanel(Panel):
         self._make_others()
         self.result = ResultView(self._bring_up)
         cards = QWidget()
-        column = QVBoxLayout(cards)
-        column.setContentsMargins(8, 4, 8, 4)
-        column.setSpacing(4)
-        for card in (self.playback, self.penetration, self.motion, self.recording, self.result):
-            column.addWidget(card)
-        column.addStretch(1)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.addWidget(scrolled(cards))
+        parts = self.playback, self.penetration, self.motion, self.recording, self.result, 1
+        in_column(*parts, on=cards, margins=(8, 4, 8, 4), spacing=4)
+        in_column(scrolled(cards), on=self, margins=0)
         self.follow(self.refresh)
         workbench.run_changed.connect(self.result.show_run)
 

@@ -5,11 +5,9 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
-    QHBoxLayout,
     QLabel,
     QScrollArea,
     QStackedWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -22,6 +20,7 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import button
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.plugins.microscope.calibration_section import CalibrationSection
@@ -68,11 +67,7 @@ class Question(QFrame):
         )
         for one in (self.yes, self.no):
             one.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(8, 4, 8, 4)
-        row.addWidget(self.text, 1)
-        row.addWidget(self.yes)
-        row.addWidget(self.no)
+        in_row((self.text, 1), self.yes, self.no, on=self, margins=(8, 4, 8, 4))
         self.hide()
 
     def ask(self, text: str) -> None:
@@ -165,19 +160,11 @@ class MicroscopePanel(Panel):
         self.tools.setFixedWidth(_WIDTH)
         for sections in self._pages:
             self.tools.addWidget(_page(sections))
-        middle = QHBoxLayout()
-        middle.setSpacing(6)
-        middle.addWidget(self.view, 1)
-        middle.addWidget(self.tools)
+        middle = in_row((self.view, 1), self.tools, spacing=6)
         self.setObjectName("panel")  # the central area gives no ground of its own
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(6, 4, 6, 4)
-        column.setSpacing(4)
-        column.addWidget(self.bar)
-        column.addLayout(middle, 1)
-        column.addWidget(self.question)
-        column.addWidget(self.readout)
+        parts = self.bar, (middle, 1), self.question, self.readout
+        in_column(*parts, on=self, margins=(6, 4, 6, 4), spacing=4)
 
     def _connect(self) -> None:
         bench = self.workbench
@@ -234,11 +221,6 @@ class MicroscopePanel(Panel):
 
 def _page(sections: tuple[QWidget, ...]) -> QScrollArea:
     content = QWidget()
-    column = QVBoxLayout(content)
-    column.setContentsMargins(8, 0, 8, 4)
-    column.setSpacing(4)
-    for section in sections:
-        column.addWidget(section)
-    column.addStretch(1)
+    in_column(*sections, 1, on=content, margins=(8, 0, 8, 4), spacing=4)
     scroll = scrolled(content)
     return scroll

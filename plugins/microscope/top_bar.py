@@ -2,10 +2,11 @@
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
 from rotemina.sim.quantities import fixed
@@ -50,9 +51,7 @@ class TopBar(QWidget):
     def __init__(self, view: PictureView, tools: tuple[str, ...]) -> None:
         super().__init__()
         self.buttons: dict[PointerTool, QPushButton] = {}
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
+        row = in_row(on=self, margins=0, spacing=4)
         for tool, (text, tip) in TOOLS.items():
             made = QPushButton(translate("microscope", text))
             made.setCheckable(True)

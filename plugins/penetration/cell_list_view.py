@@ -4,8 +4,6 @@ from pathlib import Path
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -20,6 +18,7 @@ from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.penetration.plan_preview import way_text
 from rotemina.plugins.penetration.words import FIXED
@@ -68,15 +67,8 @@ class CellListView(QWidget):
         self.penetrate = button(translate("penetration", "Penetrate"), self.penetrate_asked.emit)
         self.remove = button(translate("penetration", "Remove"), self._remove)
         self.export = button(translate("penetration", "Export …"), self._ask_where)
-        row = QHBoxLayout()
-        for one in (self.add, self.next, self.skip, self.penetrate, self.remove, self.export):
-            row.addWidget(one)
-        row.addStretch(1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(3)
-        column.addWidget(self.table, 1)
-        column.addLayout(row)
+        row = in_row(self.add, self.next, self.skip, self.penetrate, self.remove, self.export, 1)
+        in_column((self.table, 1), row, on=self, margins=0, spacing=3)
 
     def armed(self, status: PenetrationStatus) -> None:
         """Note that a penetration was armed: its run is that of the cell that it is at."""

@@ -1,7 +1,7 @@
 """A demonstration cell on the simulator: place it ahead of the tip, remove it."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QPushButton, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.penetration.errors import PenetrationError
@@ -11,6 +11,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column
 from rotemina.plugins.penetration.parameter_quantities import TypedError
 from rotemina.plugins.penetration.plan_preview import way_text
 from rotemina.sim.effects.attachment import Attached
@@ -152,11 +153,7 @@ class CellView(QWidget):
         grid.addWidget(QLabel(translate("penetration", "× axis")), 1, 2)
         grid.addWidget(self.put, 0, 3)
         grid.addWidget(self.take, 1, 3)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 4, 0, 0)
-        for widget in (self.where, self.controls, self.about):
-            column.addWidget(widget)
-        column.addStretch(1)
+        in_column(self.where, self.controls, self.about, 1, on=self, margins=(0, 4, 0, 0))
 
     def refresh(self, state: SessionState, parameters: PenetrationParameters) -> None:
         """Show a state, for the axis and direction of some parameters."""

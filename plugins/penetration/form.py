@@ -6,13 +6,11 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
     QPushButton,
     QScrollArea,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -26,6 +24,7 @@ from rotemina.app.motion.penetration.parameters import (
 from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.penetration.form_fields import NumberField
 from rotemina.plugins.penetration.parameter_quantities import (
@@ -127,21 +126,10 @@ class ParameterForm(QScrollArea):
     # --- parts ------------------------------------------------------------------------------------
 
     def _lay_out(self) -> None:
-        body = QVBoxLayout(self._body)
-        body.setContentsMargins(0, 0, 0, 0)
-        body.setSpacing(2)
-        for group in Group:
-            body.addWidget(self._section(group))
-        files = QHBoxLayout()
-        files.setSpacing(6)
-        for button in (self.load, self.save):
-            files.addWidget(button, 1)
+        in_column(*(self._section(group) for group in Group), on=self._body, margins=0, spacing=2)
+        files = in_row((self.load, 1), (self.save, 1), spacing=6)
         content = QWidget()
-        column = QVBoxLayout(content)
-        column.setContentsMargins(0, 0, 8, 4)
-        column.addWidget(self._body)
-        column.addLayout(files)
-        column.addStretch(1)
+        in_column(self._body, files, 1, on=content, margins=(0, 0, 8, 4))
         self.setWidget(content)
         self.setMinimumWidth(content.minimumSizeHint().width() + 12)
 
@@ -213,9 +201,7 @@ class ParameterForm(QScrollArea):
 
     def _section(self, group: Group) -> QWidget:
         section, body = QWidget(), QWidget()
-        column = QVBoxLayout(section)
-        column.setContentsMargins(0, 0, 0, 2)
-        column.setSpacing(2)
+        column = in_column(on=section, margins=(0, 0, 0, 2), spacing=2)
         heading = QLabel(translate("penetration", group))
         heading.setProperty("heading", True)
         column.addWidget(heading)

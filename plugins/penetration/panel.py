@@ -4,11 +4,9 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QStackedWidget,
     QTabBar,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -22,6 +20,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.report_files import ask_run_report, recording_of
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
 from rotemina.plugins.penetration.cell_list_view import CellListView
 from rotemina.plugins.penetration.cell_view import CellView
@@ -73,13 +72,8 @@ class PenetrationPanel(Panel):
 
     def _lay_out(self) -> None:
         thrust = QWidget()
-        row = QHBoxLayout(thrust)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(12)
         self._beside = scrolled(self.readouts)
-        row.addWidget(self._beside)
-        row.addWidget(self.preview, 1)
-        row.addWidget(self.form)
+        in_row(self._beside, (self.preview, 1), self.form, on=thrust, margins=0, spacing=12)
         self.tabs, self.views = QTabBar(), QStackedWidget()
         for name, view in (
             (translate("penetration", "Thrust"), thrust),
@@ -90,16 +84,9 @@ class PenetrationPanel(Panel):
             self.tabs.addTab(name)
             self.views.addWidget(view)
         self.tabs.currentChanged.connect(self.views.setCurrentIndex)
-        head = QHBoxLayout()
-        head.setSpacing(10)
-        head.addWidget(self.message, 1)
+        head = in_row((self.message, 1), spacing=10)
         head.addWidget(self.tabs, 0, Qt.AlignmentFlag.AlignTop)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 6, 10, 6)
-        column.setSpacing(4)
-        column.addWidget(self.bar)
-        column.addLayout(head)
-        column.addWidget(self.views, 1)
+        in_column(self.bar, head, (self.views, 1), on=self, margins=(10, 6, 10, 6), spacing=4)
 
     def _connect(self) -> None:
         self.bar.arm_asked.connect(self.arm)

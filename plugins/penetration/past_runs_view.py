@@ -4,13 +4,14 @@ from collections.abc import Iterable
 from datetime import datetime
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPlainTextEdit, QSplitter, QWidget
 
 from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.report_files import RUN_REPORT, RUN_REPORT_TIP
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.penetration.past_runs import COLUMN_TIPS, COLUMNS, RunList, in_full, row
 
@@ -57,15 +58,9 @@ class LogView(QWidget):
         self.file.setProperty("quiet", True)
         self.file.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._path = path
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(3)
         self.report = button(translate("shell", RUN_REPORT), self._ask_report)
-        below = QHBoxLayout()
-        below.addWidget(self.file, 1)
-        below.addWidget(self.report)
-        column.addWidget(split, 1)
-        column.addLayout(below)
+        below = in_row((self.file, 1), self.report)
+        in_column((split, 1), below, on=self, margins=0, spacing=3)
         self._fill()
 
     def take_file(self, runs: Iterable[PenetrationRun]) -> None:

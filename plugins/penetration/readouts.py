@@ -3,10 +3,8 @@
 from collections.abc import Mapping
 
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -19,6 +17,7 @@ from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, fill, plain_tip
 from rotemina.app.widgets.figures import Figures
 from rotemina.app.widgets.labels import heading
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.penetration.plan_preview import UNKNOWN, PlanPreview, way_text
 from rotemina.sim.quantities import fixed
 
@@ -63,21 +62,11 @@ class Readouts(QWidget):
         self.tool = QPushButton()
         self.tool.setCheckable(True)
         self.tool.clicked.connect(self._toggle)
-        column = QVBoxLayout()
-        column.setSpacing(4)
-        for widget in (heading(translate("penetration", "Run")), self.run, self.load, self.tool):
-            column.addWidget(widget)
-        column.addStretch(1)
-        beside = QVBoxLayout()
-        beside.setSpacing(4)
-        for widget in (heading(translate("penetration", "Plan")), self.plan):
-            beside.addWidget(widget)
-        beside.addStretch(1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(14)
-        row.addLayout(column, 1)
-        row.addLayout(beside, 1)
+        column = in_column(
+            heading(translate("penetration", "Run")), self.run, self.load, self.tool, 1, spacing=4
+        )
+        beside = in_column(heading(translate("penetration", "Plan")), self.plan, 1, spacing=4)
+        in_row((column, 1), (beside, 1), on=self, margins=0, spacing=14)
 
     def show_plan(self, preview: PlanPreview, state: SessionState) -> None:
         """Show what a plan gives from where the axis stands."""

@@ -3,7 +3,7 @@
 import time
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
@@ -12,6 +12,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.connection.unavailable_reasons import in_motion
 from rotemina.plugins.penetration.words import (
@@ -84,15 +85,8 @@ class RunBar(QWidget):
         self.phase.setAccessibleName(translate("penetration", "Phase of the penetration"))
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.strip = {one: _chip(spoken(one)) for one in STRIP}
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
-        for widget in (self.arm, self.prepare, self.button, self.phase):
-            row.addWidget(widget)
-        row.addStretch(1)
-        for chip in self.strip.values():
-            row.addWidget(chip)
-        row.addStretch(1)
+        parts = self.arm, self.prepare, self.button, self.phase
+        in_row(*parts, 1, *self.strip.values(), 1, on=self, margins=0, spacing=4)
 
     def refresh(self, status: PenetrationStatus, state: SessionState, why_not: str | None) -> None:
         """Show a moment; ``why_not`` is why it cannot be armed now."""

@@ -1,7 +1,7 @@
 """The thrust over time: desired, commanded, and measured after a run."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from rotemina.app.motion.penetration.thrust import ThrustPlan, ThrustTrace
 from rotemina.app.shell.language import marked, translate
@@ -9,6 +9,7 @@ from rotemina.app.shell.plot import LINES, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.penetration.plan_preview import (
     Curve,
@@ -63,15 +64,8 @@ class ThrustPreview(QWidget):
         self._legend.setTextFormat(Qt.TextFormat.RichText)
         self._legend.setWordWrap(True)
         self._legend.setMinimumWidth(100)
-        head = QHBoxLayout()
-        head.setSpacing(6)
-        head.addWidget(self._legend, 1)
-        head.addWidget(self.shown)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addLayout(head)
-        column.addWidget(self.plot, 1)
+        head = in_row((self._legend, 1), self.shown, spacing=6)
+        in_column(head, (self.plot, 1), on=self, margins=0, spacing=2)
         self.set_theme(theme)
 
     def show_plan(self, plan: ThrustPlan | None, trace: ThrustTrace | None) -> None:

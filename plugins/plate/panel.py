@@ -8,10 +8,8 @@ from PySide6.QtCore import QBuffer, QIODevice, Qt, QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -20,6 +18,7 @@ from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, set_property
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
 from rotemina.plugins.plate.background_solution import Solving
 from rotemina.plugins.plate.canvas import Canvas
@@ -94,30 +93,14 @@ class PlatePanel(Panel):
         self.plate_text.setAccessibleName(translate("plate", "The plate as a whole"))
 
     def _lay_out(self) -> None:
-        top, saving = QHBoxLayout(), QHBoxLayout()
-        for widget in (self.mesh, self.start, self.stop):
-            top.addWidget(widget)
-        for widget in (self.vtu, self.png):
-            saving.addWidget(widget)
+        top, saving = in_row(self.mesh, self.start, self.stop), in_row(self.vtu, self.png)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 8, 0)
-        column.setSpacing(6)
-        column.addLayout(top)
-        column.addWidget(self.doing)
-        column.addWidget(self.controls)
-        column.addWidget(self.plate_text)
-        column.addLayout(saving)
-        column.addStretch(1)
+        parts = top, self.doing, self.controls, self.plate_text, saving, 1
+        in_column(*parts, on=left, margins=(0, 0, 8, 0), spacing=6)
         scroll = scrolled(left)
         scroll.setFixedWidth(max(least_width(scroll), _WIDTH))
-        outer = QHBoxLayout(self)
-        outer.setContentsMargins(10, 6, 10, 6)
-        outer.addWidget(scroll)
-        right = QVBoxLayout()
-        right.addWidget(self.canvas, 1)
-        right.addWidget(self.pose_text)
-        outer.addLayout(right, 1)
+        right = in_column((self.canvas, 1), self.pose_text)
+        in_row(scroll, (right, 1), on=self, margins=(10, 6, 10, 6))
 
     def _connect(self) -> None:
         self.start.clicked.connect(lambda _: self.solve())

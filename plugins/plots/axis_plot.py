@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.recent_history import LiveWindow
@@ -17,6 +17,7 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.plots.cursor_text import Reading, Shown, loop_text, nearest, values_text
 from rotemina.plugins.plots.gap_strip import LEAST_HEIGHT, MOST_HEIGHT, GapStrip
 from rotemina.plugins.plots.history_signals import GapHistory
@@ -99,18 +100,8 @@ class AxisPlot(QWidget):
         self._course: tuple[GapHistory | None, float] = (None, 0.0)  # what the strip shows
         # Notices and the banner of a replay need room, too; the lowest has the times below it.
         self.plot.setMinimumHeight(62 if times else 36)
-        head = QHBoxLayout()
-        head.setContentsMargins(4, 0, 4, 0)
-        head.setSpacing(6)
-        head.addWidget(self._title)
-        head.addWidget(self._unit)
-        head.addWidget(self.figures, 1)
-        column_layout = QVBoxLayout(self)
-        column_layout.setContentsMargins(0, 0, 0, 0)
-        column_layout.setSpacing(1)
-        column_layout.addLayout(head)
-        column_layout.addWidget(self.plot, 1)
-        column_layout.addWidget(self.strip)
+        head = in_row(self._title, self._unit, (self.figures, 1), margins=(4, 0, 4, 0), spacing=6)
+        in_column(head, (self.plot, 1), self.strip, on=self, margins=0, spacing=1)
 
     def stand_in_strip(self, *, strip: bool) -> None:
         """Do without times below the plot where there is a strip's height only."""

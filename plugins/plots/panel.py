@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QMenu,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -28,6 +27,7 @@ from rotemina.app.shell.legend import Entry, Legend
 from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
 from rotemina.plugins.plots.cursor_text import Shown, across_text
@@ -84,20 +84,10 @@ class PlotsPanel(Panel):
             for column, name in enumerate(workbench.robot.axes)
         }
         self.grid = PlotGrid(self.plots, [list(axes) for axes in stages(workbench.robot).values()])
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(3)
-        self._head = QWidget()
-        rows = QVBoxLayout(self._head)
-        rows.setContentsMargins(0, 0, 0, 0)
-        rows.setSpacing(3)
-        rows.addLayout(self._header())
-        below = QHBoxLayout()
-        below.addWidget(self._legend, 1)
-        below.addWidget(self.age)
-        rows.addLayout(below)
-        column.addWidget(self._head)
-        column.addWidget(self.grid, 1)
+        self._head, header = QWidget(), self._header()
+        below = in_row((self._legend, 1), self.age)
+        in_column(header, below, on=self._head, margins=0, spacing=3)
+        in_column(self._head, (self.grid, 1), on=self, margins=0, spacing=3)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
         self._next = QTimer(self, singleShot=True, interval=0)
         self._next.timeout.connect(self._draw_next)
@@ -213,13 +203,8 @@ class PlotsPanel(Panel):
         self.age.setProperty("tone", "warning")
         self.age.hide()
         self._use_theme(self.workbench.theme)
-        row = QHBoxLayout()
-        row.setSpacing(4)
-        for widget, stretch in ((self.shown, 2), (self.beside, 1), (self.span, 0)):
-            row.addWidget(widget, stretch)
-        for widget in (self.cursors, self.pause, self.more):
-            row.addWidget(widget)
-        return row
+        parts = (self.shown, 2), (self.beside, 1), self.span, self.cursors, self.pause, self.more
+        return in_row(*parts, spacing=4)
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)

@@ -4,10 +4,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton
+from PySide6.QtWidgets import QFrame, QLabel, QPushButton
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.recorder.interrupted_files import Unfinished, recovered
 from rotemina.plugins.recorder.words import listed, unfinished_text
 
@@ -36,10 +37,7 @@ class UnfinishedBox(QFrame):
             translate("recorder", "Complete interrupted recordings with the data on the disk")
         )
         self.recover.clicked.connect(self._recover)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(8, 4, 8, 4)
-        row.addWidget(self.text, 1)
-        row.addWidget(self.recover)
+        in_row((self.text, 1), self.recover, on=self, margins=(8, 4, 8, 4))
         self.hide()
 
     def show_unfinished(self, unfinished: Sequence[Unfinished]) -> None:

@@ -7,11 +7,9 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,6 +22,7 @@ from rotemina.app.shell.record_library import free_bytes
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_column, in_row
 
 AT_START = "recorder.at_start"
 _LOOK_S = 5.0  # between looks at how much room there is
@@ -170,9 +169,7 @@ class RecordingSection(QWidget):
         )
 
     def _lay_out(self) -> None:
-        top = QHBoxLayout()
-        top.addWidget(self.record, 1)
-        top.addWidget(self.elapsed)
+        top = in_row((self.record, 1), self.elapsed)
         figures = QGridLayout()
         figures.setHorizontalSpacing(10)
         figures.setVerticalSpacing(2)
@@ -190,20 +187,9 @@ class RecordingSection(QWidget):
             )
             figures.addWidget(title, row, 0)
             figures.addWidget(value, row, 1)
-        remark = QHBoxLayout()
-        remark.addWidget(self.note, 1)
-        remark.addWidget(self.keep)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 8, 0)
-        column.setSpacing(5)
-        column.addLayout(top)
-        column.addWidget(self.complaint)
-        column.addLayout(remark)
-        column.addWidget(self.labels)
-        column.addLayout(figures)
-        column.addWidget(self.at_start)
-        column.addWidget(self.folder)
-        column.addStretch(1)
+        remark = in_row((self.note, 1), self.keep)
+        parts = top, self.complaint, remark, self.labels, figures, self.at_start, self.folder, 1
+        in_column(*parts, on=self, margins=(0, 0, 8, 0), spacing=5)
 
     @property
     def busy(self) -> bool:

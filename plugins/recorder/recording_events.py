@@ -8,11 +8,9 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
-    QHBoxLayout,
     QHeaderView,
     QLabel,
     QTableView,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -21,6 +19,7 @@ from rotemina.app.recorded_events import Severity, TimelineEvent, timeline_event
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.layouts import in_column, in_row
 
 COLUMNS = (marked("recorder", "Time"), marked("recorder", "Event"), marked("recorder", "Text"))
 Index = QModelIndex | QPersistentModelIndex
@@ -113,14 +112,8 @@ class EventsView(QWidget):
         self.title = QLabel(translate("recorder", _EMPTY))
         self.title.setProperty("quiet", True)
         self.title.setTextFormat(Qt.TextFormat.PlainText)
-        head = QHBoxLayout()
-        head.addWidget(self.title, 1)
-        head.addWidget(self.details)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        column.addLayout(head)
-        column.addWidget(self.table, 1)
+        head = in_row((self.title, 1), self.details)
+        in_column(head, (self.table, 1), on=self, margins=0, spacing=4)
         workbench.replaying.changed.connect(self._begin)
         workbench.shown.connect(lambda _: self._follow())
         workbench.theme_changed.connect(self.model.use_theme)

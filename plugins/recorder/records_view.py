@@ -5,12 +5,10 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QMenu,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -29,6 +27,7 @@ from rotemina.app.shell.report_files import RUN_REPORT, ask_run_report
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.inline_question import Question
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.recorder.words import BEGIN, END, span
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import fixed
@@ -167,9 +166,8 @@ class RecordsView(QWidget):
 
     def _lay_out(self, unfinished: QWidget) -> None:
         self.stretch = QWidget()
-        stretch = QHBoxLayout(self.stretch)
-        stretch.setContentsMargins(0, 0, 0, 0)
-        for widget in (
+        # All of them fit beside the control dock, where that is wide.
+        in_row(
             QLabel(translate("recorder", "From")),
             self.begin,
             self.begin_here,
@@ -177,22 +175,13 @@ class RecordsView(QWidget):
             self.end,
             QLabel("s"),
             self.end_here,
-        ):
-            stretch.addWidget(widget)
-        below = QHBoxLayout()
-        for row in (stretch, below):  # all of them fit beside the control dock, where that is wide
-            row.setSpacing(4)
-        below.addWidget(self.stretch)
-        below.addStretch(1)
-        for widget in (self.open, self.to_record, self.to_trajectory, self.more):
-            below.addWidget(widget)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        column.addWidget(unfinished)
-        column.addWidget(self.question)
-        column.addWidget(self.table, 1)
-        column.addLayout(below)
+            on=self.stretch,
+            margins=0,
+            spacing=4,
+        )
+        buttons = self.open, self.to_record, self.to_trajectory, self.more
+        below = in_row(self.stretch, 1, *buttons, spacing=4)
+        in_column(unfinished, self.question, (self.table, 1), below, on=self, margins=0, spacing=4)
 
     def _allow(self) -> None:
         chosen, several = self.chosen, self.table.chosen

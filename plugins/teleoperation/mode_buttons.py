@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from typing import Generic, TypeVar
 
-from PySide6.QtWidgets import QButtonGroup, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QGridLayout, QLabel, QPushButton, QWidget
 
 from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
@@ -12,6 +12,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import heading, plain_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.teleoperation import wording
@@ -79,11 +80,9 @@ class ChoiceSection(Section):
         self.column.addWidget(self.modes)
         self.column.addWidget(heading(translate("teleoperation", "Scaling")))
         self.column.addWidget(self.laws)
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(QLabel(translate("teleoperation", "Step")))
-        row.addWidget(self.preset)
-        row.addWidget(self.factor, 1)
+        row = in_row(
+            QLabel(translate("teleoperation", "Step")), self.preset, (self.factor, 1), spacing=8
+        )
         self.column.addLayout(row)
         self.column.addWidget(self.clutch)
 

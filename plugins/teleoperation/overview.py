@@ -1,7 +1,7 @@
 """The device in control, its trust, and reasons for no motion."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy
+from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
@@ -10,6 +10,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
 from rotemina.plugins.teleoperation import wording
 
@@ -32,10 +33,7 @@ class OverviewSection(Section):
         self.refused.setAccessibleName(translate("teleoperation", "Latest refusal or slowdown"))
         self.reason = plain_text(lines=2)
         self.reason.setAccessibleName(translate("teleoperation", "Reason for no motion"))
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(self.word)
-        row.addWidget(self.device, 1)
+        row = in_row(self.word, (self.device, 1), spacing=8)
         self.column.setSpacing(3)
         self.column.addLayout(row)
         self.column.addWidget(self.trust)

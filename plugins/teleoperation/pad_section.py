@@ -1,7 +1,5 @@
 """The pad with its deflection, its keys, and the take-over."""
 
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout
-
 from rotemina.app.display_units import label
 from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
@@ -9,6 +7,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.teleoperation import wording
@@ -44,17 +43,8 @@ class PadSection(Section):
         self.take_over.hide()
         keys = plain_text()
         keys.setText(translate("teleoperation", _KEYS))
-        side = QVBoxLayout()
-        side.setSpacing(4)
-        side.addWidget(self.most)
-        side.addWidget(keys)
-        side.addStretch(1)
-        side.addWidget(self.take_over)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        row.addWidget(self.area)
-        row.addLayout(side, 1)
-        self.column.addLayout(row)
+        side = in_column(self.most, keys, 1, self.take_over, spacing=4)
+        self.column.addLayout(in_row(self.area, (side, 1), spacing=10))
         workbench.closing.connect(self.area.release)
 
     def refresh(self, view: DevicesView, state: TeleoperationState) -> None:

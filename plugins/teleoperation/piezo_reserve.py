@@ -1,6 +1,6 @@
 """Remaining piezo range, rotation of the tool, and re-centring."""
 
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QProgressBar
+from PySide6.QtWidgets import QGridLayout, QLabel, QProgressBar
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.operation import has_tip
@@ -10,6 +10,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, fill
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.teleoperation import wording
@@ -63,11 +64,7 @@ class ReserveSection(Section):
             translate("teleoperation", "Re-centre all"),
             lambda: workbench.ask(lambda: operation.recentre(nano)),
         )
-        buttons = QHBoxLayout()
-        buttons.setSpacing(6)
-        buttons.addWidget(self.one, 1)
-        buttons.addWidget(self.all, 1)
-        self.column.addLayout(buttons)
+        self.column.addLayout(in_row((self.one, 1), (self.all, 1), spacing=6))
         if not has_tip(workbench.session):
             self.hide()
 

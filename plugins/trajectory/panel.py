@@ -6,13 +6,11 @@ from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDoubleSpinBox,
-    QHBoxLayout,
     QHeaderView,
     QLabel,
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,6 +22,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import set_property
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.trajectory.dry_run_table import (
     BOUND,
     COLUMNS,
@@ -109,30 +108,12 @@ class TrajectoryPanel(Panel):
         self.follow(self._refresh)
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.load)
-        buttons.addWidget(self.resample)
-        buttons.addWidget(self.teach)
-        buttons.addWidget(self.transport, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 8, 10, 8)
-        column.addLayout(buttons)
-        heading = QHBoxLayout()
-        heading.setSpacing(12)
-        heading.addWidget(self.name)
-        heading.addWidget(self.verdict, 1)
-        heading.addWidget(self.begin)
-        heading.addWidget(self.times)
-        column.addLayout(heading)
-        column.addWidget(self.gaps)
-        row = QHBoxLayout()
-        row.addWidget(self.table, 1)
-        row.addWidget(self.path)
+        buttons = in_row(self.load, self.resample, self.teach, (self.transport, 1))
+        heading = in_row(self.name, (self.verdict, 1), self.begin, self.times, spacing=12)
         self.tried = QWidget()
-        self.tried.setLayout(row)
-        row.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self.tried, 1)
-        column.addWidget(self.points, 1)
+        in_row((self.table, 1), self.path, on=self.tried, margins=0)
+        parts = buttons, heading, self.gaps, (self.tried, 1), (self.points, 1)
+        in_column(*parts, on=self, margins=(10, 8, 10, 8))
         self.name.hide()
         self.gaps.hide()
 

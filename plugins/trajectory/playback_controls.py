@@ -3,7 +3,6 @@
 from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
-    QHBoxLayout,
     QProgressBar,
     QPushButton,
     QWidget,
@@ -15,6 +14,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, fill
+from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.samples import DeviceState
 
 STEPS = (1, 10, 100, 1000)  # rows
@@ -136,11 +136,8 @@ class Transport(QWidget):
         self.speed.setValue(1.0)
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        for widget in (self.play, self.end, self.speed, self.back, self.forward, self.rows):
-            row.addWidget(widget)
-        row.addWidget(self.progress, 1)
+        buttons = self.play, self.end, self.speed, self.back, self.forward, self.rows
+        in_row(*buttons, (self.progress, 1), on=self, margins=0)
 
     def _set_pace(self, pace: float) -> None:
         self._workbench.pace = pace

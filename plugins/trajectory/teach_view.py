@@ -5,11 +5,9 @@ from dataclasses import replace
 from PySide6.QtCore import QSignalBlocker
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
     QHeaderView,
     QTableWidget,
     QTableWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -18,6 +16,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.trajectory.taught_trajectory import LONGEST_PAUSE_S, TaughtPoint, taught
 from rotemina.sim.quantities import parsed, rounded
 from rotemina.sim.records.record import Record
@@ -56,14 +55,8 @@ class TeachView(QWidget):
         self.again = button(translate("trajectory", "Replace"), self._again)
         self.remove = button(translate("trajectory", "Remove"), self._remove)
         self.use = button(translate("trajectory", "Make trajectory"), self._use)
-        buttons = QVBoxLayout()
-        for one in (self.take, self.again, self.remove, self.use):
-            buttons.addWidget(one)
-        buttons.addStretch(1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.table, 1)
-        row.addLayout(buttons)
+        buttons = in_column(self.take, self.again, self.remove, self.use, 1)
+        in_row((self.table, 1), buttons, on=self, margins=0)
 
     def refresh(self, state: SessionState) -> None:
         """Allow what can be done now."""

@@ -8,10 +8,8 @@ from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QGuiApplication
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QPushButton,
-    QVBoxLayout,
 )
 
 from rotemina.app.motion.state import SessionState
@@ -23,6 +21,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.view3d.canvas import Canvas
 from rotemina.plugins.view3d.scene_server import Serving
 from rotemina.sim.kinematics.chain import ChainError
@@ -229,19 +228,9 @@ class View3dPanel(Panel):
         self.browser.clicked.connect(self.open_in_browser)
 
     def _lay_out(self) -> None:
-        above, below = QHBoxLayout(), QHBoxLayout()  # one row would widen a small window
-        for button in self.views.values():
-            above.addWidget(button)
-        above.addStretch(1)
-        for widget in (self.ghosts, self.factor):
-            below.addWidget(widget)
-        below.addStretch(1)
-        below.addWidget(self.browser)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(10, 6, 10, 6)
-        outer.addLayout(above)
-        outer.addLayout(below)
-        outer.addWidget(self.canvas or self._reason(), 1)
+        above = in_row(*self.views.values(), 1)  # one row would widen a small window
+        below = in_row(self.ghosts, self.factor, 1, self.browser)
+        in_column(above, below, (self.canvas or self._reason(), 1), on=self, margins=(10, 6, 10, 6))
 
     def _reason(self) -> QLabel:
         words = QLabel(self._unfit)
