@@ -1,12 +1,11 @@
 """The procedure's controls: which axis, how many runs, plan, run, stop, or fit files."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QFormLayout,
     QGridLayout,
-    QLabel,
     QProgressBar,
     QPushButton,
     QSpinBox,
@@ -19,6 +18,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.calibration.words import NOTHING, cycles, progress
@@ -76,9 +76,7 @@ class Procedure(QWidget):
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
-        self.told = QLabel(translate("calibration", NOTHING))
-        self.told.setTextFormat(Qt.TextFormat.PlainText)
-        self.told.setWordWrap(True)
+        self.told = plain_text(translate("calibration", NOTHING), quiet=False, wrap=True)
         self._lay_out()
         self.axis.currentIndexChanged.connect(self._change)
         for field in (self.runs, self.targets):

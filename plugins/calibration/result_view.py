@@ -9,7 +9,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.labels import legend, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.calibration.words import (
@@ -60,9 +60,7 @@ class ResultView(QWidget):
                 (translate("calibration", "Figures of ISO 230-2"), ISO_HEAD),
             )
         )
-        self.verdict = QLabel()
-        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
-        self.verdict.setWordWrap(True)
+        self.verdict = plain_text(quiet=False, wrap=True)
         self.store = QPushButton(translate("calibration", "Store and use"))
         self.store.clicked.connect(self.stored)
         self._lay_out()

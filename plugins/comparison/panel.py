@@ -19,7 +19,7 @@ from rotemina.app.shell.plot import LINES, SignalPlot
 from rotemina.app.shell.report_files import RUN_REPORT, RUN_REPORT_TIP, ask_run_report
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
-from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.labels import legend, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.sim.comparison.comparison import TapComparison
@@ -66,9 +66,7 @@ class ComparisonPanel(Panel):
         self.report.clicked.connect(lambda: ask_run_report(self, workbench))
         for one in (self.save, self.report):
             one.setEnabled(False)
-        self.summary = QLabel(translate("comparison", EMPTY))
-        self.summary.setWordWrap(True)
-        self.summary.setTextFormat(Qt.TextFormat.PlainText)
+        self.summary = plain_text(translate("comparison", EMPTY), quiet=False, wrap=True)
         self.table = Table(
             translate("comparison", "Signals and their gaps"),
             [translate("shell" if name is RUN else "comparison", name) for name in COLUMNS],

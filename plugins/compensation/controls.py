@@ -1,6 +1,5 @@
 """The panel's controls for training, applying and tuning."""
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -14,6 +13,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.plugins.compensation.trial_motion import Aid
 from rotemina.plugins.compensation.typed_gains import TypedGains
@@ -138,9 +138,7 @@ class Controls(QWidget):
 
 
 def _told(text: str) -> QLabel:
-    label_ = QLabel(text)
-    label_.setTextFormat(Qt.TextFormat.PlainText)
-    label_.setWordWrap(True)
+    label_ = plain_text(text, quiet=False, wrap=True)
     return label_
 
 

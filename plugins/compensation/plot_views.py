@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.labels import legend, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.compensation.inverse_training import Learned
@@ -102,9 +102,7 @@ class CheckView(QWidget):
             [translate("compensation", text) for text in HEAD],
             choose=False,
         )
-        self.why = QLabel(translate("compensation", NOTHING))
-        self.why.setTextFormat(Qt.TextFormat.PlainText)
-        self.why.setWordWrap(True)
+        self.why = plain_text(translate("compensation", NOTHING), quiet=False, wrap=True)
         roles = {_POSITION: "quiet", _INVERTED: "accent"}
         self.loop = Curves(
             theme,

@@ -3,10 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QLabel,
     QScrollArea,
     QStackedWidget,
     QTabBar,
@@ -19,6 +17,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.labels import heading
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.control.axes_page import AxesPage
@@ -145,16 +144,14 @@ class ControlPanel(Panel):
         self.setMinimumWidth(max(needed, 330))
 
     def _add_stage(self, column: QVBoxLayout, stage: str, axes: tuple[str, ...]) -> None:
-        heading = QLabel(
+        title = heading(
             translate("control", _STAGES[stage])
             if stage in _STAGES
             else translate("control", "{name} stage").format(name=stage.capitalize())
         )
-        heading.setProperty("heading", True)
-        heading.setTextFormat(Qt.TextFormat.PlainText)
         steps = StepChoice(self.workbench.robot, axes)
         self.steps[stage] = steps
-        column.addLayout(in_row((heading, 1), steps))
+        column.addLayout(in_row((title, 1), steps))
         for name in axes:
             row = AxisRow(name, self.workbench, steps, self.head.speed)
             self.rows[name] = row

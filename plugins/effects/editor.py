@@ -1,6 +1,6 @@
 """The selected effect: its formulation, source axis, and parameters."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.effects.parameter_display import Quantity
@@ -45,8 +46,7 @@ class Editor(QWidget):
         self._robot = robot
         self._shown: object = None
         self.fields: dict[str, ParameterField] = {}
-        self.title = QLabel(translate("effects", NOTHING))
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.title = plain_text(translate("effects", NOTHING), quiet=False)
         self.formulation = SteadyChoice(
             translate("effects", "Formulation"),
             translate("effects", "Formulation of the effect; its equations appear below"),
@@ -57,9 +57,7 @@ class Editor(QWidget):
         self._from = QLabel(translate("effects", "from"))
         self.source = SteadyChoice(translate("effects", "Axis in which the effect originates"))
         self.source.activated.connect(lambda: self.source_chosen.emit(self.source.currentData()))
-        self.equation = QLabel()
-        self.equation.setTextFormat(Qt.TextFormat.PlainText)
-        self.equation.setProperty("quiet", True)
+        self.equation = plain_text()
         # A long equation must not widen the window; its tooltip has all of it.
         self.equation.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self._scroll = QScrollArea()

@@ -21,6 +21,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.effects.chosen_effects import Chain, with_formulation, with_value
 from rotemina.plugins.effects.editor import Editor
@@ -62,8 +63,7 @@ class EffectsPanel(Panel):
         self._past: list[Chain] = []
         self._make_buttons()
         self.table, self.editor = EffectTable(), Editor(workbench.robot)
-        self.status = QLabel()
-        self.status.setTextFormat(Qt.TextFormat.PlainText)
+        self.status = plain_text(quiet=False)
         # Its text may be long; the notice and the tooltip have all of it.
         self.status.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.left_out = QLabel()

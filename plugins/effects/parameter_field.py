@@ -3,7 +3,6 @@
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import (
     QGridLayout,
-    QLabel,
     QLineEdit,
     QToolButton,
     QWidget,
@@ -12,6 +11,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.wheel_safe import SteadySlider
 from rotemina.plugins.effects.parameter_display import SLIDER_STEPS, Quantity, ValueRefusedError
 from rotemina.plugins.effects.parameter_meanings import meaning_of
@@ -41,15 +41,13 @@ class ParameterField(QObject):
             translate("effects", "Must be {range}").format(range=quantity.range_text),
             translate("effects", "Preset {value}").format(value=preset),
         )
-        self._title = QLabel(spoken(name))
-        self._title.setTextFormat(Qt.TextFormat.PlainText)
+        self._title = plain_text(spoken(name), quiet=False)
         self.edit = QLineEdit()
         self.edit.setFixedWidth(92)
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setAccessibleName(f"{name} {quantity.unit}".rstrip())
         self.edit.editingFinished.connect(self._commit)
-        self._unit = QLabel(quantity.unit)
-        self._unit.setTextFormat(Qt.TextFormat.PlainText)
+        self._unit = plain_text(quantity.unit, quiet=False)
         self.slider = SteadySlider(name, SLIDER_STEPS)
         self.slider.setPageStep(SLIDER_STEPS // 20)
         self.slider.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

@@ -18,7 +18,7 @@ from rotemina.app.files import write_text
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, plain_tip
-from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.labels import hint, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.blind_figures import HEAD, BlindResult
@@ -77,8 +77,7 @@ class BlindPage(QDialog):
         self.score = QPushButton(translate("gap", "Score finished cases"))
         self.progress = QProgressBar()
         self.progress.setFormat(translate("gap", "%v of %m"))
-        self.doing = QLabel()
-        self.doing.setTextFormat(Qt.TextFormat.PlainText)
+        self.doing = plain_text(quiet=False)
         self.figures = Table(
             translate("gap", "Figures beside their target levels"),
             [translate("gap", text) for text in HEAD],

@@ -5,12 +5,13 @@ from itertools import pairwise
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QWidget
+from PySide6.QtWidgets import QSplitter, QStackedWidget, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.diagnosis_answer import Answer
@@ -62,9 +63,7 @@ class DistributionView(QSplitter):
         )
         for column, text in enumerate(_TIPS):
             self.places.horizontalHeaderItem(column).setToolTip(plain_tip(translate("gap", text)))
-        self.heat_title = QLabel()
-        self.heat_title.setTextFormat(Qt.TextFormat.PlainText)
-        self.heat_title.setWordWrap(True)
+        self.heat_title = plain_text(quiet=False, wrap=True)
         self.heat = Table(translate("gap", "Gap by band and regime"), choose=False)
         self.heat.setCursor(Qt.CursorShape.PointingHandCursor)
         self.heat.cellClicked.connect(self.open_cell)

@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QLabel, QWidget
+from PySide6.QtWidgets import QFrame, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.engine_words import WindowWording
 from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.gap.answer_quality import TONES, Tone, change, why_worse
 from rotemina.plugins.gap.diagnosis_answer import Answer
@@ -28,10 +28,7 @@ class Headline(QFrame):
     def __init__(self, first: Sequence[QWidget], more: Sequence[QWidget]) -> None:
         super().__init__()
         self.setObjectName("headline")
-        self.sentence, self.remainder = QLabel(), QLabel()
-        for text in (self.sentence, self.remainder):
-            text.setTextFormat(Qt.TextFormat.PlainText)
-            text.setWordWrap(True)
+        self.sentence, self.remainder = (plain_text(quiet=False, wrap=True) for _ in range(2))
         self.sentence.setProperty("sentence", True)
         self.remainder.setProperty("remainder", True)
         words = in_column(self.sentence, self.remainder, 1, spacing=0)

@@ -4,12 +4,13 @@ from collections.abc import Sequence
 from html import escape
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QWidget
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.gap.heat_cell import Part
 from rotemina.sim.quantities import amount, scale_of
@@ -33,8 +34,7 @@ class HeatCellView(QWidget):
         self.back = QPushButton(translate("gap", "◂ Map"))
         self.back.setToolTip(translate("gap", "Back to the map of the gap by band and regime"))
         self.back.clicked.connect(self.closed)
-        self.title = QLabel()
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.title = plain_text(quiet=False)
         self.choice = QComboBox()
         self.choice.setAccessibleName(translate("gap", "Record"))
         self.choice.setToolTip(

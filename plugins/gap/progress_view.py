@@ -1,11 +1,12 @@
 """While a diagnosis is under way: what is done now, and how the candidates of each axis stand."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QSplitter, QWidget
+from PySide6.QtWidgets import QSplitter, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.gap.ranking_view import RankingView
 from rotemina.sim.gap.diagnosis_progress import Progress
@@ -30,9 +31,7 @@ class ProgressView(QSplitter):
         self._row = in_row(margins=0, spacing=12)
         rankings = QWidget()
         rankings.setLayout(self._row)
-        self.text = QLabel()
-        self.text.setTextFormat(Qt.TextFormat.PlainText)
-        self.text.setWordWrap(True)
+        self.text = plain_text(quiet=False, wrap=True)
         self.text.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.text.setContentsMargins(10, 4, 4, 4)
         self.addWidget(rankings)

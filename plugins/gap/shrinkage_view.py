@@ -6,12 +6,13 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QLabel, QSizePolicy, QSplitter, QWidget
+from PySide6.QtWidgets import QSizePolicy, QSplitter, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.plugins.gap.answer_quality import change
 from rotemina.plugins.gap.diagnosis_answer import Answer
@@ -112,8 +113,7 @@ class ShrinkageView(QSplitter):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(Qt.Orientation.Horizontal)
-        self.title = QLabel()
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.title = plain_text(quiet=False)
         self.title.setToolTip(translate("gap", TIP))
         self.bars = Bars(theme)
         self.traces = TraceView(theme)

@@ -1,6 +1,5 @@
 """What a diagnosis is made of: records, model, its start, and how far it is."""
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QBoxLayout,
     QFrame,
@@ -12,6 +11,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.gap.record_views import RecordList, RecordMenu
 from rotemina.plugins.gap.records import Records
@@ -37,9 +37,7 @@ class StartSection(QFrame):
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
-        self.doing = QLabel()
-        self.doing.setTextFormat(Qt.TextFormat.PlainText)
-        self.doing.setWordWrap(True)
+        self.doing = plain_text(quiet=False, wrap=True)
         self._model = QLabel(translate("gap", "Model"))
         self._line = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._line.setContentsMargins(0, 0, 0, 0)

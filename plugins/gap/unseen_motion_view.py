@@ -2,13 +2,13 @@
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QWidget
+from PySide6.QtWidgets import QSplitter, QStackedWidget, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.gap_words import RUN
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.labels import hint, plain_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.table import Table
 from rotemina.plugins.gap.answer_quality import change
@@ -39,8 +39,7 @@ class ProofView(QStackedWidget):
         self.proof: Proof | None = None
         self.proofs: list[Proof] = []  # of the answer in sight, the newest first
         self._theme = theme
-        self.title = QLabel()
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.title = plain_text(quiet=False)
         self.title.setToolTip(
             translate(
                 "gap",

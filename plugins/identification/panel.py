@@ -5,7 +5,6 @@ from pathlib import Path
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QResizeEvent
 from PySide6.QtWidgets import (
-    QLabel,
     QPlainTextEdit,
     QScrollArea,
     QSplitter,
@@ -20,6 +19,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.app.widgets.table import Table
@@ -63,9 +63,7 @@ class IdentificationPanel(Panel):
         super().__init__(workbench)
         self.controls = Controls()
         self.excite = ExciteView(workbench)
-        self.summary = QLabel(translate("identification", EMPTY))
-        self.summary.setTextFormat(Qt.TextFormat.PlainText)
-        self.summary.setWordWrap(True)
+        self.summary = plain_text(translate("identification", EMPTY), quiet=False, wrap=True)
         self.notices = _notices()
         self.charts = tuple(Chart(workbench.theme) for _ in range(CHARTS))
         self.sheet = Table(translate("identification", "Figures"), choose=False)

@@ -111,8 +111,6 @@ def _frame(trouble: Trouble) -> QFrame:
 
 
 def _selectable(words: str) -> QLabel:
-    text = plain_text(wrap=True)
-    text.setProperty("quiet", False)
-    text.setText(words)
+    text = plain_text(words, quiet=False, wrap=True)
     text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return text

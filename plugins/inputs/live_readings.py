@@ -1,7 +1,7 @@
 """Live readings of a device: axis bars and button lamps."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QGridLayout, QLabel
+from PySide6.QtWidgets import QFrame, QGridLayout
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
@@ -9,7 +9,7 @@ from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.labels import ElidedLabel, show_text
+from rotemina.app.widgets.labels import ElidedLabel, plain_text, show_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.section import Section, clear
 from rotemina.plugins.inputs.reading_bars import AxisBar, Lamps
@@ -32,8 +32,7 @@ class AxisRow(QFrame):
         title.show_text(name)
         title.setFixedWidth(_NAME_WIDTH)
         self.bar = AxisBar(theme, name)
-        self.numbers = QLabel("–")
-        self.numbers.setTextFormat(Qt.TextFormat.PlainText)
+        self.numbers = plain_text("–", quiet=False)
         self.numbers.setMinimumWidth(_NUMBER_WIDTH)
         self.numbers.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.numbers.setAccessibleName(

@@ -5,7 +5,6 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
-    QLabel,
     QScrollArea,
     QStackedWidget,
     QWidget,
@@ -19,7 +18,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import button
-from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.drivers.cameras.frame import Frame
@@ -55,9 +54,7 @@ class Question(QFrame):
     def __init__(self, yes: str, answer: Callable[[bool], None]) -> None:
         super().__init__()
         self.setObjectName("question")
-        self.text = QLabel()
-        self.text.setTextFormat(Qt.TextFormat.PlainText)
-        self.text.setWordWrap(True)
+        self.text = plain_text(quiet=False, wrap=True)
         self.yes = button(yes, lambda: answer(True), translate("microscope", "Move the tip"))
         self.yes.setProperty("primary", True)
         self.no = button(

@@ -4,7 +4,6 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import (
-    QLabel,
     QStackedWidget,
     QTabBar,
     QWidget,
@@ -20,6 +19,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.report_files import ask_run_report, recording_of
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
 from rotemina.plugins.penetration.cell_list_view import CellListView
@@ -52,9 +52,7 @@ class PenetrationPanel(Panel):
         self._last_inputs: object = ()
         self._problem = ""
         self.bar = RunBar(workbench)
-        self.message = QLabel()
-        self.message.setWordWrap(True)
-        self.message.setTextFormat(Qt.TextFormat.PlainText)
+        self.message = plain_text(quiet=False, wrap=True)
         self.message.setAccessibleName(translate("penetration", "State of the penetration"))
         self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
         self._plan()

@@ -12,6 +12,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.connection.unavailable_reasons import in_motion
@@ -144,8 +145,7 @@ class RunBar(QWidget):
 
 
 def _chip(text: str) -> QLabel:
-    chip = QLabel(text)
-    chip.setTextFormat(Qt.TextFormat.PlainText)
+    chip = plain_text(text, quiet=False)
     chip.setStyleSheet("padding: 1px 5px;")  # six of them in one row
     chip.setMinimumWidth(16)  # in a narrow dock they are cut; the phase stands before them
     chip.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)

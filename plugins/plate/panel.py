@@ -4,11 +4,10 @@ import time
 from math import tau
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QIODevice, Qt, QTimer
+from PySide6.QtCore import QBuffer, QIODevice, QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
-    QLabel,
     QPushButton,
     QWidget,
 )
@@ -18,6 +17,7 @@ from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, set_property
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
 from rotemina.plugins.plate.background_solution import Solving
@@ -84,11 +84,8 @@ class PlatePanel(Panel):
             QPushButton(translate("plate", "Save VTU …")),
             QPushButton(translate("plate", "Save PNG …")),
         )
-        self.doing, self.pose_text, self.plate_text = QLabel(), QLabel(), QLabel()
-        for text in (self.doing, self.pose_text, self.plate_text):
-            text.setTextFormat(Qt.TextFormat.PlainText)
-            text.setWordWrap(True)
-        self.doing.setProperty("quiet", True)
+        self.doing = plain_text(wrap=True)
+        self.pose_text, self.plate_text = (plain_text(quiet=False, wrap=True) for _ in range(2))
         self.pose_text.setAccessibleName(translate("plate", "In this pose"))
         self.plate_text.setAccessibleName(translate("plate", "The plate as a whole"))
 

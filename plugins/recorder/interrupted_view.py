@@ -3,11 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QLabel, QPushButton
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QFrame, QPushButton
 
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.recorder.interrupted_files import Unfinished, recovered
 from rotemina.plugins.recorder.words import listed, unfinished_text
@@ -29,9 +30,7 @@ class UnfinishedBox(QFrame):
         self._workbench = workbench
         self._waiting: tuple[Path, ...] = ()
         self._doing = False
-        self.text = QLabel()
-        self.text.setWordWrap(True)
-        self.text.setTextFormat(Qt.TextFormat.PlainText)
+        self.text = plain_text(quiet=False, wrap=True)
         self.recover = QPushButton(translate("recorder", "Recover"))
         self.recover.setToolTip(
             translate("recorder", "Complete interrupted recordings with the data on the disk")

@@ -3,7 +3,7 @@
 import time
 from pathlib import Path
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
@@ -21,7 +21,7 @@ from rotemina.app.shell.language import translate
 from rotemina.app.shell.record_library import free_bytes
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 
 AT_START = "recorder.at_start"
@@ -134,9 +134,7 @@ class RecordingSection(QWidget):
         self.elapsed.setProperty("readout", True)
         self.elapsed.setAccessibleName(translate("recorder", "Time since the recording began"))
         self.file, self.size, self.room = ElidedLabel(), ElidedLabel(), ElidedLabel()
-        self.complaint = QLabel()
-        self.complaint.setWordWrap(True)
-        self.complaint.setTextFormat(Qt.TextFormat.PlainText)
+        self.complaint = plain_text(quiet=False, wrap=True)
         self.complaint.setProperty("bad", True)
         self.complaint.hide()
         self.labels = LabelFields(self._workbench)

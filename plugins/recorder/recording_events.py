@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
     QHeaderView,
-    QLabel,
     QTableView,
     QWidget,
 )
@@ -19,6 +18,7 @@ from rotemina.app.recorded_events import Severity, TimelineEvent, timeline_event
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 
 COLUMNS = (marked("recorder", "Time"), marked("recorder", "Event"), marked("recorder", "Text"))
@@ -109,9 +109,7 @@ class EventsView(QWidget):
             translate("recorder", "Also show states and log lines, not only actions and messages")
         )
         self.details.toggled.connect(self._choose)
-        self.title = QLabel(translate("recorder", _EMPTY))
-        self.title.setProperty("quiet", True)
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.title = plain_text(translate("recorder", _EMPTY))
         head = in_row((self.title, 1), self.details)
         in_column(head, (self.table, 1), on=self, margins=0, spacing=4)
         workbench.replaying.changed.connect(self._begin)

@@ -11,7 +11,7 @@ from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import set_property
-from rotemina.app.widgets.labels import keep_lines, plain_text
+from rotemina.app.widgets.labels import heading, keep_lines, plain_text
 from rotemina.app.widgets.section import Section
 from rotemina.plugins.teleoperation import wording
 
@@ -65,9 +65,7 @@ class CoordinateRow(QFrame):
         super().__init__()
         self.setObjectName("axisRow")
         self._name, self._scale = name, scale
-        title = QLabel(name)
-        title.setTextFormat(Qt.TextFormat.PlainText)
-        title.setProperty("heading", True)
+        title = heading(name)
         title.setToolTip(
             translate("teleoperation", "Moved by {source} of the stick").format(source=source)
         )

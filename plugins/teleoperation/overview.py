@@ -1,7 +1,6 @@
 """The device in control, its trust, and reasons for no motion."""
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QSizePolicy
+from PySide6.QtWidgets import QSizePolicy
 
 from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
@@ -20,8 +19,7 @@ class OverviewSection(Section):
 
     def __init__(self) -> None:
         super().__init__()
-        self.word = QLabel("–")
-        self.word.setTextFormat(Qt.TextFormat.PlainText)
+        self.word = plain_text("–", quiet=False)
         self.word.setAccessibleName(translate("teleoperation", "State of teleoperation"))
         self.word.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self.word, Tone.QUIET)

@@ -41,8 +41,7 @@ class PadSection(Section):
         kept.setRetainSizeWhenHidden(True)  # nothing leaps when a joystick is plugged in
         self.take_over.setSizePolicy(kept)
         self.take_over.hide()
-        keys = plain_text()
-        keys.setText(translate("teleoperation", _KEYS))
+        keys = plain_text(translate("teleoperation", _KEYS))
         side = in_column(self.most, keys, 1, self.take_over, spacing=4)
         self.column.addLayout(in_row(self.area, (side, 1), spacing=10))
         workbench.closing.connect(self.area.release)

@@ -7,7 +7,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QDoubleSpinBox,
     QHeaderView,
-    QLabel,
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
@@ -22,6 +21,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import set_property
+from rotemina.app.widgets.labels import heading, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.trajectory.dry_run_table import (
     BOUND,
@@ -82,16 +82,9 @@ class TrajectoryPanel(Panel):
         self.points = TeachView(workbench)
         self.points.hide()
         self.transport = Transport(workbench)
-        self.name = QLabel("")
-        self.name.setProperty("heading", True)
-        self.verdict = QLabel(translate("trajectory", EMPTY))
-        self.verdict.setWordWrap(True)
-        self.name.setTextFormat(Qt.TextFormat.PlainText)
-        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
-        self.gaps = QLabel("")
-        self.gaps.setProperty("quiet", True)
-        self.gaps.setTextFormat(Qt.TextFormat.PlainText)
-        self.gaps.setWordWrap(True)
+        self.name = heading("")
+        self.verdict = plain_text(translate("trajectory", EMPTY), quiet=False, wrap=True)
+        self.gaps = plain_text(wrap=True)
         self.begin, self.times = QDoubleSpinBox(), QDoubleSpinBox()
         self._make_parts()
         self.table = _table()

@@ -21,6 +21,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.view3d.canvas import Canvas
 from rotemina.plugins.view3d.scene_server import Serving
@@ -233,9 +234,7 @@ class View3dPanel(Panel):
         in_column(above, below, (self.canvas or self._reason(), 1), on=self, margins=(10, 6, 10, 6))
 
     def _reason(self) -> QLabel:
-        words = QLabel(self._unfit)
-        words.setTextFormat(Qt.TextFormat.PlainText)
-        words.setWordWrap(True)
+        words = plain_text(self._unfit, quiet=False, wrap=True)
         words.setAlignment(Qt.AlignmentFlag.AlignCenter)
         return words
 
