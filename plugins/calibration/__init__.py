@@ -1,1 +1,5 @@
 """The panel of sensor calibration."""
+
+from rotemina.app.shell.language import texts_of
+
+tr, mark = texts_of("calibration")

@@ -5,13 +5,13 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QSplitter, QWidget
 
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import allow
 from rotemina.app.widgets.labels import legend, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.calibration import mark, tr
 from rotemina.plugins.calibration.words import (
     FIGURES_HEAD,
     ISO_HEAD,
@@ -24,10 +24,8 @@ from rotemina.plugins.calibration.words import (
 )
 from rotemina.sim.calibration.sensor_calibration import Calibration
 
-_TIP = marked(
-    "calibration",
-    "Store this calibration with its date, and correct the readings of the axis"
-    " with it from now on",
+_TIP = mark(
+    "Store this calibration with its date, and correct the readings of the axis with it from now on"
 )
 
 
@@ -56,12 +54,12 @@ class ResultView(QWidget):
         self.figures, self.iso = (
             Table(name, shown(head), choose=False)
             for name, head in (
-                (translate("calibration", "Figures of the sensor"), FIGURES_HEAD),
-                (translate("calibration", "Figures of ISO 230-2"), ISO_HEAD),
+                (tr("Figures of the sensor"), FIGURES_HEAD),
+                (tr("Figures of ISO 230-2"), ISO_HEAD),
             )
         )
         self.verdict = plain_text(quiet=False, wrap=True)
-        self.store = QPushButton(translate("calibration", "Store and use"))
+        self.store = QPushButton(tr("Store and use"))
         self.store.clicked.connect(self.stored)
         self._lay_out()
         self.show_result(None)
@@ -83,18 +81,14 @@ class ResultView(QWidget):
         self.iso.show_rows(iso(result) if result is not None else ())
         self.verdict.setText(verdict(result) if result is not None else "")
         self.verdict.setVisible(result is not None)
-        why_not = (
-            translate("calibration", "there is no result yet") if result is None else result.refusal
-        )
-        allow(self.store, why_not, translate("calibration", _TIP))
+        why_not = tr("there is no result yet") if result is None else result.refusal
+        allow(self.store, why_not, tr(_TIP))
         if result is not None:
             self.show_drawing(error_drawing(result))
 
     def done_storing(self) -> None:
         """Show that the result is kept."""
-        allow(
-            self.store, translate("calibration", "already stored"), translate("calibration", _TIP)
-        )
+        allow(self.store, tr("already stored"), tr(_TIP))
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
@@ -106,7 +100,7 @@ class ResultView(QWidget):
         if self._drawing is None:
             return
         curves = self._drawing.curves
-        named = [(translate("calibration", name), role) for name, role, _ in curves if name]
+        named = [(tr(name), role) for name, role, _ in curves if name]
         names = legend(self._theme, named)
         self.title.setText(f"{escape(self._drawing.left)}{': ' if names else ''}{names}")
 

@@ -22,24 +22,22 @@ from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.app.widgets.labels import legend, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.comparison import mark, tr
 from rotemina.sim.comparison.comparison import TapComparison
 from rotemina.sim.comparison.gap import GapFigure, gap_text
 from rotemina.sim.comparison.table import HEAD, cells
 from rotemina.sim.quantities import scale_of
 from rotemina.sim.records.record import Tap
 
-EMPTY = marked(
-    "comparison",
-    "Play a trajectory or open a record of the real machine to compare it with the model.",
-)
+EMPTY = mark("Play a trajectory or open a record of the real machine to compare it with the model.")
 COLUMNS = (
-    marked("comparison", "signal"),
+    mark("signal"),
     RUN,
-    marked("comparison", "without offset"),
-    marked("comparison", "nominal"),
-    marked("comparison", "noise floor"),
-    marked("comparison", "rel. error"),
-    marked("comparison", "delay"),
+    mark("without offset"),
+    mark("nominal"),
+    mark("noise floor"),
+    mark("rel. error"),
+    mark("delay"),
 )
 
 
@@ -53,22 +51,20 @@ class ComparisonPanel(Panel):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self.open = QPushButton(translate("comparison", "Open record …"))
-        self.open.setToolTip(
-            translate("comparison", "Compare a record of the real machine with the model (Ctrl+O)")
-        )
+        self.open = QPushButton(tr("Open record …"))
+        self.open.setToolTip(tr("Compare a record of the real machine with the model (Ctrl+O)"))
         self.open.clicked.connect(lambda: self.main_window.ask_record())
-        self.save = QPushButton(translate("comparison", "Save record …"))
-        self.save.setToolTip(translate("comparison", "Save the current record to a file (Ctrl+S)"))
+        self.save = QPushButton(tr("Save record …"))
+        self.save.setToolTip(tr("Save the current record to a file (Ctrl+S)"))
         self.save.clicked.connect(lambda: self.main_window.ask_save())
         self.report = QPushButton(translate("shell", RUN_REPORT))
         self.report.setToolTip(translate("shell", RUN_REPORT_TIP))
         self.report.clicked.connect(lambda: ask_run_report(self, workbench))
         for one in (self.save, self.report):
             one.setEnabled(False)
-        self.summary = plain_text(translate("comparison", EMPTY), quiet=False, wrap=True)
+        self.summary = plain_text(tr(EMPTY), quiet=False, wrap=True)
         self.table = Table(
-            translate("comparison", "Signals and their gaps"),
+            tr("Signals and their gaps"),
             [translate("shell" if name is RUN else "comparison", name) for name in COLUMNS],
             row_height=24,
         )
@@ -96,9 +92,9 @@ class ComparisonPanel(Panel):
 
     def _show_run(self, run: Run) -> None:
         record = run.record
-        state = "" if run.completed else translate("comparison", ", stopped early")
+        state = "" if run.completed else tr(", stopped early")
         self.summary.setText(
-            translate("comparison", "{name}: {duration:.3f} s, {n} samples{state}").format(
+            tr("{name}: {duration:.3f} s, {n} samples{state}").format(
                 name=run.name, duration=record.duration_s, n=len(record.time_s), state=state
             )
             + (f"  ·  {run.model_id}" if run.model_id else "")
@@ -129,16 +125,14 @@ class ComparisonPanel(Panel):
         self.gap.show_signal("gap", time_s, gap(real - model))
         self.signals.set_time(0.0, max(record.duration_s, 1e-9))
         named = (
-            (translate("comparison", "real"), "real"),
-            (translate("comparison", "model in use"), "model"),
+            (tr("real"), "real"),
+            (tr("model in use"), "model"),
         )
         self.signals_title.setText(
             f"{escape(label(tap.axis))} {tap.tap} [{scale.symbol}]: "
             f"{legend(self.workbench.theme, named)}"
         )
-        self.gap_title.setText(
-            translate("comparison", "real − model [{symbol}]").format(symbol=gap.symbol)
-        )
+        self.gap_title.setText(tr("real − model [{symbol}]").format(symbol=gap.symbol))
         self.signals.enableAutoRange(axis="y")
         self.gap.enableAutoRange(axis="y")
 

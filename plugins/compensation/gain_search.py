@@ -6,8 +6,8 @@ from threading import Event as Flag
 from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.shell.background_job import Job, Tell
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.background_search import problem_of, search
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.plot_views import FrontView
@@ -58,7 +58,7 @@ class GainSearch(QObject):
         self.tuning = self._problem = None
 
         def work(tell: Tell) -> tuple[TuningProblem, Tuning]:
-            tell(marked("compensation", "Preparing the simulated loop"), 0.0, None)
+            tell(mark("Preparing the simulated loop"), 0.0, None)
             problem = problem_of(robot, axis, model)
 
             def told(found: Generation) -> bool:
@@ -88,14 +88,12 @@ class GainSearch(QObject):
 
         def done(_: None) -> None:
             self.name = path.name
-            self._workbench.notify(
-                Level.GOOD, translate("compensation", "Saved {path}").format(path=path)
-            )
+            self._workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path))
 
         if tuning is not None:
             self._workbench.work(
                 "keep tuning",
-                translate("compensation", "Writing {name} …").format(name=path.name),
+                tr("Writing {name} …").format(name=path.name),
                 lambda: save_tuning(tuning, path),
                 done,
             )
@@ -108,7 +106,7 @@ class GainSearch(QObject):
 
         self._workbench.work(
             "open tuning",
-            translate("compensation", "Reading {name} …").format(name=path.name),
+            tr("Reading {name} …").format(name=path.name),
             lambda: load_tuning(path),
             done,
         )
@@ -124,9 +122,9 @@ class GainSearch(QObject):
         self._trying.close()
 
     def _told(self, what: str, share: float, news: object) -> None:
-        told = translate("compensation", what) if what else ""
+        told = tr(what) if what else ""
         if isinstance(news, Generation):
-            text = translate("compensation", "{done} of {total} generations, {points} points")
+            text = tr("{done} of {total} generations, {points} points")
             told = text.format(done=news.done, total=news.total, points=len(news.front))
             self._front.show_generation(news, SearchSettings().against)
         self._controls.tell(told, share)

@@ -3,8 +3,8 @@
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 
 from rotemina.app.motion.regulation import NamedRegulation
-from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.compensation import tr
 from rotemina.plugins.compensation.background_search import RATE_HZ
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.feedback.errors import FeedbackError
@@ -60,7 +60,7 @@ class TypedGains(QWidget):
             field.setText(rounded(getattr(gains, name), _DIGITS) if axis else "")
             field.setModified(False)
             if axis:
-                tip = translate("compensation", "0 to {most}; checked on the axis before use")
+                tip = tr("0 to {most}; checked on the axis before use")
                 field.setToolTip(plain_tip(tip.format(most=_told(most[name], unit))))
 
     def gains(self, axis: str, base: Gains | None) -> Gains:

@@ -1,1 +1,5 @@
 """Connection panel: the device, its settings, and conditions for motion."""
+
+from rotemina.app.shell.language import texts_of
+
+tr, mark = texts_of("connection")

@@ -15,11 +15,12 @@ from PySide6.QtWidgets import (
 from rotemina.app.display_units import stages
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import heading
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
+from rotemina.plugins.control import mark, tr
 from rotemina.plugins.control.axes_page import AxesPage
 from rotemina.plugins.control.axis_row import AxisRow
 from rotemina.plugins.control.overview import Overview
@@ -41,9 +42,9 @@ QPushButton[jog="true"] { padding: 0; }
 _FIVE_TABS = "QTabBar::tab { padding-left: 5px; padding-right: 5px; }"
 _ROOMY_FROM = 860  # px of height
 _STAGES = {
-    "micro": marked("control", "Micro stage"),
-    "nano": marked("control", "Nano stage"),
-    "axes": marked("control", "Axes"),
+    "micro": mark("Micro stage"),
+    "nano": mark("Nano stage"),
+    "axes": mark("Axes"),
 }
 
 
@@ -119,11 +120,11 @@ class ControlPanel(Panel):
 
     def _pages(self) -> tuple[tuple[str, QWidget], ...]:
         return (
-            (translate("control", "Hand"), self.hand),
-            (translate("control", "Positions"), self.positions),
-            (translate("control", "Tip"), self.tip),
-            (translate("control", "Penetration"), self.penetration),
-            (translate("control", "Axes"), self.axes),
+            (tr("Hand"), self.hand),
+            (tr("Positions"), self.positions),
+            (tr("Tip"), self.tip),
+            (tr("Penetration"), self.penetration),
+            (tr("Axes"), self.axes),
         )
 
     def _scrolled_axes(self) -> QScrollArea:
@@ -145,9 +146,9 @@ class ControlPanel(Panel):
 
     def _add_stage(self, column: QVBoxLayout, stage: str, axes: tuple[str, ...]) -> None:
         title = heading(
-            translate("control", _STAGES[stage])
+            tr(_STAGES[stage])
             if stage in _STAGES
-            else translate("control", "{name} stage").format(name=stage.capitalize())
+            else tr("{name} stage").format(name=stage.capitalize())
         )
         steps = StepChoice(self.workbench.robot, axes)
         self.steps[stage] = steps

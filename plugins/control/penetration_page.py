@@ -15,6 +15,7 @@ from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.drivers.clock import Clock
+from rotemina.plugins.control import tr
 from rotemina.plugins.penetration.plan_preview import PlanPreview
 from rotemina.plugins.penetration.words import (
     against_button,
@@ -48,17 +49,17 @@ class PenetrationPage(QWidget):
         self._plan_preview: PlanPreview | None = None
         self._planned_for: object = None
         self.arm = QPushButton(translate("penetration", arm_word(self._shown)))
-        self.arm.setToolTip(translate("control", "Prepare the penetration without motion"))
+        self.arm.setToolTip(tr("Prepare the penetration without motion"))
         self.arm.clicked.connect(lambda _: self._arm())
         self.button = QPushButton(translate("penetration", button_word(self._shown)))
-        self.button.setToolTip(translate("control", "Start the armed penetration"))
+        self.button.setToolTip(tr("Start the armed penetration"))
         self.button.setProperty("primary", True)
         # By Tab alone: no space bar that follows a click may start or end anything.
         self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         # On pressing, not on release: what stops must not wait for the finger to lift.
         self.button.pressed.connect(self._press)
         self.phase = QLabel()
-        self.phase.setAccessibleName(translate("control", "Phase of the penetration"))
+        self.phase.setAccessibleName(tr("Phase of the penetration"))
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.message = plain_text(lines=3)
         self.parameters = plain_text()
@@ -74,9 +75,7 @@ class PenetrationPage(QWidget):
         self._shown = phase = status.phase
         self.arm.setText(translate("penetration", arm_word(phase)))
         against = (
-            translate("control", "the penetration is running ({phase}); stop it first").format(
-                phase=spoken(phase)
-            )
+            tr("the penetration is running ({phase}); stop it first").format(phase=spoken(phase))
             if phase in UNDER_WAY
             else None
         )
@@ -94,9 +93,7 @@ class PenetrationPage(QWidget):
             self.message.setText(told)
             self.message.setToolTip(plain_tip(told))
         axis = self._operation.penetration_parameters.axis
-        told = translate("control", "Axis {axis}; parameters: see the Penetration panel.").format(
-            axis=axis
-        )
+        told = tr("Axis {axis}; parameters: see the Penetration panel.").format(axis=axis)
         if told != self.parameters.text():
             self.parameters.setText(told)
 
@@ -108,9 +105,7 @@ class PenetrationPage(QWidget):
         if self._plan_preview.plan is None:
             return self._plan_preview.problem
         if state.locked is not None:
-            return translate("control", "motion is locked: {locked}").format(
-                locked=spoken(state.locked)
-            )
+            return tr("motion is locked: {locked}").format(locked=spoken(state.locked))
         return self._operation.penetration.why_not(parameters, self._plan_preview.plan)
 
     def _arm(self) -> None:

@@ -12,12 +12,12 @@ from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import owners_text, taken
 from rotemina.plugins.teleoperation.wording import law_choices, mode_choice, reason_text, trust_text
 from rotemina.sim.quantities import rounded
@@ -31,25 +31,22 @@ class HandPage(QWidget):
         self._workbench, self._operation = workbench, workbench.operation
         steered = self._operation.teleoperator
         self.modes: dict[str, QPushButton] = {}
-        self.law = SteadyChoice(
-            translate("control", "Scaling"), translate("control", "Meaning of the stick's position")
-        )
+        self.law = SteadyChoice(tr("Scaling"), tr("Meaning of the stick's position"))
         for kind, choice in law_choices():
             self.law.addItem(choice.text, kind)
         self.law.activated.connect(
             lambda _: workbench.ask(lambda: steered.use_law(self.law.currentData()))
         )
         self.preset = SteadyChoice(
-            translate("control", "Step preset"),
-            translate("control", "Factor on distance, speed and force of the joystick"),
+            tr("Step preset"), tr("Factor on distance, speed and force of the joystick")
         )
         for factor in STEP_PRESETS:
             self.preset.addItem(f"× {rounded(factor, 6)}", factor)
         self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
         self.trust, self.reason, self.owners = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.reason.setProperty("quiet", True)
-        self.over = button(translate("control", "Take over"), self._take_over)
-        heading = QLabel(translate("control", "Scaling"))
+        self.over = button(tr("Take over"), self._take_over)
+        heading = QLabel(tr("Scaling"))
         scaling = in_row(heading, (self.law, 1), (self.preset, 1), spacing=6)
         owned = in_row((self.owners, 1), self.over)
         parts = self._mode_buttons(), scaling, self.trust, self.reason, owned, 1
@@ -65,15 +62,12 @@ class HandPage(QWidget):
                 box.setCurrentIndex(box.findData(value))
         self.trust.show_text(trust_text(view))
         self.reason.show_text(steered.refused or reason_text(steered, stale=stale))
-        self.owners.show_text(owners_text(state) or translate("control", "No axis is moving."))
+        self.owners.show_text(owners_text(state) or tr("No axis is moving."))
         others = taken(state)
         allow(
             self.over,
-            None if others else translate("control", "no other control moves an axis"),
-            translate(
-                "control",
-                "Take over axes that another control moves; they continue until your first command",
-            ),
+            None if others else tr("no other control moves an axis"),
+            tr("Take over axes that another control moves; they continue until your first command"),
         )
 
     def _mode_buttons(self) -> QGridLayout:
@@ -86,7 +80,7 @@ class HandPage(QWidget):
             one = QPushButton(choice.text)
             one.setCheckable(True)
             one.setToolTip(plain_tip(choice.tip))
-            one.setAccessibleName(translate("control", "Mode {text}").format(text=choice.text))
+            one.setAccessibleName(tr("Mode {text}").format(text=choice.text))
             one.clicked.connect(
                 lambda _, name=name: self._workbench.ask(lambda: steered.use_mode(name))
             )

@@ -5,10 +5,10 @@ from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import above_floor, bounds_text, tip_text
 from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT
 from rotemina.sim.quantities import fixed
@@ -26,8 +26,8 @@ class HeightGauge(QWidget):
         self.setFixedWidth(46)
         self.setMinimumHeight(80)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName(translate("control", "Height of the tip above its floor"))
-        self.setToolTip(translate("control", "0 to 2 mm above the floor; hatched: the slow zone"))
+        self.setAccessibleName(tr("Height of the tip above its floor"))
+        self.setToolTip(tr("0 to 2 mm above the floor; hatched: the slow zone"))
 
     def show_height(self, above: float | None) -> None:
         """Show another height, m; None: it is not known."""
@@ -78,7 +78,7 @@ class TipPage(QWidget):
             (self.height_text, tip_text(state, zone)),
             (
                 self.place,
-                translate("control", "x, y, z [mm]: {place}").format(place=place) if place else "",
+                tr("x, y, z [mm]: {place}").format(place=place) if place else "",
             ),
             (self.bounds, bounds_text(zone)),
         )

@@ -1,1 +1,5 @@
 """Effects of the running simulator: switch, tune, load and save them."""
+
+from rotemina.app.shell.language import texts_of
+
+tr, mark = texts_of("effects")

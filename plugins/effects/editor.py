@@ -11,18 +11,18 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.effects import mark, tr
 from rotemina.plugins.effects.parameter_display import Quantity
 from rotemina.plugins.effects.parameter_field import ParameterField
 from rotemina.plugins.effects.words import effect_summary, effect_title, formulation_name
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import Robot
 
-NOTHING = marked("effects", "Add an effect and adjust it while the simulator runs.")
+NOTHING = mark("Add an effect and adjust it while the simulator runs.")
 LEAST_HEIGHT = 10  # of the fields, which scroll: a notice must not make the window taller
 
 
@@ -46,16 +46,15 @@ class Editor(QWidget):
         self._robot = robot
         self._shown: object = None
         self.fields: dict[str, ParameterField] = {}
-        self.title = plain_text(translate("effects", NOTHING), quiet=False)
+        self.title = plain_text(tr(NOTHING), quiet=False)
         self.formulation = SteadyChoice(
-            translate("effects", "Formulation"),
-            translate("effects", "Formulation of the effect; its equations appear below"),
+            tr("Formulation"), tr("Formulation of the effect; its equations appear below")
         )
         self.formulation.activated.connect(
             lambda: self.formulation_chosen.emit(self.formulation.currentData())
         )
-        self._from = QLabel(translate("effects", "from"))
-        self.source = SteadyChoice(translate("effects", "Axis in which the effect originates"))
+        self._from = QLabel(tr("from"))
+        self.source = SteadyChoice(tr("Axis in which the effect originates"))
         self.source.activated.connect(lambda: self.source_chosen.emit(self.source.currentData()))
         self.equation = plain_text()
         # A long equation must not widen the window; its tooltip has all of it.
@@ -93,7 +92,7 @@ class Editor(QWidget):
         set_property(self.title, "quiet", one is None)
         set_property(self.title, "heading", one is not None)
         if one is None:
-            self.title.setText(translate("effects", NOTHING))
+            self.title.setText(tr(NOTHING))
             self.title.setToolTip("")
             return
         self.title.setText(f"{label(one.asked.axis)}: {effect_title(one.effect)}")

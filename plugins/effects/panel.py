@@ -18,11 +18,12 @@ from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.effects import mark, tr
 from rotemina.plugins.effects.chosen_effects import Chain, with_formulation, with_value
 from rotemina.plugins.effects.editor import Editor
 from rotemina.plugins.effects.effect_table import EffectTable
@@ -37,12 +38,10 @@ from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.robot.writing import write_robot
 from rotemina.sim.trajectory.worn_machine_demo import worn_effects
 
-REAL_MACHINE = marked(
-    "effects",
-    "Only the simulator has adjustable effects. Connect to the simulator to "
-    "switch and adjust them.",
+REAL_MACHINE = mark(
+    "Only the simulator has adjustable effects. Connect to the simulator to switch and adjust them."
 )
-FILES = marked("effects", "Robot files (*.toml)")
+FILES = mark("Robot files (*.toml)")
 MOST_PAST = 100  # lists that can be brought back
 
 
@@ -77,39 +76,24 @@ class EffectsPanel(Panel):
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_buttons(self) -> None:
-        self.add = QPushButton(translate("effects", "Add effect"))
-        self.add.setToolTip(translate("effects", "Choose an axis, an effect and its formulation"))
-        self.machine = QPushButton(translate("effects", "Machine"))
+        self.add = QPushButton(tr("Add effect"))
+        self.add.setToolTip(tr("Choose an axis, an effect and its formulation"))
+        self.machine = QPushButton(tr("Machine"))
         self.machine.setToolTip(
-            translate(
-                "effects",
-                "Simulate the machine of the robot file, or a worn one for demonstration",
-            )
+            tr("Simulate the machine of the robot file, or a worn one for demonstration")
         )
-        self.up = _button("▲", translate("effects", "Apply this effect earlier within its stage"))
-        self.down = _button("▼", translate("effects", "Apply this effect later within its stage"))
-        self.remove = _button(
-            translate("effects", "Remove"), translate("effects", "Remove this effect")
-        )
-        self.undo = _button(
-            translate("effects", "Undo"),
-            translate("effects", "Undo the last change of this list"),
-        )
+        self.up = _button("▲", tr("Apply this effect earlier within its stage"))
+        self.down = _button("▼", tr("Apply this effect later within its stage"))
+        self.remove = _button(tr("Remove"), tr("Remove this effect"))
+        self.undo = _button(tr("Undo"), tr("Undo the last change of this list"))
         self.all_off = _button(
-            translate("effects", "All off"),
-            translate(
-                "effects",
-                "Compare with the nominal machine: disable all effects until this is released",
-            ),
+            tr("All off"),
+            tr("Compare with the nominal machine: disable all effects until this is released"),
         )
         self.all_off.setCheckable(True)
-        self.load = _button(
-            translate("effects", "Load …"),
-            translate("effects", "Replace these effects by those of a robot file"),
-        )
+        self.load = _button(tr("Load …"), tr("Replace these effects by those of a robot file"))
         self.save = _button(
-            translate("effects", "Save robot …"),
-            translate("effects", "Save a robot file of this robot with these effects"),
+            tr("Save robot …"), tr("Save a robot file of this robot with these effects")
         )
 
     def _lay_out(self) -> None:
@@ -130,20 +114,15 @@ class EffectsPanel(Panel):
         fill(menu, self.workbench.robot, effects, broken, self.add_effect)
         self.add.setMenu(menu)
         self.left_out.setVisible(bool(broken))
-        self.left_out.setText(translate("effects", "{n} left out").format(n=len(broken)))
-        self.left_out.setToolTip(
-            plain_tip(translate("effects", "Effects that cannot be loaded:"), *broken.values())
-        )
+        self.left_out.setText(tr("{n} left out").format(n=len(broken)))
+        self.left_out.setToolTip(plain_tip(tr("Effects that cannot be loaded:"), *broken.values()))
 
     def _offer_machines(self) -> None:
         robot = self.workbench.robot
         menu = QMenu(self.machine)
-        menu.addAction(
-            translate("effects", "From the robot file"), lambda: self.use_effects(robot.effects)
-        )
+        menu.addAction(tr("From the robot file"), lambda: self.use_effects(robot.effects))
         worn = menu.addAction(
-            translate("effects", "Worn, for demonstration"),
-            lambda: self.use_effects(worn_effects(robot)),
+            tr("Worn, for demonstration"), lambda: self.use_effects(worn_effects(robot))
         )
         worn.setEnabled(bool(worn_effects(robot)))
         self.machine.setMenu(menu)
@@ -248,9 +227,7 @@ class EffectsPanel(Panel):
         def work() -> Chain:
             effects = load_robot(path).effects
             if not effects:
-                text = translate(
-                    "effects", "{path}: the robot file has no effects; the list is unchanged"
-                )
+                text = tr("{path}: the robot file has no effects; the list is unchanged")
                 raise InputError(text.format(path=path))
             return Chain.of(self.workbench.robot, effects)
 
@@ -259,10 +236,7 @@ class EffectsPanel(Panel):
             self._use(chain)
 
         self.workbench.work(
-            "load effects",
-            translate("effects", "Reading {name} …").format(name=path.name),
-            work,
-            done,
+            "load effects", tr("Reading {name} …").format(name=path.name), work, done
         )
 
     def save_robot(self, path: Path) -> None:
@@ -270,21 +244,19 @@ class EffectsPanel(Panel):
         robot = replace(self.workbench.robot, effects=self.chain.asked)
         self.workbench.work(
             "save robot",
-            translate("effects", "Writing {name} …").format(name=path.name),
+            tr("Writing {name} …").format(name=path.name),
             lambda: write_robot(robot, path, overwrite=True),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("effects", "Saved {path}").format(path=path)
-            ),
+            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
         )
 
     def _ask_load(self) -> None:
-        title = translate("effects", "Load effects from a robot file")
-        kinds = translate("effects", FILES)
+        title = tr("Load effects from a robot file")
+        kinds = tr(FILES)
         ask_file(self, self.workbench, title, kinds, self.load_effects)
 
     def _ask_save(self) -> None:
-        title = translate("effects", "Save the robot with its effects")
-        kinds = translate("effects", FILES)
+        title = tr("Save the robot with its effects")
+        kinds = tr(FILES)
         ask_where(self, self.workbench, title, kinds, "robot.toml", self.save_robot)
 
     # --- what is shown ----------------------------------------------------------------------------
@@ -339,14 +311,11 @@ class EffectsPanel(Panel):
     def _show_standing(self) -> None:
         self._mark_fields()
         if self._real:
-            self._say(translate("effects", REAL_MACHINE))
+            self._say(tr(REAL_MACHINE))
         elif self.live.apply_state is ApplyState.REFUSED:
-            self._say(
-                translate("effects", "Not applied: {reason}").format(reason=self.live.reason),
-                bad=True,
-            )
+            self._say(tr("Not applied: {reason}").format(reason=self.live.reason), bad=True)
         elif self.live.apply_state is ApplyState.PREPARING:
-            self._say(translate("effects", "preparing …"))
+            self._say(tr("preparing …"))
         else:
             self._say(self._count())
 
@@ -362,16 +331,12 @@ class EffectsPanel(Panel):
 
     def _count(self) -> str:
         if not len(self.chain):
-            return translate("effects", "No effects: nominal")
+            return tr("No effects: nominal")
         on = sum(one.enabled for one in self.chain.asked)
-        state = (
-            translate("effects", "all off")
-            if self.all_off.isChecked()
-            else translate("effects", "{n} on").format(n=on)
-        )
+        state = tr("all off") if self.all_off.isChecked() else tr("{n} on").format(n=on)
         one, more = (
-            translate("effects", "1 effect, {state}"),
-            translate("effects", "{n} effects, {state}"),
+            tr("1 effect, {state}"),
+            tr("{n} effects, {state}"),
         )
         return (more if len(self.chain) > 1 else one).format(n=len(self.chain), state=state)
 

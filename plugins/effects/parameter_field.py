@@ -9,10 +9,10 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.wheel_safe import SteadySlider
+from rotemina.plugins.effects import tr
 from rotemina.plugins.effects.parameter_display import SLIDER_STEPS, Quantity, ValueRefusedError
 from rotemina.plugins.effects.parameter_meanings import meaning_of
 from rotemina.plugins.effects.words import spoken
@@ -38,8 +38,8 @@ class ParameterField(QObject):
         preset = quantity.text(quantity.preset)
         about = plain_tip(
             f"{spoken(name)}: {meaning_of(quantity.meaning)}",
-            translate("effects", "Must be {range}").format(range=quantity.range_text),
-            translate("effects", "Preset {value}").format(value=preset),
+            tr("Must be {range}").format(range=quantity.range_text),
+            tr("Preset {value}").format(value=preset),
         )
         self._title = plain_text(spoken(name), quiet=False)
         self.edit = QLineEdit()
@@ -55,12 +55,8 @@ class ParameterField(QObject):
         self.slider.setVisible(quantity.bounded)
         self.reset = QToolButton()
         self.reset.setText("↺")
-        self.reset.setAccessibleName(
-            translate("effects", "Reset {name} to its preset").format(name=name)
-        )
-        self.reset.setToolTip(
-            plain_tip(translate("effects", "Reset to the preset, {value}").format(value=preset))
-        )
+        self.reset.setAccessibleName(tr("Reset {name} to its preset").format(name=name))
+        self.reset.setToolTip(plain_tip(tr("Reset to the preset, {value}").format(value=preset)))
         self.reset.clicked.connect(lambda: self._take(quantity.preset))
         for widget in (self._title, self.edit, self._unit, self.slider):
             widget.setToolTip(about)

@@ -13,12 +13,13 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.model_chip import model_name
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.events import tr
 from rotemina.plugins.events.journal import Entry, Journal, Moment
 
 MOST_SHOWN = 100
@@ -41,15 +42,13 @@ class EventsPanel(Panel):
         self.journal = Journal(workbench.robot)
         self._shown = 0
         self.list = QListWidget()
-        self.list.setAccessibleName(translate("events", "Events, newest first"))
+        self.list.setAccessibleName(tr("Events, newest first"))
         self.list.setWordWrap(True)
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
-        self.show_log = QPushButton(translate("events", "Show log"))
-        self.show_log.setToolTip(
-            translate("events", "All messages of the program, with filter and copy (Ctrl+L)")
-        )
+        self.show_log = QPushButton(tr("Show log"))
+        self.show_log.setToolTip(tr("All messages of the program, with filter and copy (Ctrl+L)"))
         self.show_log.clicked.connect(lambda: self.main_window.show_log())
         self._lay_out()
         workbench.refreshed.connect(self._look)

@@ -6,10 +6,10 @@ from PySide6.QtWidgets import QFrame, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.engine_words import WindowWording
-from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.answer_quality import TONES, Tone, change, why_worse
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.unseen_motion_reduction import Proof
@@ -38,7 +38,7 @@ class Headline(QFrame):
     def show_answer(self, answer: Answer, proof: Proof | None) -> None:
         """Show a diagnosis, and what a motion that it has not seen says of it."""
         diagnosis, wording = answer.diagnosis, WindowWording()
-        verdict = f"{translate('gap', VERDICTS[diagnosis.verdict])}."
+        verdict = f"{tr(VERDICTS[diagnosis.verdict])}."
         found = [wording.of(message) for message in findings(diagnosis)]
         text = "   ".join(found) or verdict
         more = "  ".join(wording.of(message) for message in details(diagnosis, answer.records))
@@ -46,7 +46,7 @@ class Headline(QFrame):
         tone = Tone.WORSE if worse else TONES[diagnosis.verdict]
         if proof is not None and worse:
             listed = ", ".join(f"{label(one.trace.axis)} {change(one.times)}" for one in worse)
-            worse_on = translate("gap", "Worse on {motion}: {axes}.   ")
+            worse_on = tr("Worse on {motion}: {axes}.   ")
             text = worse_on.format(motion=proof.name, axes=listed) + text
             more = why_worse(worse[0], answer)
         elif proof is not None and proof.shrunk:

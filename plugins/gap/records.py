@@ -14,9 +14,9 @@ from rotemina.app.records.file_facts import moment
 from rotemina.app.records.library import read, worst_gap
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.column_mapping import ask_columns
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.record_words import moment_text, worst_text
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.gap import tr
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import NOTHING
 from rotemina.sim.records.preview import preview
@@ -281,16 +281,16 @@ class Records(QObject):
             else:
                 self._workbench.notify(
                     Level.WARNING,
-                    translate(
-                        "gap", "{name}: no header; add this file alone to name its columns"
-                    ).format(name=path.name),
+                    tr("{name}: no header; add this file alone to name its columns").format(
+                        name=path.name
+                    ),
                     about=self._parent,
                 )
             self._count_read()
 
         self._workbench.work(
             f"gap record {path}",
-            translate("gap", "Reading {name} …").format(name=path.name),
+            tr("Reading {name} …").format(name=path.name),
             work,
             done,
             self._count_read,
@@ -305,7 +305,7 @@ class Records(QObject):
         robot = self._robot
         self._workbench.work(
             f"gap record {path}",
-            translate("gap", "Reading {name} …").format(name=path.name),
+            tr("Reading {name} …").format(name=path.name),
             lambda: read_record(path, columns=columns, robot=robot),
             lambda record: self._tick_beside(self._add(Listed(path.name, record, path))),
         )
@@ -328,7 +328,7 @@ class Records(QObject):
 
         self._workbench.work(
             f"gap record {entry.path}",
-            translate("gap", "Reading {name} …").format(name=entry.name),
+            tr("Reading {name} …").format(name=entry.name),
             lambda: read(entry, robot),
             done,
             failed,

@@ -9,10 +9,10 @@ from PySide6.QtWidgets import (
     QSizePolicy,
 )
 
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.record_views import RecordList, RecordMenu
 from rotemina.plugins.gap.records import Records
 from rotemina.plugins.gap.robot_choice import RobotChoice
@@ -31,14 +31,14 @@ class StartSection(QFrame):
         self.list = RecordList(records)
         self.list.setMaximumHeight(_HIGH)
         self.robots = RobotChoice(workbench)
-        self.start = QPushButton(translate("gap", "Diagnose"))
+        self.start = QPushButton(tr("Diagnose"))
         self.start.setProperty("primary", True)
-        self.stop = QPushButton(translate("gap", "Stop"))
+        self.stop = QPushButton(tr("Stop"))
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
         self.doing = plain_text(quiet=False, wrap=True)
-        self._model = QLabel(translate("gap", "Model"))
+        self._model = QLabel(tr("Model"))
         self._line = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._line.setContentsMargins(0, 0, 0, 0)
         self._line.setSpacing(6)

@@ -6,10 +6,10 @@ from html import escape
 import numpy as np
 from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.gap import tr
 from rotemina.sim.gap.report.traces import Trace
 from rotemina.sim.quantities import scale_of
 
@@ -23,8 +23,8 @@ class TraceView(QWidget):
         super().__init__()
         self._theme = theme
         self.choice = QComboBox()
-        self.choice.setAccessibleName(translate("gap", "Record and signal"))
-        self.choice.setToolTip(translate("gap", "Record and channel"))
+        self.choice.setAccessibleName(tr("Record and signal"))
+        self.choice.setToolTip(tr("Record and channel"))
         policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(policy)
         self.choice.setMinimumContentsLength(14)
@@ -65,17 +65,15 @@ class TraceView(QWidget):
             return
         scale = scale_of(trace.unit, float(np.abs(trace.before).max()))
         theme = self._theme
-        text = translate(
-            "gap",
+        text = tr(
             'gap [{unit}]: <span style="color:{command}">before</span>, '
-            '<span style="color:{good}">noise floor</span>',
+            '<span style="color:{good}">noise floor</span>'
         )
         if trace.changed:
-            text = translate(
-                "gap",
+            text = tr(
                 'gap [{unit}]: <span style="color:{command}">before</span>, '
                 '<span style="color:{model}">after</span>, '
-                '<span style="color:{good}">noise floor</span>',
+                '<span style="color:{good}">noise floor</span>'
             )
         self.title.setText(
             text.format(

@@ -16,13 +16,14 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.chart import Chart
 from rotemina.plugins.identification.controls import Controls
 from rotemina.plugins.identification.excitation import VIEWS, steady
@@ -37,11 +38,8 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 
-EMPTY = marked(
-    "identification",
-    "Excite an axis, play a trajectory or open a record to identify the machine.",
-)
-RECORDS = marked("identification", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
+EMPTY = mark("Excite an axis, play a trajectory or open a record to identify the machine.")
+RECORDS = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
 CHARTS = 3
 # Shares of sheet and charts: an operator's own stay until another number of charts is shown.
 WIDTHS = ([920, 0, 0, 0], [420, 500, 0, 0], [420, 250, 250, 0], [280, 260, 190, 190])
@@ -63,10 +61,10 @@ class IdentificationPanel(Panel):
         super().__init__(workbench)
         self.controls = Controls()
         self.excite = ExciteView(workbench)
-        self.summary = plain_text(translate("identification", EMPTY), quiet=False, wrap=True)
+        self.summary = plain_text(tr(EMPTY), quiet=False, wrap=True)
         self.notices = _notices()
         self.charts = tuple(Chart(workbench.theme) for _ in range(CHARTS))
-        self.sheet = Table(translate("identification", "Figures"), choose=False)
+        self.sheet = Table(tr("Figures"), choose=False)
         self.findings: Findings | None = None
         self._name = ""
         self._question: Question | None = None
@@ -128,10 +126,7 @@ class IdentificationPanel(Panel):
                 self.take_record(path.name, answer)
 
         self.workbench.work(
-            "identification record",
-            translate("identification", "Reading {name} …").format(name=path.name),
-            work,
-            done,
+            "identification record", tr("Reading {name} …").format(name=path.name), work, done
         )
 
     def _take_run(self, run: Run) -> None:
@@ -152,8 +147,8 @@ class IdentificationPanel(Panel):
         self.main_window.bring_up("identification")
 
     def _ask_record(self) -> None:
-        title = translate("identification", "Open record")
-        kinds = translate("identification", RECORDS)
+        title = tr("Open record")
+        kinds = tr(RECORDS)
 
         def use(path: Path) -> None:
             ask_columns(path, self.workbench, self, self.open_record)
@@ -176,22 +171,18 @@ class IdentificationPanel(Panel):
             self._show(None)
             if self._name:
                 axis = self.controls.axis.currentText()
-                text = translate(
-                    "identification", "{record}: axis {axis} lacks an input or an output."
-                )
+                text = tr("{record}: axis {axis} lacks an input or an output.")
                 self._say([text.format(record=self._name, axis=axis)])
             return
         if view in self._known:
             self._show(self._known[view])
             return
         self._show(None)
-        computing = translate("identification", "{record}: computing …")
+        computing = tr("{record}: computing …")
         self.summary.setText(computing.format(record=question.name))
         self.workbench.work(
             "identification",
-            translate("identification", "Identification of {record} …").format(
-                record=question.name
-            ),
+            tr("Identification of {record} …").format(record=question.name),
             lambda: self._answer(question, view),
             lambda findings: self._receive(view, findings),
         )
@@ -229,7 +220,7 @@ class IdentificationPanel(Panel):
         self.controls.keep.setEnabled(findings is not None and bool(findings.columns))
         if findings is not None:
             record = findings.question.record
-            text = translate("identification", "{record}: {time:.3f} s, {n} samples")
+            text = tr("{record}: {time:.3f} s, {n} samples")
             self.summary.setText(
                 text.format(
                     record=findings.question.name, time=record.duration_s, n=len(record.time_s)
@@ -271,14 +262,14 @@ class IdentificationPanel(Panel):
             return
         self.workbench.work(
             "health card",
-            translate("identification", "Storing the health card …"),
+            tr("Storing the health card …"),
             lambda: keep_card(findings.question),
             lambda _: self._kept(findings.question),
         )
 
     def _kept(self, question: Question) -> None:
         """Look again: what was kept is the last card now."""
-        text = translate("identification", "Stored the health card of {axis}")
+        text = tr("Stored the health card of {axis}")
         self.workbench.notify(Level.GOOD, text.format(axis=question.axis))
         self._known.pop(View.HEALTH, None)
         if question is self._question and self.controls.shown is View.HEALTH:
@@ -288,8 +279,8 @@ class IdentificationPanel(Panel):
         if self.findings is None:
             return
         title, kinds = (
-            translate("identification", "Save results"),
-            translate("identification", "Tables (*.csv)"),
+            tr("Save results"),
+            tr("Tables (*.csv)"),
         )
         # What is in sight now, whatever comes in while the dialog is open.
         text = as_csv(self.findings, self.controls.shown)
@@ -306,11 +297,9 @@ class IdentificationPanel(Panel):
         """Write results to a file."""
         self.workbench.work(
             "identification results",
-            translate("identification", "Writing {name} …").format(name=path.name),
+            tr("Writing {name} …").format(name=path.name),
             lambda: write_text(path, text),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("identification", "Saved {path}").format(path=path)
-            ),
+            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
         )
 
     def _use_theme(self, theme: Theme) -> None:
@@ -328,5 +317,5 @@ def _scrolled(section: QWidget) -> QScrollArea:
 def _notices() -> QPlainTextEdit:
     notices = QPlainTextEdit()
     notices.setReadOnly(True)
-    notices.setAccessibleName(translate("identification", "Limits of this record"))
+    notices.setAccessibleName(tr("Limits of this record"))
     return notices

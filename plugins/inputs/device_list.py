@@ -9,11 +9,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import plain_text, show_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.section import Section, clear
+from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.words import Entry, Trouble
 
 _MOST_ROWS = 4
@@ -24,14 +24,11 @@ class DeviceList(Section):
     """The devices, one of which is examined."""
 
     def __init__(self) -> None:
-        super().__init__(translate("inputs", "Devices"))
+        super().__init__(tr("Devices"))
         self.none = self.add_text()
-        show_text(
-            self.none,
-            translate("inputs", "No device. A device that is plugged in appears within a second."),
-        )
+        show_text(self.none, tr("No device. A device that is plugged in appears within a second."))
         self.list = QListWidget()
-        self.list.setAccessibleName(translate("inputs", "Connected input devices"))
+        self.list.setAccessibleName(tr("Connected input devices"))
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.currentItemChanged.connect(lambda *_: self._pick())

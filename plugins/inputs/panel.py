@@ -17,13 +17,14 @@ from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.panel import STALE_S, Area, Panel
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
+from rotemina.plugins.inputs import mark, tr
 from rotemina.plugins.inputs.calibration_section import CalibrationSection
 from rotemina.plugins.inputs.device_list import DeviceList, Troubles
 from rotemina.plugins.inputs.live_readings import LiveSection
@@ -38,9 +39,9 @@ _MOST_HEARD = 2000  # steps between two frames: some seconds
 class Page(StrEnum):
     """What is in sight while the devices are set up."""
 
-    DEVICES = marked("inputs", "Devices")
-    MAPPING = marked("inputs", "Mapping")
-    CALIBRATION = marked("inputs", "Calibration")
+    DEVICES = mark("Devices")
+    MAPPING = mark("Mapping")
+    CALIBRATION = mark("Calibration")
 
 
 class InputsPanel(Panel):
@@ -72,19 +73,17 @@ class InputsPanel(Panel):
         bench = self.workbench
         self.headline = plain_text(wrap=True)
         self.banner = plain_text(wrap=True)
-        self.banner.setText(translate("inputs", NOTHING_SENT))
+        self.banner.setText(tr(NOTHING_SENT))
         set_tone(self.banner, Tone.WARNING)
-        self.set_up = QPushButton(translate("inputs", "Set up …"))
+        self.set_up = QPushButton(tr("Set up …"))
         self.set_up.setCheckable(True)
-        self.set_up.setToolTip(
-            translate("inputs", "Map and calibrate; meanwhile only stops are sent")
-        )
+        self.set_up.setToolTip(tr("Map and calibrate; meanwhile only stops are sent"))
         self.set_up.toggled.connect(self._toggle)
         self.tabs = QTabBar()
-        self.tabs.setAccessibleName(translate("inputs", "Section of the set-up"))
+        self.tabs.setAccessibleName(tr("Section of the set-up"))
         self.tabs.setDrawBase(False)
         for page in Page:
-            self.tabs.addTab(translate("inputs", page))
+            self.tabs.addTab(tr(page))
         self.tabs.currentChanged.connect(lambda _: self._turn())
         self.troubles = Troubles()
         self.list = DeviceList()
@@ -199,9 +198,7 @@ class InputsPanel(Panel):
         super().hideEvent(event)
 
     def _toggle(self, on: bool) -> None:
-        self.set_up.setText(
-            translate("inputs", "Leave the set-up") if on else translate("inputs", "Set up …")
-        )
+        self.set_up.setText(tr("Leave the set-up") if on else tr("Set up …"))
         if on:
             self.tabs.setCurrentIndex(list(Page).index(Page.MAPPING))
             self._snapshots.clear()

@@ -23,7 +23,7 @@ from rotemina.app.widgets.controls import allow, fill, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
-from rotemina.plugins.job import words
+from rotemina.plugins.job import tr, words
 from rotemina.plugins.job.words import Running
 from rotemina.plugins.trajectory.playback_controls import against_playing, play_word
 from rotemina.sim.records.record import Tap
@@ -99,13 +99,13 @@ class ResultView(QFrame):
         buttons = in_row(1)
         for text, tip, panel in (
             (
-                translate("job", "Compare"),
-                translate("job", "Compare model and machine in this run, axis by axis"),
+                tr("Compare"),
+                tr("Compare model and machine in this run, axis by axis"),
                 "comparison",
             ),
             (
-                translate("job", "Diagnose"),
-                translate("job", "Find the effects that explain the gap"),
+                tr("Diagnose"),
+                tr("Find the effects that explain the gap"),
                 "gap",
             ),
         ):
@@ -153,36 +153,34 @@ class JobPanel(Panel):
 
     def _make_playback(self) -> None:
         bench = self.workbench
-        self.playback = Card(translate("job", "Trajectory"))
+        self.playback = Card(tr("Trajectory"))
         self.load = self.playback.add_button(
-            translate("job", "Load …"),
-            translate("job", "Choose a trajectory file; a dry run checks it first"),
+            tr("Load …"),
+            tr("Choose a trajectory file; a dry run checks it first"),
             lambda: self.main_window.ask_trajectory(),
         )
         self.end = self.playback.add_button(
-            translate("job", "End"),
-            translate("job", "Stop; the next playback starts from the beginning"),
-            bench.end_playback,
+            tr("End"), tr("Stop; the next playback starts from the beginning"), bench.end_playback
         )
         self.play = self.playback.add_button("", "", bench.toggle_playback)
         self.play.setProperty("primary", True)
 
     def _make_others(self) -> None:
         stop, held = (
-            translate("job", "Stop"),
-            translate("job", "Stop all axes and hold their positions (Esc)"),
+            tr("Stop"),
+            tr("Stop all axes and hold their positions (Esc)"),
         )
-        show = translate("job", "Show"), translate("job", "Bring its panel to the front")
-        self.penetration = Card(translate("job", "Penetration"))
+        show = tr("Show"), tr("Bring its panel to the front")
+        self.penetration = Card(tr("Penetration"))
         self.penetration.add_button(*show, lambda: self._bring_up("penetration"))
-        self.motion = Card(translate("job", "Motion"))
+        self.motion = Card(tr("Motion"))
         for card in (self.penetration, self.motion):
             card.add_button(stop, held, self.workbench.stop)
-        self.recording = Card(translate("job", "Recording"))
+        self.recording = Card(tr("Recording"))
         self.recording.add_button(*show, lambda: self._bring_up("recorder"))
         self.end_recording = self.recording.add_button(
-            translate("job", "End recording"),
-            translate("job", "Save the recording in one file; motion continues"),
+            tr("End recording"),
+            tr("Save the recording in one file; motion continues"),
             self._end_recording,
         )
 
@@ -215,9 +213,7 @@ class JobPanel(Panel):
         allow(
             self.play,
             None if playing else against_playing(bench, state),
-            translate(
-                "job", "Play, pause or resume (Ctrl+P); the axes first move to the first row"
-            ),
+            tr("Play, pause or resume (Ctrl+P); the axes first move to the first row"),
         )
 
     def _end_recording(self) -> None:
@@ -229,7 +225,7 @@ class JobPanel(Panel):
 
         def done() -> None:
             self.end_recording.setEnabled(True)
-            text = translate("job", "Saved the recording {path}").format(path=path)
+            text = tr("Saved the recording {path}").format(path=path)
             self.workbench.notify(Level.GOOD, text)
 
         self.workbench.finish_recording(done, lambda: self.end_recording.setEnabled(True))

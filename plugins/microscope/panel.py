@@ -14,7 +14,7 @@ from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import button
@@ -22,6 +22,7 @@ from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.drivers.cameras.frame import Frame
+from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.calibration_section import CalibrationSection
 from rotemina.plugins.microscope.camera_section import CameraSection, SettingsSection
 from rotemina.plugins.microscope.cursor_readout import cursor_text
@@ -36,14 +37,14 @@ from rotemina.plugins.microscope.top_bar import TopBar
 from rotemina.plugins.microscope.vision_section import CellSection, FocusSection, TipSection
 
 TOOLS = (
-    marked("microscope", "Camera"),
-    marked("microscope", "Picture"),
-    marked("microscope", "Calibrate"),
-    marked("microscope", "Move"),
-    marked("microscope", "Vision"),
-    marked("microscope", "Save"),
-    marked("microscope", "Map"),
-    marked("microscope", "– no tools –"),
+    mark("Camera"),
+    mark("Picture"),
+    mark("Calibrate"),
+    mark("Move"),
+    mark("Vision"),
+    mark("Save"),
+    mark("Map"),
+    mark("– no tools –"),
 )
 _WIDTH = 250  # of the tools, px
 
@@ -55,13 +56,9 @@ class Question(QFrame):
         super().__init__()
         self.setObjectName("question")
         self.text = plain_text(quiet=False, wrap=True)
-        self.yes = button(yes, lambda: answer(True), translate("microscope", "Move the tip"))
+        self.yes = button(yes, lambda: answer(True), tr("Move the tip"))
         self.yes.setProperty("primary", True)
-        self.no = button(
-            translate("microscope", "Cancel"),
-            lambda: answer(False),
-            translate("microscope", "Do not move"),
-        )
+        self.no = button(tr("Cancel"), lambda: answer(False), tr("Do not move"))
         for one in (self.yes, self.no):
             one.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         in_row((self.text, 1), self.yes, self.no, on=self, margins=(8, 4, 8, 4))
@@ -88,8 +85,8 @@ class MicroscopePanel(Panel):
         self._awaited = False  # whether a picture that came in is yet to be taken notice of
         self.view = PictureView(workbench.theme)
         self.pointer = PointerTools(workbench, self.microscope, self.view)
-        self.bar = TopBar(self.view, tuple(translate("microscope", tool) for tool in TOOLS))
-        self.question = Question(translate("microscope", "Move"), self.pointer.answer)
+        self.bar = TopBar(self.view, tuple(tr(tool) for tool in TOOLS))
+        self.question = Question(tr("Move"), self.pointer.answer)
         self.readout = ElidedLabel()
         self.readout.setProperty("quiet", True)
         self._make_sections()
@@ -202,7 +199,7 @@ class MicroscopePanel(Panel):
         said = cursor_text(status, self.view.cursor_at)
         mode = ""
         if tool is not PointerTool.PAN:
-            mode = translate("microscope", "{mode}: Esc ends it   ").format(mode=spoken(tool))
+            mode = tr("{mode}: Esc ends it   ").format(mode=spoken(tool))
         self.readout.show_text(mode + said)
 
     def _choose_page(self, page: int) -> None:

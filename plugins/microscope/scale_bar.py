@@ -4,7 +4,7 @@ from math import floor, log10
 from typing import NamedTuple
 
 from rotemina.app.microscope.status import ScaleSource
-from rotemina.app.shell.language import translate
+from rotemina.plugins.microscope import tr
 from rotemina.sim.quantities import rounded
 
 _WIDEST = 0.3  # of the widget
@@ -25,14 +25,10 @@ def scale_bar(pixel_m: float | None, source: ScaleSource, zoom: float, width: fl
     room = _WIDEST * width / zoom
     if pixel_m is None:
         count = max(_round_down(room), 1.0)
-        return Bar(
-            count * zoom, f"{rounded(count, 6)} px", translate("microscope", "not calibrated")
-        )
+        return Bar(count * zoom, f"{rounded(count, 6)} px", tr("not calibrated"))
     length_m = _round_down(room * pixel_m)
     unit, name = next((one for one in _UNITS if length_m >= 0.9999 * one[0]), _UNITS[-1])
-    remark = (
-        translate("microscope", "from the robot file") if source is ScaleSource.ROBOT_FILE else ""
-    )
+    remark = tr("from the robot file") if source is ScaleSource.ROBOT_FILE else ""
     return Bar(length_m / pixel_m * zoom, f"{rounded(length_m / unit)} {name}", remark)
 
 

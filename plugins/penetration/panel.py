@@ -16,12 +16,13 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.report_files import ask_run_report, recording_of
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.cell_list_view import CellListView
 from rotemina.plugins.penetration.cell_view import CellView
 from rotemina.plugins.penetration.form import ParameterForm
@@ -32,7 +33,7 @@ from rotemina.plugins.penetration.run_bar import RunBar
 from rotemina.plugins.penetration.thrust_view import ThrustPreview
 from rotemina.plugins.penetration.words import FIXED, message
 
-FILES = marked("penetration", "Penetrations (*.toml);;All files (*)")
+FILES = mark("Penetrations (*.toml);;All files (*)")
 KEEP_MS = 500  # after the latest change the parameters are kept
 
 
@@ -53,7 +54,7 @@ class PenetrationPanel(Panel):
         self._problem = ""
         self.bar = RunBar(workbench)
         self.message = plain_text(quiet=False, wrap=True)
-        self.message.setAccessibleName(translate("penetration", "State of the penetration"))
+        self.message.setAccessibleName(tr("State of the penetration"))
         self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
         self._plan()
         self.readouts, self.preview = Readouts(workbench), ThrustPreview(workbench.theme)
@@ -74,10 +75,10 @@ class PenetrationPanel(Panel):
         in_row(self._beside, (self.preview, 1), self.form, on=thrust, margins=0, spacing=12)
         self.tabs, self.views = QTabBar(), QStackedWidget()
         for name, view in (
-            (translate("penetration", "Thrust"), thrust),
-            (translate("penetration", "Runs"), self.log),
-            (translate("penetration", "Simulated cell"), self.cell),
-            (translate("penetration", "Cells"), self.cells),
+            (tr("Thrust"), thrust),
+            (tr("Runs"), self.log),
+            (tr("Simulated cell"), self.cell),
+            (tr("Cells"), self.cells),
         ):
             self.tabs.addTab(name)
             self.views.addWidget(view)
@@ -128,9 +129,9 @@ class PenetrationPanel(Panel):
             if self._penetration.status.phase in FIXED:
                 self.workbench.notify(
                     Level.WARNING,
-                    translate(
-                        "penetration", "{name} is not applied: a penetration is armed or running."
-                    ).format(name=path.name),
+                    tr("{name} is not applied: a penetration is armed or running.").format(
+                        name=path.name
+                    ),
                     about=self,
                 )
                 return
@@ -139,7 +140,7 @@ class PenetrationPanel(Panel):
 
         self.workbench.work(
             "penetration",
-            translate("penetration", "Reading {name} …").format(name=path.name),
+            tr("Reading {name} …").format(name=path.name),
             lambda: PenetrationParameters.load(path),
             done,
         )
@@ -150,28 +151,26 @@ class PenetrationPanel(Panel):
         if self.form.complaint:
             self.workbench.notify(
                 Level.ERROR,
-                translate("penetration", "Not saved: {reason}").format(reason=self.form.complaint),
+                tr("Not saved: {reason}").format(reason=self.form.complaint),
                 about=self,
             )
             return
         parameters = self.form.parameters
         self.workbench.work(
             "save penetration",
-            translate("penetration", "Writing {name} …").format(name=path.name),
+            tr("Writing {name} …").format(name=path.name),
             lambda: parameters.save(path),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("penetration", "Saved {path}").format(path=path)
-            ),
+            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
         )
 
     def _ask_load(self) -> None:
-        title = translate("penetration", "Load parameters")
-        kinds = translate("penetration", FILES)
+        title = tr("Load parameters")
+        kinds = tr(FILES)
         ask_file(self, self.workbench, title, kinds, self.load_parameters)
 
     def _ask_save(self) -> None:
-        title = translate("penetration", "Save parameters")
-        kinds = translate("penetration", FILES)
+        title = tr("Save parameters")
+        kinds = tr(FILES)
         ask_where(self, self.workbench, title, kinds, "penetration.toml", self.save_parameters)
 
     # --- parameters -------------------------------------------------------------------------------
@@ -210,9 +209,7 @@ class PenetrationPanel(Panel):
         self.cell.refresh(state, self.plan_preview.parameters)
         text = message(status, self._why_not)
         if self.cell.missing and self._why_not is None and status.phase not in FIXED:
-            text += translate(
-                "penetration", " The simulator has no cell: place one in Simulated cell."
-            )
+            text += tr(" The simulator has no cell: place one in Simulated cell.")
         if self.message.text() != text:
             self.message.setText(text)
         self.readouts.refresh(status, state, self.plan_preview.parameters)
@@ -222,7 +219,7 @@ class PenetrationPanel(Panel):
         self._draw(status)
         fixed = None
         if status.phase in FIXED:
-            fixed = translate("penetration", "the penetration is armed or running; disarm it first")
+            fixed = tr("the penetration is armed or running; disarm it first")
         self.form.allow(fixed)
         self.log.take_latest(status.run)
         if status.problem != self._problem:
@@ -230,9 +227,7 @@ class PenetrationPanel(Panel):
             if status.problem:
                 self.workbench.notify(
                     Level.WARNING,
-                    translate("penetration", "The run was not logged: {problem}").format(
-                        problem=status.problem
-                    ),
+                    tr("The run was not logged: {problem}").format(problem=status.problem),
                     about=self,
                 )
 
@@ -259,9 +254,7 @@ class PenetrationPanel(Panel):
         if self.form.complaint or self.plan_preview.plan is None:
             self._why_not = self.form.complaint or self.plan_preview.problem
         elif state.locked is not None:
-            self._why_not = translate("penetration", "motion is locked: {locked}").format(
-                locked=spoken(state.locked)
-            )
+            self._why_not = tr("motion is locked: {locked}").format(locked=spoken(state.locked))
         else:
             self._why_not = self._penetration.why_not(
                 self.plan_preview.parameters, self.plan_preview.plan
@@ -281,7 +274,7 @@ class PenetrationPanel(Panel):
     def _report(self, run: PenetrationRun) -> None:
         entry = recording_of(self.workbench.library.entries, run)
         if entry is None:
-            text = translate("penetration", "The library has no recording of this run.")
+            text = tr("The library has no recording of this run.")
             self.workbench.notify(Level.WARNING, text, about=self)
         else:
             ask_run_report(self, self.workbench, entry)
@@ -297,15 +290,13 @@ class PenetrationPanel(Panel):
             if problems:
                 self.workbench.notify(
                     Level.WARNING,
-                    translate("penetration", "{n} lines of the log cannot be read: {first}").format(
+                    tr("{n} lines of the log cannot be read: {first}").format(
                         n=len(problems), first=problems[0]
                     ),
                     about=self,
                 )
 
-        self.workbench.work(
-            "penetration log", translate("penetration", "Reading the log …"), log.read, done
-        )
+        self.workbench.work("penetration log", tr("Reading the log …"), log.read, done)
 
 
 def _by(run: PenetrationRun | None, parameters: PenetrationParameters) -> bool:

@@ -13,6 +13,7 @@ from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.penetration import tr
 from rotemina.plugins.penetration.past_runs import COLUMN_TIPS, COLUMNS, RunList, in_full, row
 
 _NUMBERS = range(2, 7)
@@ -31,23 +32,17 @@ class LogView(QWidget):
     def __init__(self, path: str) -> None:
         super().__init__()
         self.list = RunList()
-        self.table = Table(
-            translate("penetration", "Runs, latest first"),
-            [translate("penetration", one) for one in COLUMNS],
-            row_height=24,
-        )
+        self.table = Table(tr("Runs, latest first"), [tr(one) for one in COLUMNS], row_height=24)
         for column, tip in enumerate(COLUMN_TIPS):
-            self.table.horizontalHeaderItem(column).setToolTip(
-                plain_tip(translate("penetration", tip))
-            )
+            self.table.horizontalHeaderItem(column).setToolTip(plain_tip(tr(tip)))
         self.table.horizontalHeader().setStretchLastSection(True)
         self.table.setMinimumSize(200, 60)
         self.table.itemSelectionChanged.connect(self._show_chosen)
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
-        self.text.setAccessibleName(translate("penetration", "Details of the selected run"))
-        self.text.setToolTip(translate("penetration", "Log of the selected run"))
-        self.text.setPlaceholderText(translate("penetration", "Select a run to see its details."))
+        self.text.setAccessibleName(tr("Details of the selected run"))
+        self.text.setToolTip(tr("Log of the selected run"))
+        self.text.setPlaceholderText(tr("Select a run to see its details."))
         self.text.setMinimumWidth(160)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
@@ -82,9 +77,9 @@ class LogView(QWidget):
         self._allow_report()
         count, ours = len(self.list.runs), self.list.of_this_start
         self.file.show_text(
-            translate(
-                "penetration", "{count} runs, {ours} since the program start. Log file: {path}"
-            ).format(count=count, ours=ours, path=self._path)
+            tr("{count} runs, {ours} since the program start. Log file: {path}").format(
+                count=count, ours=ours, path=self._path
+            )
         )
 
     def _show_chosen(self) -> None:
@@ -93,7 +88,7 @@ class LogView(QWidget):
         self._allow_report()
 
     def _allow_report(self) -> None:
-        none = translate("penetration", "select a run") if self._chosen is None else None
+        none = tr("select a run") if self._chosen is None else None
         allow(self.report, none, translate("shell", RUN_REPORT_TIP))
 
     def _ask_report(self) -> None:

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow
@@ -16,6 +15,7 @@ from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.connection.unavailable_reasons import in_motion
+from rotemina.plugins.penetration import tr
 from rotemina.plugins.penetration.words import (
     STRIP,
     Light,
@@ -62,13 +62,13 @@ class RunBar(QWidget):
         self._workbench, self._operation = workbench, workbench.operation
         self._clock, self._pressed_s = clock, float("-inf")
         self._shown = Phase.DISARMED
-        self.arm = QPushButton(translate("penetration", "Arm"))
+        self.arm = QPushButton(tr("Arm"))
         self.arm.setMinimumWidth(104)
         self.arm.clicked.connect(lambda _: self._arm())
-        self.prepare = QPushButton(translate("penetration", "Prepare"))
+        self.prepare = QPushButton(tr("Prepare"))
         self.prepare.clicked.connect(lambda _: self.prepare_asked.emit())
         self.prepare.hide()
-        self.button = QPushButton(translate("penetration", "Start"))
+        self.button = QPushButton(tr("Start"))
         self.button.setObjectName("penetration")
         self.button.setProperty("primary", True)
         self.button.setMinimumSize(140, 34)
@@ -79,11 +79,11 @@ class RunBar(QWidget):
         self.phase = QLabel()
         self.phase.setMinimumWidth(
             self.phase.fontMetrics().horizontalAdvance(
-                translate("penetration", "armed, {left_s:.0f} s").format(left_s=600)
+                tr("armed, {left_s:.0f} s").format(left_s=600)
             )
             + 30
         )
-        self.phase.setAccessibleName(translate("penetration", "Phase of the penetration"))
+        self.phase.setAccessibleName(tr("Phase of the penetration"))
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.strip = {one: _chip(spoken(one)) for one in STRIP}
         parts = self.arm, self.prepare, self.button, self.phase
@@ -92,21 +92,17 @@ class RunBar(QWidget):
     def refresh(self, status: PenetrationStatus, state: SessionState, why_not: str | None) -> None:
         """Show a moment; ``why_not`` is why it cannot be armed now."""
         self._shown = phase = status.phase
-        self.arm.setText(translate("penetration", arm_word(phase)))
+        self.arm.setText(tr(arm_word(phase)))
         against = (
-            translate("penetration", "the penetration is running ({phase}); stop it first").format(
-                phase=spoken(phase)
-            )
+            tr("the penetration is running ({phase}); stop it first").format(phase=spoken(phase))
             if phase in UNDER_WAY
             else None
         )
         if arm_word(phase) == "Arm" and against is None:
             against = None if why_not is None else spoken(why_not)
-        allow(self.arm, against, translate("penetration", arm_tip(phase)))
-        self.button.setText(translate("penetration", button_word(phase)))
-        allow(
-            self.button, against_button(status, state), translate("penetration", button_tip(phase))
-        )
+        allow(self.arm, against, tr(arm_tip(phase)))
+        self.button.setText(tr(button_word(phase)))
+        allow(self.button, against_button(status, state), tr(button_tip(phase)))
         self.phase.setText(headline(status))
         set_tone(self.phase, _HEADLINES.get(phase, Tone.BUSY))
         for chip, light in zip(self.strip.values(), lights(status), strict=True):
@@ -120,10 +116,7 @@ class RunBar(QWidget):
             allow(
                 self.prepare,
                 state.locked or in_motion(state),
-                translate(
-                    "penetration",
-                    "Move Z nano back as far as needed; Z compensates, so the tip stays in place",
-                ),
+                tr("Move Z nano back as far as needed; Z compensates, so the tip stays in place"),
             )
 
     def _arm(self) -> None:

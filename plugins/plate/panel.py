@@ -14,12 +14,13 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.file_dialog import ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, set_property
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.plugins.plate import mark, tr
 from rotemina.plugins.plate.background_solution import Solving
 from rotemina.plugins.plate.canvas import Canvas
 from rotemina.plugins.plate.controls import Controls
@@ -40,7 +41,7 @@ from rotemina.sim.whole_files import replaced
 FRAME_MS = 33
 _WIDTH = 330  # of the choices at least, px
 SWING_S = 2.0  # a mode is shown slowly, whatever its frequency
-_UNSOLVED = marked("plate", "no plate is solved yet")
+_UNSOLVED = mark("no plate is solved yet")
 
 
 class PlatePanel(Panel):
@@ -66,28 +67,26 @@ class PlatePanel(Panel):
 
     def _make_parts(self) -> None:
         self.mesh = QComboBox()
-        self.mesh.setAccessibleName(translate("plate", "Mesh"))
-        self.mesh.setToolTip(translate("plate", "A finer mesh is more accurate and takes longer"))
+        self.mesh.setAccessibleName(tr("Mesh"))
+        self.mesh.setToolTip(tr("A finer mesh is more accurate and takes longer"))
         for title, divisions in MESHES:
-            self.mesh.addItem(translate("plate", title), divisions)
+            self.mesh.addItem(tr(title), divisions)
         self.mesh.setCurrentIndex(1)
         self.start, self.stop = (
-            QPushButton(translate("plate", "Solve")),
-            QPushButton(translate("plate", "Stop")),
+            QPushButton(tr("Solve")),
+            QPushButton(tr("Stop")),
         )
         self.start.setProperty("primary", True)
-        self.start.setToolTip(
-            translate("plate", "Compute the plate of the robot file; motion continues")
-        )
-        self.stop.setToolTip(translate("plate", "Cancel the computation; motion continues"))
+        self.start.setToolTip(tr("Compute the plate of the robot file; motion continues"))
+        self.stop.setToolTip(tr("Cancel the computation; motion continues"))
         self.vtu, self.png = (
-            QPushButton(translate("plate", "Save VTU …")),
-            QPushButton(translate("plate", "Save PNG …")),
+            QPushButton(tr("Save VTU …")),
+            QPushButton(tr("Save PNG …")),
         )
         self.doing = plain_text(wrap=True)
         self.pose_text, self.plate_text = (plain_text(quiet=False, wrap=True) for _ in range(2))
-        self.pose_text.setAccessibleName(translate("plate", "In this pose"))
-        self.plate_text.setAccessibleName(translate("plate", "The plate as a whole"))
+        self.pose_text.setAccessibleName(tr("In this pose"))
+        self.plate_text.setAccessibleName(tr("The plate as a whole"))
 
     def _lay_out(self) -> None:
         top, saving = in_row(self.mesh, self.start, self.stop), in_row(self.vtu, self.png)
@@ -118,13 +117,13 @@ class PlatePanel(Panel):
     def solve(self) -> None:
         """Solve the robot's plate; what is shown stays until there is an answer."""
         self.solving.start(self.workbench.robot, self.mesh.currentData())
-        self._show_stage(marked("plate", "waiting"))
+        self._show_stage(mark("waiting"))
         self._show_state()
 
     def end(self) -> None:
         """Discard the answer."""
         self.solving.stop()
-        self.doing.setText(translate("plate", "Stopped."))
+        self.doing.setText(tr("Stopped."))
         self._show_state()
 
     def take(self, solved: Solved) -> None:
@@ -132,7 +131,7 @@ class PlatePanel(Panel):
         self.solved = solved
         self.plate_text.setText(plate_text(solved))
         triangles = solved.mesh.triangles.shape[1]
-        text = translate("plate", "{triangles} triangles, {unknowns} unknowns.")
+        text = tr("{triangles} triangles, {unknowns} unknowns.")
         unknowns = solved.solutions.unknowns
         self.doing.setText(text.format(triangles=triangles, unknowns=unknowns))
         self.controls.offer(solved.ranges, mode_titles(solved))
@@ -140,13 +139,13 @@ class PlatePanel(Panel):
         self._show()
 
     def _fail(self, message: str) -> None:
-        self.doing.setText(translate("plate", "Failed."))
+        self.doing.setText(tr("Failed."))
         self.workbench.notify(Level.ERROR, message, about=self)
         self._show_state()
 
     def _show_stage(self, name: str) -> None:
-        text = translate("plate", "Solving: {stage} …")
-        self.doing.setText(text.format(stage=translate("plate", name)))
+        text = tr("Solving: {stage} …")
+        self.doing.setText(text.format(stage=tr(name)))
 
     # --- what is shown ----------------------------------------------------------------------------
 
@@ -155,18 +154,16 @@ class PlatePanel(Panel):
         self.start.setEnabled(not running)
         self.mesh.setEnabled(not running)
         self.stop.setEnabled(running)
-        why_not = None if self.solved is not None else translate("plate", _UNSOLVED)
+        why_not = None if self.solved is not None else tr(_UNSOLVED)
         allow(
             self.vtu,
             why_not,
-            translate(
-                "plate", "Mesh, displacement, stress and modes for ParaView and similar programs"
-            ),
+            tr("Mesh, displacement, stress and modes for ParaView and similar programs"),
         )
-        allow(self.png, why_not, translate("plate", "The displayed picture"))
+        allow(self.png, why_not, tr("The displayed picture"))
         self.controls.setEnabled(self.solved is not None)
         if self.solved is None:
-            self.canvas.show_picture(None, translate("plate", EMPTY))
+            self.canvas.show_picture(None, tr(EMPTY))
 
     def _show(self) -> None:
         """Draw the plate as the controls say; a mode swings while it is in sight."""
@@ -211,11 +208,9 @@ class PlatePanel(Panel):
         assert solved is not None
         self.workbench.work(
             "plate vtu",
-            translate("plate", "Writing {name} …").format(name=path.name),
+            tr("Writing {name} …").format(name=path.name),
             lambda: write_vtu(path, solved.solutions, pose, solved.modes),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("plate", "Saved {path}").format(path=path)
-            ),
+            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
         )
 
     def save_png(self, path: Path) -> None:
@@ -231,16 +226,14 @@ class PlatePanel(Panel):
 
         self.workbench.work(
             "plate png",
-            translate("plate", "Writing {name} …").format(name=path.name),
+            tr("Writing {name} …").format(name=path.name),
             write,
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("plate", "Saved {path}").format(path=path)
-            ),
+            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
         )
 
     def _ask(self, suffix: str) -> None:
-        every = translate("plate", "All files (*)")
+        every = tr("All files (*)")
         kinds = f"{suffix.upper()} (*.{suffix});;{every}"
         save = {"vtu": self.save_vtu, "png": self.save_png}[suffix]
-        title = translate("plate", "Save the plate")
+        title = tr("Save the plate")
         ask_where(self, self.workbench, title, kinds, f"plate.{suffix}", save)

@@ -11,13 +11,13 @@ from PySide6.QtWidgets import QLabel, QWidget
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.recent_history import LiveWindow
 from rotemina.app.shell.gap_words import live_gap, run_gap, size, small_print
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.plots import tr
 from rotemina.plugins.plots.cursor_text import Reading, Shown, loop_text, nearest, values_text
 from rotemina.plugins.plots.gap_strip import LEAST_HEIGHT, MOST_HEIGHT, GapStrip
 from rotemina.plugins.plots.history_signals import GapHistory
@@ -204,13 +204,7 @@ class AxisPlot(QWidget):
         self._view = shown
         self._show_strip()
         spectral, loop = shown is Shown.SPECTRUM, shown is Shown.LOOP
-        across = (
-            translate("plots", "frequency [Hz]")
-            if spectral
-            else ""
-            if loop
-            else translate("plots", "time [s]")
-        )
+        across = tr("frequency [Hz]") if spectral else "" if loop else tr("time [s]")
         self.plot.show_scales(across, logarithmic=spectral, numbers=loop or self._times)
         unit = self._scale.symbol
         if shown is Shown.GAP:

@@ -22,13 +22,14 @@ from rotemina.app.motion.recent_history import LiveWindow
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.gap_words import LIVE_S
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.legend import Entry, Legend
 from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.drivers.clock import Clock
+from rotemina.plugins.plots import mark, tr
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
 from rotemina.plugins.plots.cursor_text import Shown, across_text
 from rotemina.plugins.plots.exporting import save_picture
@@ -45,19 +46,19 @@ _PARTS = 3  # of the plots that are drawn at a time
 FIGURES_S = 0.25  # nor are figures
 SPECTRUM_S = 0.25  # a spectrum is computed no oftener
 LEGEND = (
-    (marked("plots", "command"), LINES["command"]),
-    (marked("plots", "model in use"), LINES["model"]),
-    (marked("plots", "measured"), LINES["measured"]),
+    (mark("command"), LINES["command"]),
+    (mark("model in use"), LINES["model"]),
+    (mark("measured"), LINES["measured"]),
 )
 STRIP_LEGEND = (
-    (marked("plots", "gap, last {n} s"), LINES["gap"]),
-    (marked("plots", "noise floor"), None),
+    (mark("gap, last {n} s"), LINES["gap"]),
+    (mark("noise floor"), None),
 )
 VIEWS = {
-    Shown.POSITION: marked("plots", "Position"),
-    Shown.GAP: marked("plots", "Gap: measured − model"),
-    Shown.LOOP: marked("plots", "Loop: over command"),
-    Shown.SPECTRUM: marked("plots", "Spectrum"),
+    Shown.POSITION: mark("Position"),
+    Shown.GAP: mark("Gap: measured − model"),
+    Shown.LOOP: mark("Loop: over command"),
+    Shown.SPECTRUM: mark("Spectrum"),
 }
 
 
@@ -124,7 +125,7 @@ class PlotsPanel(Panel):
         age_s = state.age_s
         stale = age_s is not None and age_s > STALE_S
         if age_s is not None and stale:
-            text = translate("plots", "The newest reading is {n} s old")
+            text = tr("The newest reading is {n} s old")
             self.age.setText(text.format(n=max(1, round(age_s))))
         self.age.setVisible(stale)
         for plot in self.plots.values():
@@ -154,26 +155,21 @@ class PlotsPanel(Panel):
             "save plots",
             f"Writing {path.name} …",
             lambda: write_record(as_record(window, robot), path),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("plots", "Saved {path}").format(path=path)
-            ),
+            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
         )
 
     def save_picture(self, path: Path) -> None:
         """Write a picture of all plots, PNG or SVG by the name."""
         if self.workbench.ask(lambda: save_picture(self.grid, path)):
-            self.workbench.notify(Level.GOOD, translate("plots", "Saved {path}").format(path=path))
+            self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path))
 
     # --- parts ------------------------------------------------------------------------------------
 
     def _header(self) -> QHBoxLayout:
         self.shown = _choice(
-            translate("plots", "Contents of the plots"),
-            ((key, translate("plots", text)) for key, text in VIEWS.items()),
+            tr("Contents of the plots"), ((key, tr(text)) for key, text in VIEWS.items())
         )
-        self.span = _choice(
-            translate("plots", "Time span of the plots"), ((s, f"{s} s") for s in SPANS_S)
-        )
+        self.span = _choice(tr("Time span of the plots"), ((s, f"{s} s") for s in SPANS_S))
         for box in (self.shown, self.span):
             box.setSizeAdjustPolicy(box.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.shown.setMinimumContentsLength(9)
@@ -183,21 +179,17 @@ class PlotsPanel(Panel):
         self.beside.changed.connect(self._draw_other)
         self.shown.currentIndexChanged.connect(lambda _: self._change_view())
         self.span.currentIndexChanged.connect(lambda _: self._draw_again())
-        self.cursors = QPushButton(translate("plots", "Cursors"))
+        self.cursors = QPushButton(tr("Cursors"))
         self.cursors.setCheckable(True)
-        self.cursors.setToolTip(
-            translate("plots", "Two lines to drag; their values appear above each plot")
-        )
+        self.cursors.setToolTip(tr("Two lines to drag; their values appear above each plot"))
         self.cursors.toggled.connect(lambda _: self._show_cursors())
-        self.pause = QPushButton(translate("plots", "Pause"))
+        self.pause = QPushButton(tr("Pause"))
         self.pause.setCheckable(True)
-        self.pause.setToolTip(
-            translate("plots", "Freeze the plots; motion, recording and replay continue")
-        )
+        self.pause.setToolTip(tr("Freeze the plots; motion, recording and replay continue"))
         self.pause.toggled.connect(self._hold)
-        self.more = QPushButton(translate("plots", "More"))
+        self.more = QPushButton(tr("More"))
         self.more.setMenu(self._menu())
-        self.more.setToolTip(translate("plots", "Alignment, and files of the plots"))
+        self.more.setToolTip(tr("Alignment, and files of the plots"))
         self._legend = Legend(self.workbench.theme)
         self.age = QLabel()
         self.age.setProperty("tone", "warning")
@@ -208,19 +200,19 @@ class PlotsPanel(Panel):
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)
-        menu.addAction(translate("plots", "Align the other run"), self.beside.align)
+        menu.addAction(tr("Align the other run"), self.beside.align)
         menu.addSeparator()
         for text, name, kinds, save in (
             (
-                translate("plots", "Save picture …"),
+                tr("Save picture …"),
                 "plots.png",
-                translate("plots", "Pictures (*.png *.svg)"),
+                tr("Pictures (*.png *.svg)"),
                 self.save_picture,
             ),
             (
-                translate("plots", "Save data …"),
+                tr("Save data …"),
                 "plots.csv",
-                translate("plots", "Records (*.csv *.csv.gz)"),
+                tr("Records (*.csv *.csv.gz)"),
                 self.save_data,
             ),
         ):
@@ -347,15 +339,15 @@ class PlotsPanel(Panel):
             plot.read_cursors()
 
     def _use_theme(self, theme: Theme) -> None:
-        entries = [Entry(translate("plots", name), line) for name, line in LEGEND]
+        entries = [Entry(tr(name), line) for name, line in LEGEND]
         if self.workbench.session.model.corrected:
-            entries.append(Entry(translate("plots", "nominal"), LINES["nominal"]))
+            entries.append(Entry(tr("nominal"), LINES["nominal"]))
         if (other := self.beside.other) is not None:
             entries.append(Entry(other.name, LINES["other"]))
         if self._shown() in (Shown.POSITION, Shown.GAP):
             short = rounded(SHORT_S, 2)
             for name, line in STRIP_LEGEND:
-                entries.append(Entry(translate("plots", name).format(n=short), line))
+                entries.append(Entry(tr(name).format(n=short), line))
         self._legend.show_entries(entries, theme)
         for plot in self.plots.values():
             plot.use_theme(theme)

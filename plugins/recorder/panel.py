@@ -8,6 +8,7 @@ from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled, tabbed
+from rotemina.plugins.recorder import tr
 from rotemina.plugins.recorder.interrupted_files import Unfinished, look
 from rotemina.plugins.recorder.interrupted_view import UnfinishedBox
 from rotemina.plugins.recorder.recording_controls import RecordingSection
@@ -37,10 +38,10 @@ class RecorderPanel(Panel):
         self.recordings = RecordsView(workbench, self.unfinished)
         self.events = EventsView(workbench)
         self.tabs, self.views = tabbed(
-            translate("recorder", "View"),
+            tr("View"),
             {
-                translate("recorder", "Records"): self.recordings,
-                translate("recorder", "Events"): self.events,
+                tr("Records"): self.recordings,
+                tr("Events"): self.events,
             },
         )
         self._lay_out()
@@ -82,10 +83,9 @@ class RecorderPanel(Panel):
         if names:
             self.workbench.notify(
                 Level.WARNING,
-                translate(
-                    "recorder",
-                    "Interrupted recordings: {names}. Recover them in the panel {title}.",
-                ).format(names=listed(names), title=translate("panels", self.title)),
+                tr("Interrupted recordings: {names}. Recover them in the panel {title}.").format(
+                    names=listed(names), title=translate("panels", self.title)
+                ),
                 about=self,
             )
 

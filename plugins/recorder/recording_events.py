@@ -15,31 +15,31 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display_units import duration_text
 from rotemina.app.recorded_events import Severity, TimelineEvent, timeline_events
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.recorder import mark, tr
 
-COLUMNS = (marked("recorder", "Time"), marked("recorder", "Event"), marked("recorder", "Text"))
+COLUMNS = (mark("Time"), mark("Event"), mark("Text"))
 Index = QModelIndex | QPersistentModelIndex
 _NONE = QModelIndex()
 _AFTER_S = 1e-6
 # Kinds of events, as the engine names them.
 KINDS = (
-    marked("recorder", "Fault"),
-    marked("recorder", "Stop"),
-    marked("recorder", "Refused"),
-    marked("recorder", "Recorder"),
-    marked("recorder", "Note"),
-    marked("recorder", "Action"),
-    marked("recorder", "Playback begins"),
-    marked("recorder", "Playback ends"),
-    marked("recorder", "Connection"),
-    marked("recorder", "State"),
-    marked("recorder", "Log"),
+    mark("Fault"),
+    mark("Stop"),
+    mark("Refused"),
+    mark("Recorder"),
+    mark("Note"),
+    mark("Action"),
+    mark("Playback begins"),
+    mark("Playback ends"),
+    mark("Connection"),
+    mark("State"),
+    mark("Log"),
 )
-_EMPTY = marked("recorder", "Open a recording to see what happened in it.")
+_EMPTY = mark("Open a recording to see what happened in it.")
 
 
 class EventsModel(QAbstractTableModel):
@@ -80,13 +80,13 @@ class EventsModel(QAbstractTableModel):
     ) -> object:
         """Return what a column is called."""
         shown = role == Qt.ItemDataRole.DisplayRole and orientation is Qt.Orientation.Horizontal
-        return translate("recorder", COLUMNS[section]) if shown else None
+        return tr(COLUMNS[section]) if shown else None
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> object:
         """Return text, tooltip and colour of a cell."""
         one = self.events[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            word = translate("recorder", one.word)
+            word = tr(one.word)
             return (duration_text(one.at_s, 2), word, one.text)[index.column()]
         if role == Qt.ItemDataRole.ForegroundRole and index.column() == 1:
             return self._colours[one.weight]
@@ -104,12 +104,10 @@ class EventsView(QWidget):
         self.table = _table(self.model)
         self.table.clicked.connect(lambda index: self.jump(index.row()))
         self.table.activated.connect(lambda index: self.jump(index.row()))
-        self.details = QCheckBox(translate("recorder", "with states and log"))
-        self.details.setToolTip(
-            translate("recorder", "Also show states and log lines, not only actions and messages")
-        )
+        self.details = QCheckBox(tr("with states and log"))
+        self.details.setToolTip(tr("Also show states and log lines, not only actions and messages"))
         self.details.toggled.connect(self._choose)
-        self.title = plain_text(translate("recorder", _EMPTY))
+        self.title = plain_text(tr(_EMPTY))
         head = in_row((self.title, 1), self.details)
         in_column(head, (self.table, 1), on=self, margins=0, spacing=4)
         workbench.replaying.changed.connect(self._begin)
@@ -134,13 +132,13 @@ class EventsView(QWidget):
         chosen = [one for one in self._all if details or one.weight is not Severity.DETAIL]
         self.model.show_events(chosen)
         if self._replaying.paced is None:
-            self.title.setText(translate("recorder", _EMPTY))
+            self.title.setText(tr(_EMPTY))
         else:
             name = self._replaying.paced.replay.recording.path.name
             self.title.setText(
-                translate(
-                    "recorder", "{name}: {n} of {all} events; click one to jump there"
-                ).format(name=name, n=len(chosen), all=len(self._all))
+                tr("{name}: {n} of {all} events; click one to jump there").format(
+                    name=name, n=len(chosen), all=len(self._all)
+                )
             )
 
     def _follow(self) -> None:
@@ -158,7 +156,7 @@ class EventsView(QWidget):
 def _table(model: EventsModel) -> QTableView:
     table = QTableView()
     table.setModel(model)
-    table.setAccessibleName(translate("recorder", "Events of the displayed recording"))
+    table.setAccessibleName(tr("Events of the displayed recording"))
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
     table.setTabKeyNavigation(False)
