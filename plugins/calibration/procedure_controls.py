@@ -56,14 +56,8 @@ class Procedure(QWidget):
         self.absolute.setToolTip(
             tr("Off: the zero of the laser is arbitrary; the reading at mid-travel stays")
         )
-        self.plan, self.run = (
-            QPushButton(tr("Plan")),
-            QPushButton(tr("Run")),
-        )
-        self.stop, self.fit = (
-            QPushButton(tr("Stop")),
-            QPushButton(tr("Fit records …")),
-        )
+        self.plan, self.run = QPushButton(tr("Plan")), QPushButton(tr("Run"))
+        self.stop, self.fit = QPushButton(tr("Stop")), QPushButton(tr("Fit records …"))
         self.run.setProperty("primary", True)
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)

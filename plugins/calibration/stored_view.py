@@ -30,10 +30,7 @@ class StoredView(QWidget):
         self.stored: tuple[Stored, ...] = ()
         self.table = Table(tr("Stored calibrations"), shown(STORED_HEAD))
         self.table.itemSelectionChanged.connect(self._allow)
-        self.on, self.off = (
-            QPushButton(tr("Use")),
-            QPushButton(tr("Switch off")),
-        )
+        self.on, self.off = QPushButton(tr("Use")), QPushButton(tr("Switch off"))
         self.on.clicked.connect(lambda: self._switch(on=True))
         self.off.clicked.connect(lambda: self._switch(on=False))
         in_column((self.table, 1), in_row(1, self.on, self.off), on=self, margins=0, spacing=4)

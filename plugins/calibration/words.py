@@ -25,12 +25,7 @@ STORED_HEAD = (
     mark("state"),
 )
 FIGURES_HEAD = (mark("figure"), mark("value"), "± 95 %")
-ISO_HEAD = (
-    "ISO 230-2",
-    mark("reading before"),
-    mark("after"),
-    mark("position reached"),
-)
+ISO_HEAD = ("ISO 230-2", mark("reading before"), mark("after"), mark("position reached"))
 NOTHING = mark("Plan and run the motion, or fit records with the sensor and the laser.")
 
 

@@ -124,10 +124,7 @@ class ComparisonPanel(Panel):
         self.signals.show_signal("model", time_s, scale(model))
         self.gap.show_signal("gap", time_s, gap(real - model))
         self.signals.set_time(0.0, max(record.duration_s, 1e-9))
-        named = (
-            (tr("real"), "real"),
-            (tr("model in use"), "model"),
-        )
+        named = ((tr("real"), "real"), (tr("model in use"), "model"))
         self.signals_title.setText(
             f"{escape(label(tap.axis))} {tap.tap} [{scale.symbol}]: "
             f"{legend(self.workbench.theme, named)}"

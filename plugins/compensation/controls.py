@@ -39,36 +39,19 @@ class Controls(QWidget):
         for name, axis in robot.axes.items():
             if isinstance(axis, PiezoAxis) and axis.controller is None:
                 self.axis.addItem(label(name), name)
-        self.simulate, self.record = (
-            QPushButton(tr("Simulator")),
-            QPushButton(tr("Last record")),
-        )
+        self.simulate, self.record = QPushButton(tr("Simulator")), QPushButton(tr("Last record"))
         self.files, self.open, self.save = (
-            QPushButton(text)
-            for text in (
-                tr("Records …"),
-                tr("Open …"),
-                tr("Save …"),
-            )
+            QPushButton(text) for text in (tr("Records …"), tr("Open …"), tr("Save …"))
         )
         self.kind = QComboBox()
         self.kind.setAccessibleName(tr("Inverse to apply"))
         self.kind.setToolTip(tr("Trained inverse to apply"))
-        self.switch, self.trial = (
-            _switch(SWITCH, primary=True),
-            QPushButton(tr("Try it")),
-        )
+        self.switch, self.trial = _switch(SWITCH, primary=True), QPushButton(tr("Try it"))
         self.sweep = QPushButton(tr("Sweep"))
         self.residuals = {one: _told("") for one in Aid}
         self.beyond = _told("")
-        self.tune, self.open_gains = (
-            QPushButton(tr("Tune")),
-            QPushButton(tr("Open …")),
-        )
-        self.keep, self.apply = (
-            QPushButton(tr("Save gains …")),
-            _switch(APPLY),
-        )
+        self.tune, self.open_gains = QPushButton(tr("Tune")), QPushButton(tr("Open …"))
+        self.keep, self.apply = QPushButton(tr("Save gains …")), _switch(APPLY)
         self.generations = QSpinBox()
         self.generations.setRange(1, 500)
         self.generations.setValue(50)

@@ -13,12 +13,7 @@ from rotemina.sim.compensate.training import Trained
 from rotemina.sim.quantities import amount, percent
 from rotemina.sim.tuning.pareto_front import Point
 
-HEAD = (
-    mark("inverse"),
-    mark("rms"),
-    mark("worst"),
-    mark("of range"),
-)
+HEAD = (mark("inverse"), mark("rms"), mark("worst"), mark("of range"))
 NOTHING = mark("There is no inverse: train one, or open a file.")
 NO_FRONT = mark("there is no front: tune, or open gains")
 LIVE_LOOP = mark(

@@ -12,11 +12,7 @@ from rotemina.drivers.driver import Driver
 from rotemina.plugins.connection import mark, tr, unavailable_reasons
 from rotemina.sim.quantities import rounded
 
-COLUMNS = (
-    mark("Parameter"),
-    mark("Device"),
-    mark("Robot file"),
-)
+COLUMNS = (mark("Parameter"), mark("Device"), mark("Robot file"))
 _MOST_ROWS_SHOWN = 6
 
 

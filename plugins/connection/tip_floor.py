@@ -12,11 +12,7 @@ from rotemina.plugins.connection import mark, tr, unavailable_reasons
 from rotemina.sim.quantities import fixed
 
 _STILL_M = 1e-9  # a tip that has moved more than this is not where the question was asked
-_FIGURES = (
-    mark("Tip height"),
-    mark("Floor"),
-    mark("Above the floor"),
-)
+_FIGURES = (mark("Tip height"), mark("Floor"), mark("Above the floor"))
 
 
 class TipSection(Section):

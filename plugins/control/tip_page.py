@@ -76,10 +76,7 @@ class TipPage(QWidget):
         place = "" if tip is None else " · ".join(fixed(1e3 * at, 4) for at in tip)
         texts = (
             (self.height_text, tip_text(state, zone)),
-            (
-                self.place,
-                tr("x, y, z [mm]: {place}").format(place=place) if place else "",
-            ),
+            (self.place, tr("x, y, z [mm]: {place}").format(place=place) if place else ""),
             (self.bounds, bounds_text(zone)),
         )
         for text_shown, text in texts:

@@ -334,10 +334,7 @@ class EffectsPanel(Panel):
             return tr("No effects: nominal")
         on = sum(one.enabled for one in self.chain.asked)
         state = tr("all off") if self.all_off.isChecked() else tr("{n} on").format(n=on)
-        one, more = (
-            tr("1 effect, {state}"),
-            tr("{n} effects, {state}"),
-        )
+        one, more = tr("1 effect, {state}"), tr("{n} effects, {state}")
         return (more if len(self.chain) > 1 else one).format(n=len(self.chain), state=state)
 
     def _say(self, text: str, *, bad: bool = False) -> None:

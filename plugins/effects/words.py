@@ -7,12 +7,7 @@ them, as a plugin's effect, is shown as the model says it.
 from rotemina.plugins.effects import mark, tr
 from rotemina.sim.effects.formulation import Effect, Stage
 
-STAGES = (
-    mark("electronics"),
-    mark("actuator"),
-    mark("mechanics"),
-    mark("sensor"),
-)
+STAGES = (mark("electronics"), mark("actuator"), mark("mechanics"), mark("sensor"))
 # Title and summary of each effect.
 EFFECTS = (
     mark("Amplifier lag"),

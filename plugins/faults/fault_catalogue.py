@@ -65,12 +65,7 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
         Fault(
             tr("Bytes"),
             tr("The next bytes are lost, doubled or corrupted by one bit, or extra bytes arrive"),
-            (
-                Pick(tr("Fault"), damage),
-                Number(tr("Bytes"), 3, 1, 10_000),
-                towards,
-                line,
-            ),
+            (Pick(tr("Fault"), damage), Number(tr("Bytes"), 3, 1, 10_000), towards, line),
         ),
         Fault(
             tr("Delay"),
@@ -91,10 +86,7 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
             (
                 Pick(
                     tr("Fault"),
-                    (
-                        (tr("silent"), "silence"),
-                        (tr("held at space"), "space"),
-                    ),
+                    ((tr("silent"), "silence"), (tr("held at space"), "space")),
                 ),
                 Number(tr("Duration"), 2.0, 0.0, 3600.0, "s", "s", 1),
                 line,
@@ -106,10 +98,7 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
             (
                 Pick(
                     tr("Fault"),
-                    (
-                        (tr("reset"), "reset"),
-                        (tr("brown-out"), "brown-out"),
-                    ),
+                    ((tr("reset"), "reset"), (tr("brown-out"), "brown-out")),
                 ),
                 Pick(tr("Board"), boards),
             ),
@@ -120,10 +109,7 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
             (
                 Pick(
                     tr("Fault"),
-                    (
-                        (tr("freeze"), "freeze"),
-                        (tr("release"), "thaw"),
-                    ),
+                    ((tr("freeze"), "freeze"), (tr("release"), "thaw")),
                 ),
                 _axes(axes),
             ),

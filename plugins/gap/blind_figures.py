@@ -16,12 +16,7 @@ _MOST_BYTES = 64_000_000
 
 _LEVEL = re.compile(r"([≥≤]?)\s*([\d.]+)\s*(%?)")
 _STEP = re.compile(r"^(\S+): done \((\d+) of (\d+)\)")
-HEAD = (
-    mark("figure"),
-    mark("level"),
-    mark("reached, 95 %"),
-    mark("cases"),
-)
+HEAD = (mark("figure"), mark("level"), mark("reached, 95 %"), mark("cases"))
 
 
 @dataclass(frozen=True, slots=True)

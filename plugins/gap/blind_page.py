@@ -64,10 +64,7 @@ class BlindPage(QDialog):
         self.seed = _field(
             "1", _MOST_SEED, 0, tr("Seed of the machines: the same seed draws the same machines")
         )
-        self.start, self.stop = (
-            QPushButton(tr("Start")),
-            QPushButton(tr("Stop")),
-        )
+        self.start, self.stop = QPushButton(tr("Start")), QPushButton(tr("Stop"))
         self.start.setProperty("primary", True)
         self.score = QPushButton(tr("Score finished cases"))
         self.progress = QProgressBar()

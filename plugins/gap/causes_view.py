@@ -25,12 +25,7 @@ from rotemina.sim.gap.diagnosis import AxisDiagnosis, Cause, FittedParameter, Ra
 from rotemina.sim.gap.report.words import parameter_unit
 from rotemina.sim.quantities import amount, amounts, percent, percents
 
-HEAD = (
-    mark("candidate"),
-    mark("probability"),
-    mark("remainder (noise floors)"),
-    "95 %",
-)
+HEAD = (mark("candidate"), mark("probability"), mark("remainder (noise floors)"), "95 %")
 _TIPS = (
     mark("Alternatives to the leading cause, likeliest first; possible causes are highlighted"),
     mark("Probability of being the cause, among the candidates and an unknown cause"),

@@ -26,12 +26,7 @@ from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.unseen_motion_view import ProofView
 from rotemina.plugins.gap.verdict_advice import readiness
 
-VIEWS = (
-    mark("Where"),
-    mark("Which effect"),
-    mark("How far"),
-    mark("Unseen motion"),
-)
+VIEWS = (mark("Where"), mark("Which effect"), mark("How far"), mark("Unseen motion"))
 WHERE, WHICH, FAR, PROOF, RUNNING, HINT = range(6)
 TIPS = (
     mark("Axis, channel, frequencies and kind of motion in which the gap lies"),

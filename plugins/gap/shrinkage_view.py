@@ -144,10 +144,7 @@ class ShrinkageView(QSplitter):
             self.bars.show_bars((), ())
             return
         unit = answer.unit(told.axis, told.tap)
-        sizes = [
-            (tr("nominal"), told.raw, "command"),
-            (tr("re-tuned"), told.retuned, "command"),
-        ]
+        sizes = [(tr("nominal"), told.raw, "command"), (tr("re-tuned"), told.retuned, "command")]
         sizes += [(f"+ {effect_title(step.effect)}", step.rms, "model") for step in told.steps]
         sizes.append((tr("corrected"), told.corrected, "model"))
         lines = [(tr("floor"), told.floor, "good")]

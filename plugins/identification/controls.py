@@ -41,10 +41,7 @@ class Controls(QWidget):
             tr("Choose a motion that excites an axis, play it and analyse the record")
         )
         self.axis = _choice(tr("Axis"))
-        self.drive, self.answer = (
-            _choice(tr("Input")),
-            _choice(tr("Output")),
-        )
+        self.drive, self.answer = _choice(tr("Input")), _choice(tr("Output"))
         self.view = _choice(tr("Analysis"), [(localized(view.value), view) for view in View])
         averages = tr("{n} averages")
         self.averages = _choice(tr("Averages"), [(averages.format(n=n), n) for n in AVERAGES])
@@ -62,10 +59,7 @@ class Controls(QWidget):
             tr("Poles"), [((poles if n > 1 else pole).format(n=n), n) for n in POLES]
         )
         self.poles.setCurrentIndex(POLES.index(2))
-        self.copy, self.save = (
-            QPushButton(tr("Copy")),
-            QPushButton(tr("Save …")),
-        )
+        self.copy, self.save = QPushButton(tr("Copy")), QPushButton(tr("Save …"))
         self.copy.setToolTip(tr("Copy the figures as text"))
         self.save.setToolTip(tr("Write the figures into a file"))
         self.keep = QPushButton(tr("Store card"))

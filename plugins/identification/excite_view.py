@@ -75,10 +75,7 @@ class ExciteView(QWidget):
             tr("Move around the present position; off: around the middle of the range")
         )
         self.told, self.owner = plain_text(quiet=False, wrap=True), plain_text(wrap=True)
-        self.play, self.stop = (
-            QPushButton(tr("Play")),
-            QPushButton(tr("Stop")),
-        )
+        self.play, self.stop = QPushButton(tr("Play")), QPushButton(tr("Stop"))
         self.play.setProperty("primary", True)
         self.play.setToolTip(tr("Play the motion and analyse the record"))
         self.stop.setToolTip(tr("Stop the machine and end the motion"))

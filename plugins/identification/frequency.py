@@ -162,10 +162,7 @@ def _rows(
         (mark("gain, lowest line"), scale.text(size[0])),
         (mark("largest gain"), scale.text(size[peak])),
         (mark("at frequency"), f"{rounded(frequency_hz[peak], 5)} Hz"),
-        (
-            mark("median coherence"),
-            fixed(np.median(measured.lines.coherence), 4),
-        ),
+        (mark("median coherence"), fixed(np.median(measured.lines.coherence), 4)),
         (mark("estimator"), measured.method),
         (mark("averages"), measured.averages),
         (mark("lines"), str(len(size))),

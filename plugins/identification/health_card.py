@@ -73,12 +73,7 @@ def keep_card(question: Question) -> None:
 
 def _row(row: Compared) -> tuple[str, ...]:
     before = _words(row.before) if row.before is not None else (NONE, NONE)
-    return (
-        row.now.name,
-        *_words(row.now),
-        *before,
-        mark("changed") if row.changed else "",
-    )
+    return (row.now.name, *_words(row.now), *before, mark("changed") if row.changed else "")
 
 
 def _words(figure: Figure) -> tuple[str, str]:

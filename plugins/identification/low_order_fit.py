@@ -29,12 +29,7 @@ METHODS = {"oe": identify_oe, "arx": identify_arx}
 _GOOD_FIT = 80.0
 _WORSE = 10.0  # per cent of fit, lost from prediction to simulation, that tell of noise
 _ROUGH = 0.1  # relative deviation from which a figure is rough
-_HEAD = (
-    mark("figure"),
-    mark("value"),
-    mark("± deviation"),
-    mark("model"),
-)
+_HEAD = (mark("figure"), mark("value"), mark("± deviation"), mark("model"))
 
 
 def model_findings(question: Question) -> Findings:
@@ -123,22 +118,10 @@ def _rows(
     scale = ratio_scale(question, abs(gain))
     rows: list[tuple[str, ...]] = [(mark("fit"), f"{fixed(model.fit_percent, 2)} %", "")]
     if model.prediction_percent is not None:
-        rows.append(
-            (
-                mark("fit one step ahead"),
-                f"{fixed(model.prediction_percent, 2)} %",
-                "",
-            )
-        )
+        rows.append((mark("fit one step ahead"), f"{fixed(model.prediction_percent, 2)} %", ""))
     for mode in modes:
         rows += _mode_rows(mode)
-    rows.append(
-        (
-            mark("static gain"),
-            scale.text(gain),
-            scale.text(model.static_gain_deviation),
-        )
-    )
+    rows.append((mark("static gain"), scale.text(gain), scale.text(model.static_gain_deviation)))
     unit = question.unit(question.answer)
     residual = scale_of(unit, model.residual_rms).text(model.residual_rms)
     rows.append((mark("residual rms"), residual, ""))
@@ -151,10 +134,7 @@ def _mode_rows(mode: NaturalMode) -> list[tuple[str, ...]]:
     found = (f"{frequency} Hz", f"{doubt} Hz")
     if mode.oscillates:
         ratio = uncertain(mode.damping_ratio, mode.damping_deviation)
-        return [
-            (mark("natural frequency"), *found),
-            (mark("damping ratio"), *ratio),
-        ]
+        return [(mark("natural frequency"), *found), (mark("damping ratio"), *ratio)]
     lag_s = 1.0 / (2.0 * np.pi * mode.frequency_hz) if mode.frequency_hz else np.inf
     return [
         (mark("corner frequency"), *found),

@@ -278,10 +278,7 @@ class IdentificationPanel(Panel):
     def _ask_save(self) -> None:
         if self.findings is None:
             return
-        title, kinds = (
-            tr("Save results"),
-            tr("Tables (*.csv)"),
-        )
+        title, kinds = tr("Save results"), tr("Tables (*.csv)")
         # What is in sight now, whatever comes in while the dialog is open.
         text = as_csv(self.findings, self.controls.shown)
         ask_where(

@@ -87,10 +87,7 @@ def step_findings(question: Question) -> Findings:
             _closest(question, found, answer, nominal),
         ),
         HEAD,
-        (
-            (mark("steps"), str(len(found)), "", "", ""),
-            *(figure.row() for figure in figures),
-        ),
+        ((mark("steps"), str(len(found)), "", "", ""), *(figure.row() for figure in figures)),
         tuple(figure.column() for figure in figures),
         (*absent, *_doubts(found, ramp_s)),
     )

@@ -58,12 +58,7 @@ _SEATS = {
 }
 #: What the pad on the screen and its buttons are called.
 _PAD = ("keys", mark("pad"))  # source and name
-_PAD_BUTTONS = (
-    mark("clutch"),
-    mark("fine"),
-    mark("coarse"),
-    mark("take_over"),
-)
+_PAD_BUTTONS = (mark("clutch"), mark("fine"), mark("coarse"), mark("take_over"))
 _HID = re.compile(r"hid:([0-9a-f]{4}):([0-9a-f]{4}):")
 
 

@@ -103,11 +103,7 @@ class ResultView(QFrame):
                 tr("Compare model and machine in this run, axis by axis"),
                 "comparison",
             ),
-            (
-                tr("Diagnose"),
-                tr("Find the effects that explain the gap"),
-                "gap",
-            ),
+            (tr("Diagnose"), tr("Find the effects that explain the gap"), "gap"),
         ):
             button = QPushButton(text)
             button.setToolTip(plain_tip(tip))
@@ -166,10 +162,7 @@ class JobPanel(Panel):
         self.play.setProperty("primary", True)
 
     def _make_others(self) -> None:
-        stop, held = (
-            tr("Stop"),
-            tr("Stop all axes and hold their positions (Esc)"),
-        )
+        stop, held = tr("Stop"), tr("Stop all axes and hold their positions (Esc)")
         show = tr("Show"), tr("Bring its panel to the front")
         self.penetration = Card(tr("Penetration"))
         self.penetration.add_button(*show, lambda: self._bring_up("penetration"))

@@ -61,10 +61,7 @@ def feed_notice(view: FeedView) -> FeedNotice:
         return FeedNotice("busy", tr("opened"), tr("Waiting for the first picture"))
     if state is FeedState.LIVE:
         # One picture has no rate yet.
-        parts = [
-            tr("live"),
-            *([f"{fixed(view.rate_hz, 0)} Hz"] if view.rate_hz > 0.0 else []),
-        ]
+        parts = [tr("live"), *([f"{fixed(view.rate_hz, 0)} Hz"] if view.rate_hz > 0.0 else [])]
         return FeedNotice(tone, " · ".join((*parts, age(view.age_s))))
     badge = spoken(state)
     if view.frame is not None:

@@ -19,11 +19,7 @@ from rotemina.plugins.microscope.feed_notice import against_clicking
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.words import target_text, visit_text
 
-STAGES = (
-    (mark("nano, else micro"), None),
-    (mark("micro"), "micro"),
-    (mark("nano"), "nano"),
-)
+STAGES = ((mark("nano, else micro"), None), (mark("micro"), "micro"), (mark("nano"), "nano"))
 
 
 class MoveSection(Section):

@@ -134,10 +134,7 @@ def _tip(status: MicroscopeStatus) -> list[Shape]:
         way = np.array([np.cos(tip.direction), np.sin(tip.direction)])
         body = np.array([tip.pixel, tip.pixel + _BODY_PX * way])
         found.append(Stroke(look, body, dashed=True))
-    return [
-        *found,
-        Cross(look, tip.pixel, tr("tip") if look is Look.TIP else tr("tip lost")),
-    ]
+    return [*found, Cross(look, tip.pixel, tr("tip") if look is Look.TIP else tr("tip lost"))]
 
 
 def _cell(status: MicroscopeStatus) -> list[Shape]:

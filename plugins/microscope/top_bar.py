@@ -16,10 +16,7 @@ TOOLS = {
         mark("Move"),
         mark("Click or drag: the tip moves there. Esc or any stop ends this mode"),
     ),
-    PointerTool.MARK: (
-        mark("Mark"),
-        mark("Click: mark a target for a visit; nothing moves"),
-    ),
+    PointerTool.MARK: (mark("Mark"), mark("Click: mark a target for a visit; nothing moves")),
     PointerTool.MEASURE: (
         mark("Measure"),
         mark("Drag a line: its length and angles; nothing moves"),
@@ -28,10 +25,7 @@ TOOLS = {
         mark("Tip"),
         mark("Click near the pipette's tip: track it from there; nothing moves"),
     ),
-    PointerTool.CELL: (
-        mark("Cell"),
-        mark("Click into a cell: find its outline; nothing moves"),
-    ),
+    PointerTool.CELL: (mark("Cell"), mark("Click into a cell: find its outline; nothing moves")),
 }
 
 

@@ -124,10 +124,7 @@ class CellView(QWidget):
             tr("Stiffness of the cell"),
             tr("Relative to the stiffness of the axis, up to 30"),
         )
-        self.put, self.take = (
-            QPushButton(tr("Place cell")),
-            QPushButton(tr("Remove")),
-        )
+        self.put, self.take = QPushButton(tr("Place cell")), QPushButton(tr("Remove"))
         self.put.clicked.connect(lambda _: self._put())
         self.take.clicked.connect(lambda _: self._take())
         self.controls = QWidget()

@@ -73,10 +73,7 @@ class ParameterForm(QScrollArea):
         self.setWidgetResizable(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._body = QWidget()
-        self.load, self.save = (
-            QPushButton(tr("Load …")),
-            QPushButton(tr("Save …")),
-        )
+        self.load, self.save = QPushButton(tr("Load …")), QPushButton(tr("Save …"))
         self.save.setToolTip(tr("Save these parameters to a TOML file"))
         self.fields = {key: NumberField(one, self) for key, one in QUANTITIES.items()}
         self._make_choices(robot)

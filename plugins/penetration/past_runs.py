@@ -104,10 +104,7 @@ def _found(run: PenetrationRun) -> list[str]:
         (tr("started at"), _way(run.start)),
         (tr("contact at"), _way(run.contact)),
         (tr("contact, as measured"), _way(run.contact_measured)),
-        (
-            tr("contact, height of the tip"),
-            None if run.contact_height is None else _height(run),
-        ),
+        (tr("contact, height of the tip"), None if run.contact_height is None else _height(run)),
         (tr("contact detected after"), _ms(run.contact_delay_s)),
         (tr("in contact from the start"), _yes(run.contact_from_start)),
         (tr("noise, rms"), _nm(run.noise_rms)),

@@ -60,10 +60,7 @@ def _point(number: int, line: str) -> tuple[float, float]:
             ).format(number=number, line=line[:40])
         )
     at, depth = shares
-    for name, value in (
-        (tr("time"), at),
-        (tr("depth"), depth),
-    ):
+    for name, value in ((tr("time"), at), (tr("depth"), depth)):
         if not 0.0 <= value <= 1.0:
             raise TypedError(
                 tr("table, line {number}: {name} {value:g} must be 0 to 1").format(

@@ -72,17 +72,11 @@ class PlatePanel(Panel):
         for title, divisions in MESHES:
             self.mesh.addItem(tr(title), divisions)
         self.mesh.setCurrentIndex(1)
-        self.start, self.stop = (
-            QPushButton(tr("Solve")),
-            QPushButton(tr("Stop")),
-        )
+        self.start, self.stop = QPushButton(tr("Solve")), QPushButton(tr("Stop"))
         self.start.setProperty("primary", True)
         self.start.setToolTip(tr("Compute the plate of the robot file; motion continues"))
         self.stop.setToolTip(tr("Cancel the computation; motion continues"))
-        self.vtu, self.png = (
-            QPushButton(tr("Save VTU …")),
-            QPushButton(tr("Save PNG …")),
-        )
+        self.vtu, self.png = QPushButton(tr("Save VTU …")), QPushButton(tr("Save PNG …"))
         self.doing = plain_text(wrap=True)
         self.pose_text, self.plate_text = (plain_text(quiet=False, wrap=True) for _ in range(2))
         self.pose_text.setAccessibleName(tr("In this pose"))

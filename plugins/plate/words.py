@@ -12,11 +12,7 @@ from rotemina.sim.plate.stress import Safety, StressPoint, safety
 from rotemina.sim.quantities import fixed, percent
 from rotemina.sim.robot.plate import Plate
 
-MESHES = (
-    (mark("Coarse mesh"), 60),
-    (mark("Default mesh"), 120),
-    (mark("Fine mesh"), 240),
-)
+MESHES = ((mark("Coarse mesh"), 60), (mark("Default mesh"), 120), (mark("Fine mesh"), 240))
 _NEAR = 0.02  # of the way from hub to rim
 AXES = (("zn", "µm", 1e6), ("thx", "µrad", 1e6), ("thy", "µrad", 1e6))
 EMPTY = mark("Solve the plate of this robot to see its stress, its deformation and its modes.")

@@ -50,10 +50,7 @@ LEGEND = (
     (mark("model in use"), LINES["model"]),
     (mark("measured"), LINES["measured"]),
 )
-STRIP_LEGEND = (
-    (mark("gap, last {n} s"), LINES["gap"]),
-    (mark("noise floor"), None),
-)
+STRIP_LEGEND = ((mark("gap, last {n} s"), LINES["gap"]), (mark("noise floor"), None))
 VIEWS = {
     Shown.POSITION: mark("Position"),
     Shown.GAP: mark("Gap: measured − model"),
@@ -203,18 +200,8 @@ class PlotsPanel(Panel):
         menu.addAction(tr("Align the other run"), self.beside.align)
         menu.addSeparator()
         for text, name, kinds, save in (
-            (
-                tr("Save picture …"),
-                "plots.png",
-                tr("Pictures (*.png *.svg)"),
-                self.save_picture,
-            ),
-            (
-                tr("Save data …"),
-                "plots.csv",
-                tr("Records (*.csv *.csv.gz)"),
-                self.save_data,
-            ),
+            (tr("Save picture …"), "plots.png", tr("Pictures (*.png *.svg)"), self.save_picture),
+            (tr("Save data …"), "plots.csv", tr("Records (*.csv *.csv.gz)"), self.save_data),
         ):
             menu.addAction(text, partial(_ask_path, self, text, name, kinds, save))
         return menu

@@ -244,10 +244,7 @@ class RecordsView(QWidget):
 
     def _ask_export(self) -> None:
         def ask(one: Entry) -> None:
-            title, kinds = (
-                tr("Export a record"),
-                tr("Records (*.csv *.csv.gz)"),
-            )
+            title, kinds = tr("Export a record"), tr("Records (*.csv *.csv.gz)")
             name = f"{one.path.stem}.csv"
             ask_where(
                 self.window(), self._workbench, title, kinds, name, lambda to: self.export(one, to)

@@ -36,10 +36,7 @@ class ReserveSection(Section):
         grid.setHorizontalSpacing(12)
         grid.setColumnStretch(1, 1)
         for row, (title, widget) in enumerate(
-            (
-                (tr("Remaining"), self.left),
-                (tr("Tilt"), self.tilt),
-            )
+            ((tr("Remaining"), self.left), (tr("Tilt"), self.tilt))
         ):
             name = QLabel(title)
             name.setProperty("quiet", True)

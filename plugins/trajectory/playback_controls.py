@@ -59,10 +59,7 @@ class Transport(QWidget):
         self.play.clicked.connect(workbench.toggle_playback)
         self.end = QPushButton(tr("End"))
         self.end.clicked.connect(workbench.end_playback)
-        self.back, self.forward = (
-            QPushButton(tr("◂ Step")),
-            QPushButton(tr("Step ▸")),
-        )
+        self.back, self.forward = QPushButton(tr("◂ Step")), QPushButton(tr("Step ▸"))
         self.back.clicked.connect(lambda: self._step(-1))
         self.forward.clicked.connect(lambda: self._step(1))
         self.rows = QComboBox()

@@ -123,7 +123,7 @@ class Canvas(QWidget):
         if event.buttons() & Qt.MouseButton.RightButton:
             self._see(lambda camera: camera.shifted(-way.x(), way.y(), self.height()))
         else:
-            right, up = (-_RADIANS_PER_PIXEL * way.x(), _RADIANS_PER_PIXEL * way.y())
+            right, up = -_RADIANS_PER_PIXEL * way.x(), _RADIANS_PER_PIXEL * way.y()
             self._see(lambda camera: camera.turned(right, up))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)

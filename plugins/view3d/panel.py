@@ -37,10 +37,7 @@ VIEWS = {
     View.FRONT: (mark("Front"), mark("Along +y, z up")),
     View.TOP: (mark("Top"), mark("Along −z")),
     View.ISO: (mark("Iso"), mark("The whole robot from the side")),
-    View.CELL: (
-        mark("Cell"),
-        mark("The cell, with the tip 0.3 mm beside it, to scale"),
-    ),
+    View.CELL: (mark("Cell"), mark("The cell, with the tip 0.3 mm beside it, to scale")),
 }
 GHOSTS = {
     mark("Model and real"): (Ghost.MODEL, Ghost.REAL),
