@@ -6,7 +6,7 @@ from threading import Event as Flag
 from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.shell.background_job import Job, Tell
-from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.background_search import problem_of, search
 from rotemina.plugins.compensation.controls import Controls
@@ -86,17 +86,11 @@ class GainSearch(QObject):
         """Write the gains with the point that was taken."""
         tuning = self.tuning
 
-        def done(_: None) -> None:
+        def done() -> None:
             self.name = path.name
-            self._workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path))
 
         if tuning is not None:
-            self._workbench.work(
-                "keep tuning",
-                tr("Writing {name} …").format(name=path.name),
-                lambda: save_tuning(tuning, path),
-                done,
-            )
+            self._workbench.write_file("keep tuning", path, lambda: save_tuning(tuning, path), done)
 
     def open(self, path: Path) -> None:
         """Take the gains of a file in hand."""
@@ -104,12 +98,7 @@ class GainSearch(QObject):
         def done(tuning: Tuning) -> None:
             self._take(tuning, None, path.name)
 
-        self._workbench.work(
-            "open tuning",
-            tr("Reading {name} …").format(name=path.name),
-            lambda: load_tuning(path),
-            done,
-        )
+        self._workbench.read_file("open tuning", path.name, lambda: load_tuning(path), done)
 
     def stop(self) -> None:
         """End the search; it keeps what it found."""

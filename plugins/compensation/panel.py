@@ -119,9 +119,7 @@ class CompensationPanel(Panel):
             self._source = path.name
             self._take(learned)
 
-        self.workbench.work(
-            "open inverse", tr("Reading {name} …").format(name=path.name), work, done
-        )
+        self.workbench.read_file("open inverse", path.name, work, done)
 
     def save_file(self, path: Path) -> None:
         """Keep the inverses in hand."""
@@ -129,13 +127,12 @@ class CompensationPanel(Panel):
         if learned is None:
             return
 
-        def done(_: None) -> None:
+        def done() -> None:
             self._source = path.name
-            self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path))
 
-        self.workbench.work(
+        self.workbench.write_file(
             "save inverse",
-            tr("Writing {name} …").format(name=path.name),
+            path,
             lambda: write_trained(path, learned.trained, learned.provenance),
             done,
         )

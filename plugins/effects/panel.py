@@ -235,18 +235,13 @@ class EffectsPanel(Panel):
             self.place = 0
             self._use(chain)
 
-        self.workbench.work(
-            "load effects", tr("Reading {name} …").format(name=path.name), work, done
-        )
+        self.workbench.read_file("load effects", path.name, work, done)
 
     def save_robot(self, path: Path) -> None:
         """Write a robot file of the robot with its effects, over one that is there."""
         robot = replace(self.workbench.robot, effects=self.chain.asked)
-        self.workbench.work(
-            "save robot",
-            tr("Writing {name} …").format(name=path.name),
-            lambda: write_robot(robot, path, overwrite=True),
-            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
+        self.workbench.write_file(
+            "save robot", path, lambda: write_robot(robot, path, overwrite=True)
         )
 
     def _ask_load(self) -> None:

@@ -66,12 +66,7 @@ class FaultsPanel(Panel):
     def save_to(self, path: Path) -> None:
         """Write the whole history into a text file."""
         text = as_text(self.history.entries)
-        self.workbench.work(
-            "faults",
-            tr("Writing {name} …").format(name=path.name),
-            lambda: write_text(path, text),
-            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
-        )
+        self.workbench.write_file("faults", path, lambda: write_text(path, text))
 
     def _lay_out(self) -> None:
         buttons = in_row(self.clear_fault, 1, self.copy, self.save, self.empty, spacing=6)

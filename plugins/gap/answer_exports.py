@@ -14,7 +14,7 @@ from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.gap_words import run_lines
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.report_files import PAGES, save_report
-from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.sim.gap.diagnosis import Diagnosis
@@ -78,16 +78,10 @@ class Actions(QObject):
         """Write a robot file of the corrected model."""
         robot, effects = answer.diagnosis.robot, answer.diagnosis.fitted
 
-        def done(_: None) -> None:
-            self._workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path))
-            self.twin_saved.emit(path)
+        def write() -> None:
+            write_text(path, twin_text(robot, effects, source))
 
-        self._workbench.work(
-            "gap twin",
-            tr("Writing {name} …").format(name=path.name),
-            lambda: write_text(path, twin_text(robot, effects, source)),
-            done,
-        )
+        self._workbench.write_file("gap twin", path, write, lambda: self.twin_saved.emit(path))
 
     def save_report(self, answer: Answer, path: Path) -> None:
         """Write the report and open it."""
@@ -101,11 +95,8 @@ class Actions(QObject):
 
     def save_json(self, answer: Answer, path: Path) -> None:
         """Write the diagnosis as JSON."""
-        self._workbench.work(
-            "gap document",
-            tr("Writing {name} …").format(name=path.name),
-            lambda: write_text(path, json_text(as_json(answer.diagnosis))),
-            lambda _: self._workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
+        self._workbench.write_file(
+            "gap document", path, lambda: write_text(path, json_text(as_json(answer.diagnosis)))
         )
 
 

@@ -288,13 +288,7 @@ class Records(QObject):
                 )
             self._count_read()
 
-        self._workbench.work(
-            f"gap record {path}",
-            tr("Reading {name} …").format(name=path.name),
-            work,
-            done,
-            self._count_read,
-        )
+        self._workbench.read_file(f"gap record {path}", path.name, work, done, self._count_read)
 
     def _count_read(self) -> None:
         self._unread -= 1
@@ -303,9 +297,9 @@ class Records(QObject):
 
     def _read_named(self, path: Path, columns: str | None) -> None:
         robot = self._robot
-        self._workbench.work(
+        self._workbench.read_file(
             f"gap record {path}",
-            tr("Reading {name} …").format(name=path.name),
+            path.name,
             lambda: read_record(path, columns=columns, robot=robot),
             lambda record: self._tick_beside(self._add(Listed(path.name, record, path))),
         )
@@ -326,10 +320,6 @@ class Records(QObject):
             self.changed.emit()  # its tick is taken back
             self._count_read()
 
-        self._workbench.work(
-            f"gap record {entry.path}",
-            tr("Reading {name} …").format(name=entry.name),
-            lambda: read(entry, robot),
-            done,
-            failed,
+        self._workbench.read_file(
+            f"gap record {entry.path}", entry.name, lambda: read(entry, robot), done, failed
         )

@@ -51,11 +51,8 @@ class RobotChoice(QComboBox):
         if source is None:
             self._take(None, self._workbench.robot)
             return
-        self._workbench.work(
-            "gap robot",
-            tr("Reading {name} …").format(name=source),
-            lambda: load_robot(source),
-            lambda robot: self._take(source, robot),
+        self._workbench.read_file(
+            "gap robot", source, lambda: load_robot(source), lambda robot: self._take(source, robot)
         )
 
     def _choose(self, place: int) -> None:

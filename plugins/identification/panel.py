@@ -125,9 +125,7 @@ class IdentificationPanel(Panel):
             else:
                 self.take_record(path.name, answer)
 
-        self.workbench.work(
-            "identification record", tr("Reading {name} …").format(name=path.name), work, done
-        )
+        self.workbench.read_file("identification record", path.name, work, done)
 
     def _take_run(self, run: Run) -> None:
         """Look at a run; at one of this page's own excitations from where it says most."""
@@ -292,12 +290,7 @@ class IdentificationPanel(Panel):
 
     def save_text(self, path: Path, text: str) -> None:
         """Write results to a file."""
-        self.workbench.work(
-            "identification results",
-            tr("Writing {name} …").format(name=path.name),
-            lambda: write_text(path, text),
-            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
-        )
+        self.workbench.write_file("identification results", path, lambda: write_text(path, text))
 
     def _use_theme(self, theme: Theme) -> None:
         self.notices.setStyleSheet(f"color: {theme.warning};")

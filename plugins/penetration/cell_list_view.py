@@ -15,7 +15,7 @@ from rotemina.app.motion.penetration.status import PenetrationStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_where
-from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
@@ -107,12 +107,7 @@ class CellListView(QWidget):
     def export_to(self, path: Path) -> None:
         """Write the list."""
         text = self.list.as_csv(self._workbench.robot)
-        self._workbench.work(
-            "export cells",
-            tr("Writing {name} …").format(name=path.name),
-            lambda: write_text(path, text),
-            lambda _: self._workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
-        )
+        self._workbench.write_file("export cells", path, lambda: write_text(path, text))
 
     # --- what the operator does -------------------------------------------------------------------
 

@@ -138,11 +138,8 @@ class PenetrationPanel(Panel):
             self.form.show_parameters(parameters)
             self._change()
 
-        self.workbench.work(
-            "penetration",
-            tr("Reading {name} …").format(name=path.name),
-            lambda: PenetrationParameters.load(path),
-            done,
+        self.workbench.read_file(
+            "penetration", path.name, lambda: PenetrationParameters.load(path), done
         )
 
     def save_parameters(self, path: Path) -> None:
@@ -156,12 +153,7 @@ class PenetrationPanel(Panel):
             )
             return
         parameters = self.form.parameters
-        self.workbench.work(
-            "save penetration",
-            tr("Writing {name} …").format(name=path.name),
-            lambda: parameters.save(path),
-            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
-        )
+        self.workbench.write_file("save penetration", path, lambda: parameters.save(path))
 
     def _ask_load(self) -> None:
         title = tr("Load parameters")

@@ -200,11 +200,8 @@ class PlatePanel(Panel):
         """Write mesh, fields at the pose that is shown, and modes."""
         solved, pose = self.solved, self.controls.pose
         assert solved is not None
-        self.workbench.work(
-            "plate vtu",
-            tr("Writing {name} …").format(name=path.name),
-            lambda: write_vtu(path, solved.solutions, pose, solved.modes),
-            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
+        self.workbench.write_file(
+            "plate vtu", path, lambda: write_vtu(path, solved.solutions, pose, solved.modes)
         )
 
     def save_png(self, path: Path) -> None:
@@ -218,12 +215,7 @@ class PlatePanel(Panel):
             with replaced(path) as file:
                 file.write(picture)
 
-        self.workbench.work(
-            "plate png",
-            tr("Writing {name} …").format(name=path.name),
-            write,
-            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
-        )
+        self.workbench.write_file("plate png", path, write)
 
     def _ask(self, suffix: str) -> None:
         every = tr("All files (*)")

@@ -131,9 +131,9 @@ def _ask_run(panel: Panel, use: Callable[[OtherRun], None]) -> None:
 
     def take(chosen: tuple[Entry, ...]) -> None:
         entry = chosen[0]
-        bench.work(
+        bench.read_file(
             "run beside",
-            tr("Reading {name} …").format(name=entry.name),
+            entry.name,
             lambda: read(entry, bench.robot),
             lambda record: done(entry, record),
         )

@@ -148,11 +148,8 @@ class PlotsPanel(Panel):
     def save_data(self, path: Path) -> None:
         """Write what is shown as a record; a failure becomes a notice."""
         window, robot = self._stretch(), self.workbench.robot
-        self.workbench.work(
-            "save plots",
-            f"Writing {path.name} …",
-            lambda: write_record(as_record(window, robot), path),
-            lambda _: self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path)),
+        self.workbench.write_file(
+            "save plots", path, lambda: write_record(as_record(window, robot), path)
         )
 
     def save_picture(self, path: Path) -> None:
