@@ -12,7 +12,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display_units import label
-from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.labels import heading, plain_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.trial_motion import Aid
@@ -48,8 +48,8 @@ class Controls(QWidget):
         self.kind.setToolTip(tr("Trained inverse to apply"))
         self.switch, self.trial = _switch(SWITCH, primary=True), QPushButton(tr("Try it"))
         self.sweep = QPushButton(tr("Sweep"))
-        self.residuals = {one: _told("") for one in Aid}
-        self.beyond = _told("")
+        self.residuals = {one: _told() for one in Aid}
+        self.beyond = _told()
         self.tune, self.open_gains = QPushButton(tr("Tune")), QPushButton(tr("Open …"))
         self.keep, self.apply = QPushButton(tr("Save gains …")), _switch(APPLY)
         self.generations = QSpinBox()
@@ -64,7 +64,7 @@ class Controls(QWidget):
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
-        self.doing, self.point = _told(""), _told("")
+        self.doing, self.point = _told(), _told()
         self._lay_out()
 
     @property
@@ -82,21 +82,21 @@ class Controls(QWidget):
         grid = QGridLayout()
         grid.setSpacing(5)
         rows: tuple[tuple[tuple[QWidget, int], ...], ...] = (
-            ((_plain(tr("Axis")), 1), (self.axis, 2)),
-            ((_head(tr("Train with")), 3),),
+            ((QLabel(tr("Axis")), 1), (self.axis, 2)),
+            ((heading(tr("Train with")), 3),),
             ((self.simulate, 1), (self.record, 1), (self.files, 1)),
             ((self.open, 1), (self.save, 1)),
-            ((_head(tr("Feed-forward")), 3),),
+            ((heading(tr("Feed-forward")), 3),),
             ((self.kind, 3),),
             ((self.switch, 1), (self.sweep, 1), (self.trial, 1)),
-            ((_head(tr("Feedback")), 3),),
+            ((heading(tr("Feedback")), 3),),
             ((self.tune, 1), (self.generations, 1)),
             ((self.forward, 3),),
             ((self.point, 3),),
             ((self.typed, 3),),
             ((self.apply, 1), (self.keep, 1), (self.open_gains, 1)),
-            ((_head(tr("Remaining error of a trial")), 3),),
-            *(((_plain(tr(_LEFT[one])), 1), (told, 2)) for one, told in self.residuals.items()),
+            ((heading(tr("Remaining error of a trial")), 3),),
+            *(((QLabel(tr(_LEFT[one])), 1), (told, 2)) for one, told in self.residuals.items()),
             ((self.beyond, 3),),
         )
         for number, row in enumerate(rows):
@@ -104,26 +104,14 @@ class Controls(QWidget):
             for widget, span in row:
                 grid.addWidget(widget, number, column, 1, span)
                 column += span
-        remark = _told(tr(LIVE_LOOP))
-        remark.setProperty("quiet", True)
+        remark = plain_text(tr(LIVE_LOOP), wrap=True)
         in_column(
             grid, remark, self.doing, self.progress, self.stop, 1, on=self, margins=(0, 0, 4, 0)
         )
 
 
-def _told(text: str) -> QLabel:
-    label_ = plain_text(text, quiet=False, wrap=True)
-    return label_
-
-
-def _plain(text: str) -> QLabel:
-    return QLabel(text)
-
-
-def _head(text: str) -> QLabel:
-    head = QLabel(text)
-    head.setProperty("heading", True)
-    return head
+def _told() -> QLabel:
+    return plain_text(quiet=False, wrap=True)
 
 
 def _switch(texts: tuple[str, str], *, primary: bool = False) -> QPushButton:

@@ -1,12 +1,11 @@
 """The state of the session: its phase, locks, and the emergency stop."""
 
-from PySide6.QtWidgets import QLabel
-
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.phase_words import PhaseLabel
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
 from rotemina.plugins.connection import tr, unavailable_reasons
@@ -18,8 +17,7 @@ class StateSection(Section):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(tr("State"))
         self.phase = PhaseLabel()
-        self.device = QLabel()
-        self.device.setProperty("quiet", True)
+        self.device = plain_text()
         self.column.addLayout(in_row(self.phase, (self.device, 1), spacing=8))
         self.reason = self.add_text()
         self.emergency = button(tr("Stop and lock"), workbench.emergency_stop)

@@ -20,7 +20,7 @@ from rotemina.app.shell.gap_words import RUN, size, small_print
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow, fill, plain_tip
-from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.job import tr, words
@@ -90,8 +90,7 @@ class ResultView(QFrame):
     def __init__(self, bring_up: Callable[[str], object]) -> None:
         super().__init__()
         self.setObjectName("section")
-        heading = QLabel(translate("shell", RUN))
-        heading.setProperty("quiet", True)
+        heading = plain_text(translate("shell", RUN))
         self.name = ElidedLabel()
         self.name.setProperty("heading", True)
         self.gaps = QGridLayout()

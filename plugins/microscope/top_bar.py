@@ -2,9 +2,10 @@
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.microscope import mark, tr
@@ -56,8 +57,7 @@ class TopBar(QWidget):
             self.buttons[tool] = made
             row.addWidget(made)
         row.addStretch(1)
-        self.zoom = QLabel()
-        self.zoom.setProperty("quiet", True)
+        self.zoom = plain_text()
         self.zoom.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.fit = button(tr("Fit"), view.show_fitted, tr("Show all of the picture (F)"))
         self.one = button("1:1", view.show_one_to_one, tr("One camera pixel per screen pixel (1)"))

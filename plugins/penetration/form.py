@@ -23,6 +23,7 @@ from rotemina.app.motion.penetration.parameters import (
 )
 from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.labels import heading
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.penetration import mark, tr
@@ -181,9 +182,7 @@ class ParameterForm(QScrollArea):
     def _section(self, group: Group) -> QWidget:
         section, body = QWidget(), QWidget()
         column = in_column(on=section, margins=(0, 0, 0, 2), spacing=2)
-        heading = QLabel(tr(group))
-        heading.setProperty("heading", True)
-        column.addWidget(heading)
+        column.addWidget(heading(tr(group)))
         if group is Group.CONTACT:
             body = self._detection
             column.addWidget(self.more, 0, Qt.AlignmentFlag.AlignLeft)

@@ -114,149 +114,100 @@ class Quantity:
         return value
 
 
-_UM, _MS, _PERCENT = 1e6, 1e3, 1e2
-
-QUANTITIES = {
-    one.key: one
-    for one in (
-        Quantity(
-            "approach_speed",
-            mark("Speed"),
-            "µm/s",
-            _UM,
-            Group.APPROACH,
-            mark("Speed of the approach"),
-        ),
-        Quantity(
+_PER_SI = {"µm": 1e6, "µm/s": 1e6, "ms": 1e3, "%": 1e2}
+_TABLE = {
+    Group.APPROACH: (
+        ("approach_speed", mark("Speed"), "µm/s", mark("Speed of the approach")),
+        (
             "approach_distance",
             mark("At most"),
             "µm",
-            _UM,
-            Group.APPROACH,
             mark("Without contact within this distance the run fails and the tip retracts"),
         ),
-        Quantity(
+    ),
+    Group.CONTACT: (
+        (
             "false_alarms_per_hour",
             mark("False alarms"),
             "1/h",
-            1.0,
-            Group.CONTACT,
             mark("Rate of false alarms from noise; fewer alarms make the detection slower"),
         ),
-        Quantity(
+        (
             "drift",
             mark("Drift"),
             "%",
-            _PERCENT,
-            Group.CONTACT,
             mark(
                 "Slope of measured − model that hysteresis, creep and gain may cause; a "
                 "smaller value detects softer membranes"
             ),
         ),
-        Quantity(
+        (
             "drift_length",
             mark("Drift over"),
             "µm",
-            _UM,
-            Group.CONTACT,
             mark("Distance over which that slope may change by the same amount"),
         ),
-        Quantity(
-            "contact_pause_s",
-            mark("Pause"),
-            "ms",
-            _MS,
-            Group.CONTACT,
-            mark("At rest on the membrane before the thrust"),
-        ),
-        Quantity(
+        ("contact_pause_s", mark("Pause"), "ms", mark("At rest on the membrane before the thrust")),
+    ),
+    Group.THRUST: (
+        (
             "depth",
             mark("Depth"),
             "µm",
-            _UM,
-            Group.THRUST,
             mark("Depth of the thrust, from the position of rest on the membrane"),
         ),
-        Quantity(
-            "duration_s",
-            mark("Duration"),
-            "ms",
-            _MS,
-            Group.THRUST,
-            mark("Duration of the thrust, with shaping"),
-        ),
-        Quantity(
+        ("duration_s", mark("Duration"), "ms", mark("Duration of the thrust, with shaping")),
+        (
             "ramp",
             mark("Ramp"),
             "%",
-            _PERCENT,
-            Group.THRUST,
             mark("S-curve: share of the time for acceleration, and the same for deceleration"),
         ),
-        Quantity(
-            "hold_s",
-            mark("Hold"),
-            "ms",
-            _MS,
-            Group.HOLD,
-            mark("Time at depth before the tool is switched on"),
-        ),
-        Quantity(
-            "inject_s",
-            mark("Inject"),
-            "ms",
-            _MS,
-            Group.HOLD,
-            mark("Time with the tool on; 0: the tool stays off"),
-        ),
-        Quantity(
+    ),
+    Group.HOLD: (
+        ("hold_s", mark("Hold"), "ms", mark("Time at depth before the tool is switched on")),
+        ("inject_s", mark("Inject"), "ms", mark("Time with the tool on; 0: the tool stays off")),
+        (
             "hold_after_s",
             mark("Hold after"),
             "ms",
-            _MS,
-            Group.HOLD,
             mark("Time at depth after the tool is switched off"),
         ),
-        Quantity(
-            "retract_speed",
-            mark("Return speed"),
-            "µm/s",
-            _UM,
-            Group.RETRACT,
-            mark("Speed of the retraction"),
-        ),
-        Quantity(
+    ),
+    Group.RETRACT: (
+        ("retract_speed", mark("Return speed"), "µm/s", mark("Speed of the retraction")),
+    ),
+    Group.LIMITS: (
+        (
             "depth_tolerance",
             mark("Depth tolerance"),
             "%",
-            _PERCENT,
-            Group.LIMITS,
             mark(
                 "Permitted deviation of the measured from the requested depth; above it, "
                 "the run fails"
             ),
         ),
-        Quantity(
+        (
             "overload",
             mark("Overload"),
             "µm",
-            _UM,
-            Group.LIMITS,
             mark(
                 "Maximum deviation of the axis from its set-point; above it, the tip "
                 "retracts at once"
             ),
         ),
-        Quantity(
+        (
             "armed_s",
             mark("Armed for"),
             "s",
-            1.0,
-            Group.LIMITS,
             mark("Time after which the penetration disarms automatically"),
         ),
-    )
+    ),
+}
+QUANTITIES = {
+    key: Quantity(key, title, unit, _PER_SI.get(unit, 1.0), group, about)
+    for group, rows in _TABLE.items()
+    for key, title, unit, about in rows
 }
 
 

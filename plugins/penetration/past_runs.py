@@ -1,8 +1,9 @@
 """Logged runs as rows and in full, and the choice of those shown."""
 
 import json
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from datetime import datetime
+from functools import partial
 from typing import Any
 
 from rotemina.app.motion.penetration.parameters import BOUNDS
@@ -100,35 +101,36 @@ def in_full(run: PenetrationRun) -> str:
 
 
 def _found(run: PenetrationRun) -> list[str]:
-    rows: list[tuple[str, str | None]] = [
-        (tr("started at"), _way(run.start)),
-        (tr("contact at"), _way(run.contact)),
-        (tr("contact, as measured"), _way(run.contact_measured)),
-        (tr("contact, height of the tip"), None if run.contact_height is None else _height(run)),
-        (tr("contact detected after"), _ms(run.contact_delay_s)),
-        (tr("in contact from the start"), _yes(run.contact_from_start)),
-        (tr("noise, rms"), _nm(run.noise_rms)),
-        (tr("detector's threshold"), _plain(run.threshold)),
-        (tr("planned average speed"), _speed(run.planned_average_speed)),
-        (tr("planned peak speed"), _speed(run.planned_peak_speed)),
-        (tr("deviation of the cubics from the profile"), _nm(run.fit_error)),
+    height = None if run.contact_height is None else _height(run)
+    rows: list[tuple[str, Any, Callable[[Any], str]]] = [
+        (tr("started at"), run.start, way_text),
+        (tr("contact at"), run.contact, way_text),
+        (tr("contact, as measured"), run.contact_measured, way_text),
+        (tr("contact, height of the tip"), height, str),
+        (tr("contact detected after"), run.contact_delay_s, _ms),
+        (tr("in contact from the start"), run.contact_from_start, _yes),
+        (tr("noise, rms"), run.noise_rms, _nm),
+        (tr("detector's threshold"), run.threshold, partial(rounded, digits=3)),
+        (tr("planned average speed"), run.planned_average_speed, speed_text),
+        (tr("planned peak speed"), run.planned_peak_speed, speed_text),
+        (tr("deviation of the cubics from the profile"), run.fit_error, _nm),
     ]
     if run.thrust is not None:
         thrust = run.thrust
         rows += [
-            (tr("depth"), _way(thrust.depth)),
-            (tr("average speed"), _speed(thrust.average_speed)),
-            (tr("peak speed"), _speed(thrust.peak_speed)),
-            (tr("error against the profile"), _way(thrust.error)),
-            (tr("delay removed"), _ms(thrust.delay_s)),
-            (tr("samples"), f"{fixed(thrust.rate_hz, 0)} Hz"),
+            (tr("depth"), thrust.depth, way_text),
+            (tr("average speed"), thrust.average_speed, speed_text),
+            (tr("peak speed"), thrust.peak_speed, speed_text),
+            (tr("error against the profile"), thrust.error, way_text),
+            (tr("delay removed"), thrust.delay_s, _ms),
+            (tr("samples"), f"{fixed(thrust.rate_hz, 0)} Hz", str),
         ]
     rows += [
-        (tr("deviation, peak"), _way(run.peak_deviation)),
-        (tr("deviation, at the end"), _way(run.final_deviation)),
-        (tr("membrane ruptured"), _yes(run.gave_way)),
+        (tr("deviation, peak"), run.peak_deviation, way_text),
+        (tr("deviation, at the end"), run.final_deviation, way_text),
+        (tr("membrane ruptured"), run.gave_way, _yes),
     ]
-    return [f"{name}: {text}" for name, text in rows if text is not None]
+    return [f"{name}: {said(value)}" for name, value, said in rows if value is not None]
 
 
 def _parameter(key: str, value: Any) -> str:
@@ -160,25 +162,13 @@ def _height(run: PenetrationRun) -> str:
     return UNKNOWN if run.contact is None else way_text(run.contact)
 
 
-def _way(value: float | None) -> str | None:
-    return None if value is None else way_text(value)
+def _nm(value: float) -> str:
+    return f"{fixed(1e9 * value, 1)} nm"
 
 
-def _nm(value: float | None) -> str | None:
-    return None if value is None else f"{fixed(1e9 * value, 1)} nm"
+def _ms(value: float) -> str:
+    return f"{fixed(1e3 * value, 1)} ms"
 
 
-def _ms(value: float | None) -> str | None:
-    return None if value is None else f"{fixed(1e3 * value, 1)} ms"
-
-
-def _speed(value: float | None) -> str | None:
-    return None if value is None else speed_text(value)
-
-
-def _plain(value: float | None) -> str | None:
-    return None if value is None else rounded(value, 3)
-
-
-def _yes(value: bool | None) -> str | None:
-    return None if value is None else tr("yes") if value else tr("no")
+def _yes(value: bool) -> str:
+    return tr("yes") if value else tr("no")

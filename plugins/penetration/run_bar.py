@@ -1,6 +1,7 @@
 """Arm, the main button, and the strip of phases, always visible."""
 
 import time
+from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
@@ -45,8 +46,73 @@ _HEADLINES = {
 }
 
 
-class RunBar(QWidget):
-    """Two buttons whose words follow the phase.
+class RunButtons(QWidget):
+    """Two buttons whose words follow the phase, and the phase; subclasses lay them out.
+
+    They act as they were labelled when they were pressed, or not at all.
+    """
+
+    def __init__(self, workbench: Workbench, clock: Clock) -> None:
+        super().__init__()
+        self._workbench, self._operation = workbench, workbench.operation
+        self._clock, self._pressed_s = clock, float("-inf")
+        self._shown = Phase.DISARMED
+        self.arm = QPushButton(tr(arm_word(self._shown)))
+        self.arm.clicked.connect(lambda _: self._arm())
+        self.button = QPushButton(tr(button_word(self._shown)))
+        self.button.setProperty("primary", True)
+        # By Tab alone: no space bar that follows a click may start or end anything.
+        self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        # On pressing, not on release: what stops must not wait for the finger to lift.
+        self.button.pressed.connect(self._press)
+        self.phase = QLabel()
+        self.phase.setAccessibleName(tr("Phase of the penetration"))
+        self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
+
+    def show_status(
+        self,
+        status: PenetrationStatus,
+        state: SessionState,
+        why_not: Callable[[], str | None],
+    ) -> str | None:
+        """Show a moment; return why the first button cannot act: ``why_not`` says it of arming."""
+        self._shown = phase = status.phase
+        against = None
+        if phase in UNDER_WAY:
+            running = tr("the penetration is running ({phase}); stop it first")
+            against = running.format(phase=spoken(phase))
+        elif arm_word(phase) == "Arm":
+            against = why_not()
+        self.arm.setText(tr(arm_word(phase)))
+        allow(self.arm, against, tr(arm_tip(phase)))
+        self.button.setText(tr(button_word(phase)))
+        allow(self.button, against_button(status, state), tr(button_tip(phase)))
+        self.phase.setText(headline(status))
+        set_tone(self.phase, _HEADLINES.get(phase, Tone.BUSY))
+        return against
+
+    def _ask_to_arm(self) -> None:
+        raise NotImplementedError
+
+    def _arm(self) -> None:
+        penetration, word = self._operation.penetration, arm_word(self._shown)
+        if word != arm_word(penetration.status.phase):
+            return  # it acts as it was labelled, or not at all
+        if word == "Arm":
+            self._ask_to_arm()
+        else:
+            self._workbench.ask(penetration.disarm)
+
+    def _press(self) -> None:
+        now_s = self._clock()
+        phase, since_s = self._operation.penetration.status.phase, now_s - self._pressed_s
+        self._pressed_s = now_s
+        if counts(self._shown, phase, since_s):
+            self._workbench.ask(self._operation.press_penetration)
+
+
+class RunBar(RunButtons):
+    """The buttons beside the strip of phases.
 
     Signals
     -------
@@ -58,53 +124,22 @@ class RunBar(QWidget):
     prepare_asked = Signal()
 
     def __init__(self, workbench: Workbench, clock: Clock = time.monotonic) -> None:
-        super().__init__()
-        self._workbench, self._operation = workbench, workbench.operation
-        self._clock, self._pressed_s = clock, float("-inf")
-        self._shown = Phase.DISARMED
-        self.arm = QPushButton(tr("Arm"))
+        super().__init__(workbench, clock)
         self.arm.setMinimumWidth(104)
-        self.arm.clicked.connect(lambda _: self._arm())
         self.prepare = QPushButton(tr("Prepare"))
         self.prepare.clicked.connect(lambda _: self.prepare_asked.emit())
         self.prepare.hide()
-        self.button = QPushButton(tr("Start"))
         self.button.setObjectName("penetration")
-        self.button.setProperty("primary", True)
         self.button.setMinimumSize(140, 34)
-        # By Tab alone: no space bar that follows a click may start or end anything.
-        self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        # On pressing, not on release: what stops must not wait for the finger to lift.
-        self.button.pressed.connect(self._press)
-        self.phase = QLabel()
-        self.phase.setMinimumWidth(
-            self.phase.fontMetrics().horizontalAdvance(
-                tr("armed, {left_s:.0f} s").format(left_s=600)
-            )
-            + 30
-        )
-        self.phase.setAccessibleName(tr("Phase of the penetration"))
-        self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        widest = tr("armed, {left_s:.0f} s").format(left_s=600)
+        self.phase.setMinimumWidth(self.phase.fontMetrics().horizontalAdvance(widest) + 30)
         self.strip = {one: _chip(spoken(one)) for one in STRIP}
         parts = self.arm, self.prepare, self.button, self.phase
         in_row(*parts, 1, *self.strip.values(), 1, on=self, margins=0, spacing=4)
 
     def refresh(self, status: PenetrationStatus, state: SessionState, why_not: str | None) -> None:
         """Show a moment; ``why_not`` is why it cannot be armed now."""
-        self._shown = phase = status.phase
-        self.arm.setText(tr(arm_word(phase)))
-        against = (
-            tr("the penetration is running ({phase}); stop it first").format(phase=spoken(phase))
-            if phase in UNDER_WAY
-            else None
-        )
-        if arm_word(phase) == "Arm" and against is None:
-            against = None if why_not is None else spoken(why_not)
-        allow(self.arm, against, tr(arm_tip(phase)))
-        self.button.setText(tr(button_word(phase)))
-        allow(self.button, against_button(status, state), tr(button_tip(phase)))
-        self.phase.setText(headline(status))
-        set_tone(self.phase, _HEADLINES.get(phase, Tone.BUSY))
+        self.show_status(status, state, lambda: None if why_not is None else spoken(why_not))
         for chip, light in zip(self.strip.values(), lights(status), strict=True):
             set_tone(chip, _TONES[light])
             chip.setAccessibleDescription(spoken(light))
@@ -119,22 +154,8 @@ class RunBar(QWidget):
                 tr("Move Z nano back as far as needed; Z compensates, so the tip stays in place"),
             )
 
-    def _arm(self) -> None:
-        penetration = self._operation.penetration
-        word = arm_word(self._shown)
-        if word != arm_word(penetration.status.phase):
-            return  # it acts as it was labelled, or not at all
-        if word == "Arm":
-            self.arm_asked.emit()
-        else:
-            self._workbench.ask(penetration.disarm)
-
-    def _press(self) -> None:
-        now_s = self._clock()
-        phase, since_s = self._operation.penetration.status.phase, now_s - self._pressed_s
-        self._pressed_s = now_s
-        if counts(self._shown, phase, since_s):
-            self._workbench.ask(self._operation.press_penetration)
+    def _ask_to_arm(self) -> None:
+        self.arm_asked.emit()
 
 
 def _chip(text: str) -> QLabel:

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QFrame, QGridLayout, QSizePolicy, QWidget
 
 from rotemina.app.display_units import Scale
 from rotemina.app.motion.teleoperation.impedance import Impedance
@@ -76,8 +76,7 @@ class CoordinateRow(QFrame):
         self.bar.setToolTip(tr("Deflection of the stick, −100 % to 100 %; dashed: none is active"))
         self.law = plain_text(lines=1)
         self.law.setAccessibleName(tr("{name} scaling").format(name=name))
-        self.felt_title = QLabel(tr("Force"))
-        self.felt_title.setProperty("quiet", True)
+        self.felt_title = plain_text(tr("Force"))
         self.felt = CentreBar(workbench, "warning")
         self.felt.setAccessibleName(tr("{name} contact force at the stick").format(name=name))
         self.felt.setToolTip(tr("Force of a contact at the stick, −100 % to 100 % of its maximum"))
