@@ -53,11 +53,7 @@ class CalibrationPanel(Panel):
         self._run: CalibrationRun | None = None
         self.tabs, self.views = tabbed(
             tr("View"),
-            {
-                tr("Result"): self.result,
-                "ISO 230-2": self.result.iso,
-                tr("Stored"): self.stored,
-            },
+            {tr("Result"): self.result, "ISO 230-2": self.result.iso, tr("Stored"): self.stored},
         )
         self.tabs.setTabEnabled(_ISO, False)
         lay_beside(self, self.procedure, _WIDTH, self.tabs, self.views)

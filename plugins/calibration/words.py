@@ -17,13 +17,7 @@ from rotemina.sim.quantities import amount, scale_of
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot, StepperAxis
 
-STORED_HEAD = (
-    mark("axis"),
-    mark("date"),
-    mark("error before"),
-    mark("after"),
-    mark("state"),
-)
+STORED_HEAD = (mark("axis"), mark("date"), mark("error before"), mark("after"), mark("state"))
 FIGURES_HEAD = (mark("figure"), mark("value"), "± 95 %")
 ISO_HEAD = ("ISO 230-2", mark("reading before"), mark("after"), mark("position reached"))
 NOTHING = mark("Plan and run the motion, or fit records with the sensor and the laser.")

@@ -85,11 +85,7 @@ def learned_simulated(
 
 
 def _learned(
-    robot: Robot,
-    runs: list[Samples],
-    sources: list[Source],
-    seed: int | None,
-    listener: Listener,
+    robot: Robot, runs: list[Samples], sources: list[Source], seed: int | None, listener: Listener
 ) -> Learned:
     trained = train(robot, runs, listener=listener)
     provenance = Provenance(

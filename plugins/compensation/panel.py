@@ -5,9 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QTimer, Signal
-from PySide6.QtWidgets import (
-    QDockWidget,
-)
+from PySide6.QtWidgets import QDockWidget
 
 from rotemina.app.motion.compensation import NamedInverse, check_belongs
 from rotemina.app.motion.state import SessionState
@@ -66,12 +64,7 @@ class CompensationPanel(Panel):
         self.learned: Learned | None = None
         self._source = ""
         self.tabs, self.views = tabbed(
-            tr("View"),
-            {
-                tr("Check"): self.check,
-                tr("Live"): self.live,
-                tr("Tuning"): self.front,
-            },
+            tr("View"), {tr("Check"): self.check, tr("Live"): self.live, tr("Tuning"): self.front}
         )
         lay_beside(self, self.controls, _WIDTH, self.tabs, self.views)
         self._connect()
@@ -84,8 +77,7 @@ class CompensationPanel(Panel):
         """Move the simulated axis with the machine's effects, and learn from that."""
         robot, axis = self._robot(), self.controls.chosen
         self._learn(
-            "simulator",
-            lambda tell: learned_simulated(robot, robot.effects, axis, _SEED, tell),
+            "simulator", lambda tell: learned_simulated(robot, robot.effects, axis, _SEED, tell)
         )
 
     def learn_record(self) -> None:

@@ -4,13 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import (
-    QScrollArea,
-    QStackedWidget,
-    QTabBar,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QScrollArea, QStackedWidget, QTabBar, QVBoxLayout, QWidget
 
 from rotemina.app.display_units import stages
 from rotemina.app.motion.state import SessionState
@@ -41,11 +35,7 @@ QPushButton[jog="true"] { padding: 0; }
 # Five names side by side have room in a dock of 330 px, in German too.
 _FIVE_TABS = "QTabBar::tab { padding-left: 5px; padding-right: 5px; }"
 _ROOMY_FROM = 860  # px of height
-_STAGES = {
-    "micro": mark("Micro stage"),
-    "nano": mark("Nano stage"),
-    "axes": mark("Axes"),
-}
+_STAGES = {"micro": mark("Micro stage"), "nano": mark("Nano stage"), "axes": mark("Axes")}
 
 
 _STEP = 1e-3  # of the range, over which the tip's height is differentiated

@@ -53,11 +53,7 @@ class PositionsPage(QWidget):
         self.delete = button(tr("Delete"), self._delete)
         self.keep = button(tr("Save"), self._keep)
         self.place = plain_text(lines=3)
-        self._words = {
-            HOME: tr("Home"),
-            LOAD: tr("Load"),
-            WORK: tr("Work"),
-        }
+        self._words = {HOME: tr("Home"), LOAD: tr("Load"), WORK: tr("Work")}
         self.places = {
             name: button(word, lambda name=name: self._go_or_set(name))
             for name, word in self._words.items()
@@ -147,10 +143,7 @@ class PositionsPage(QWidget):
     def _change(self) -> None:
         if self._guide is None:
             self._guide = ChangeGuide(
-                self._workbench,
-                lambda: self.positions.kept,
-                self._show_panel,
-                self,
+                self._workbench, lambda: self.positions.kept, self._show_panel, self
             )
         self._guide.begin()
 

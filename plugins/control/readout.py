@@ -38,8 +38,7 @@ class Readout(QLabel):
         if self.property("stale"):
             painter = QPainter(self)
             painter.fillRect(
-                self.rect(),
-                QBrush(QColor(self._workbench.theme.line), Qt.BrushStyle.BDiagPattern),
+                self.rect(), QBrush(QColor(self._workbench.theme.line), Qt.BrushStyle.BDiagPattern)
             )
             painter.end()
         super().paintEvent(event)

@@ -1,12 +1,6 @@
 """Steering by stick: mode, law, owner, and taking over."""
 
-from PySide6.QtWidgets import (
-    QButtonGroup,
-    QGridLayout,
-    QLabel,
-    QPushButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QButtonGroup, QGridLayout, QLabel, QPushButton, QWidget
 
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState

@@ -1,14 +1,7 @@
 """The selected effect: its formulation, source axis, and parameters."""
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import (
-    QFrame,
-    QGridLayout,
-    QLabel,
-    QScrollArea,
-    QSizePolicy,
-    QWidget,
-)
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QScrollArea, QSizePolicy, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.widgets.controls import plain_tip, set_property

@@ -18,13 +18,7 @@ from rotemina.plugins.effects.words import (
 )
 from rotemina.sim.effects.attachment import Attached
 
-COLUMNS = (
-    mark("On"),
-    mark("Axis"),
-    mark("Stage"),
-    mark("Effect"),
-    mark("Formulation"),
-)
+COLUMNS = (mark("On"), mark("Axis"), mark("Stage"), mark("Effect"), mark("Formulation"))
 _CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
 
 

@@ -1,12 +1,7 @@
 """One parameter of an effect: a field with unit, a slider, and a reset to the preset."""
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QLineEdit,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QLineEdit, QToolButton, QWidget
 
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.widgets.controls import plain_tip, set_property

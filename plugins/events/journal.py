@@ -195,11 +195,7 @@ class Journal:
         return abs(new[axis] - old.get(axis, new[axis])) > _SAME * self._robot.axes[axis].span
 
     def _way(
-        self,
-        axes: list[str],
-        old: Mapping[str, float],
-        new: Mapping[str, float],
-        mover: str,
+        self, axes: list[str], old: Mapping[str, float], new: Mapping[str, float], mover: str
     ) -> str:
         parts = []
         for axis in axes:

@@ -84,10 +84,7 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
                 "receive a stop first"
             ),
             (
-                Pick(
-                    tr("Fault"),
-                    ((tr("silent"), "silence"), (tr("held at space"), "space")),
-                ),
+                Pick(tr("Fault"), ((tr("silent"), "silence"), (tr("held at space"), "space"))),
                 Number(tr("Duration"), 2.0, 0.0, 3600.0, "s", "s", 1),
                 line,
             ),
@@ -96,23 +93,14 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
             tr("Board"),
             tr("A board restarts and loses the positions of its steppers"),
             (
-                Pick(
-                    tr("Fault"),
-                    ((tr("reset"), "reset"), (tr("brown-out"), "brown-out")),
-                ),
+                Pick(tr("Fault"), ((tr("reset"), "reset"), (tr("brown-out"), "brown-out"))),
                 Pick(tr("Board"), boards),
             ),
         ),
         Fault(
             tr("Sensor"),
             tr("A sensor repeats one reading until released"),
-            (
-                Pick(
-                    tr("Fault"),
-                    ((tr("freeze"), "freeze"), (tr("release"), "thaw")),
-                ),
-                _axes(axes),
-            ),
+            (Pick(tr("Fault"), ((tr("freeze"), "freeze"), (tr("release"), "thaw"))), _axes(axes)),
         ),
     ]
     if steppers:

@@ -70,11 +70,7 @@ class DiagnosisProcess:
         self._number = 0
 
     def answer(
-        self,
-        robot: Robot,
-        names: Sequence[str],
-        records: Sequence[Record],
-        listener: Listener,
+        self, robot: Robot, names: Sequence[str], records: Sequence[Record], listener: Listener
     ) -> Answer:
         """Diagnose records and work out what is drawn; from one thread at a time.
 

@@ -4,9 +4,7 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import (
-    QBoxLayout,
-)
+from PySide6.QtWidgets import QBoxLayout
 
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.state import SessionState

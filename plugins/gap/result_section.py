@@ -1,14 +1,7 @@
 """The result of a diagnosis: its sentence and axes, the views, and what can be done about it."""
 
 from PySide6.QtCore import QSignalBlocker
-from PySide6.QtWidgets import (
-    QMenu,
-    QPushButton,
-    QStackedWidget,
-    QTabBar,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QMenu, QPushButton, QStackedWidget, QTabBar, QToolButton, QWidget
 
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import allow, plain_tip, set_property

@@ -1,13 +1,6 @@
 """What a diagnosis is made of: records, model, its start, and how far it is."""
 
-from PySide6.QtWidgets import (
-    QBoxLayout,
-    QFrame,
-    QLabel,
-    QProgressBar,
-    QPushButton,
-    QSizePolicy,
-)
+from PySide6.QtWidgets import QBoxLayout, QFrame, QLabel, QProgressBar, QPushButton, QSizePolicy
 
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import plain_text

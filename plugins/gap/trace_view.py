@@ -77,10 +77,7 @@ class TraceView(QWidget):
             )
         self.title.setText(
             text.format(
-                unit=escape(scale.symbol),
-                command=theme.command,
-                model=theme.model,
-                good=theme.good,
+                unit=escape(scale.symbol), command=theme.command, model=theme.model, good=theme.good
             )
         )
         time_s = trace.time_s

@@ -12,14 +12,7 @@ from rotemina.plugins.identification.record_query import Question
 from rotemina.sim.calibration.sensor_calibration import Figure
 from rotemina.sim.quantities import uncertain
 
-HEAD = (
-    mark("figure"),
-    mark("now"),
-    "± 95 %",
-    mark("last time"),
-    "± 95 %",
-    "",
-)
+HEAD = (mark("figure"), mark("now"), "± 95 %", mark("last time"), "± 95 %", "")
 
 # Figures of a card as it names them.
 FIGURES = (

@@ -103,14 +103,7 @@ def _pictures(
     if nominal is not None:
         driven, answer = nominal.single()
         drawn.insert(
-            0,
-            (
-                mark("model"),
-                mark("model"),
-                driven[: len(x)],
-                answer[len(answer) - len(x) :],
-                3,
-            ),
+            0, (mark("model"), mark("model"), driven[: len(x)], answer[len(answer) - len(x) :], 3)
         )
     drawn = [(name, role, u[:_MOST_DRAWN], v[:_MOST_DRAWN], w) for name, role, u, v, w in drawn]
     off = [(name, role, u, _off_line(u, v), w) for name, role, u, v, w in drawn]

@@ -161,10 +161,7 @@ def _response_picture(
 
 
 def _closest(
-    question: Question,
-    found: tuple[StepMetrics, ...],
-    answer: FloatArray,
-    nominal: Record | None,
+    question: Question, found: tuple[StepMetrics, ...], answer: FloatArray, nominal: Record | None
 ) -> Picture:
     """Return the largest step until it has settled, from 0 at its old level to 1 at the new."""
     time_s = question.record.time_s

@@ -9,13 +9,7 @@ from rotemina.plugins.identification import mark
 from rotemina.plugins.identification.findings import NONE, Column
 from rotemina.sim.quantities import Scale
 
-HEAD = (
-    mark("figure"),
-    mark("median"),
-    mark("model"),
-    mark("lowest"),
-    mark("highest"),
-)
+HEAD = (mark("figure"), mark("median"), mark("model"), mark("lowest"), mark("highest"))
 
 
 class Figure(NamedTuple):

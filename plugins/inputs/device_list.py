@@ -1,13 +1,7 @@
 """The connected devices, which one is in control, and their problems."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QFrame,
-    QLabel,
-    QListWidget,
-    QListWidgetItem,
-    QWidget,
-)
+from PySide6.QtWidgets import QFrame, QLabel, QListWidget, QListWidgetItem, QWidget
 
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import plain_text, show_text

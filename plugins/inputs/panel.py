@@ -6,11 +6,7 @@ from enum import StrEnum
 
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QHideEvent
-from PySide6.QtWidgets import (
-    QPushButton,
-    QTabBar,
-    QWidget,
-)
+from PySide6.QtWidgets import QPushButton, QTabBar, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.device_state import DevicesView

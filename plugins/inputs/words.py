@@ -47,15 +47,8 @@ ACTION_TIPS = {
     Action.TOOL: mark("Tool on or off"),
     Action.TAKE_OVER: mark("This seat takes over control"),
 }
-_WAYS = {
-    "x": mark("to the right (+x)"),
-    "y": mark("away from you (+y)"),
-    "z": mark("upwards (+z)"),
-}
-_SEATS = {
-    OperatorRole.TRAINER: mark("trainer"),
-    OperatorRole.TRAINEE: mark("trainee"),
-}
+_WAYS = {"x": mark("to the right (+x)"), "y": mark("away from you (+y)"), "z": mark("upwards (+z)")}
+_SEATS = {OperatorRole.TRAINER: mark("trainer"), OperatorRole.TRAINEE: mark("trainee")}
 #: What the pad on the screen and its buttons are called.
 _PAD = ("keys", mark("pad"))  # source and name
 _PAD_BUTTONS = (mark("clutch"), mark("fine"), mark("coarse"), mark("take_over"))

@@ -15,12 +15,7 @@ from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.feed_notice import against_moving
-from rotemina.plugins.microscope.words import (
-    ENDED,
-    calibration_text,
-    residual_lines,
-    stage_text,
-)
+from rotemina.plugins.microscope.words import ENDED, calibration_text, residual_lines, stage_text
 
 _GUIDE = mark(
     "1. Bring the tip to the middle of the picture and into focus.\n2. Choose "

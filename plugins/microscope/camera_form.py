@@ -4,12 +4,7 @@ from dataclasses import dataclass
 
 from rotemina.drivers.cameras.errors import CameraSettingError
 from rotemina.drivers.cameras.frame import Region
-from rotemina.drivers.cameras.settings import (
-    CameraDescription,
-    CameraSettings,
-    PixelType,
-    Trigger,
-)
+from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
 from rotemina.plugins.microscope import mark, tr
 from rotemina.sim.quantities import parsed, rounded
 

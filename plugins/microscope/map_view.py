@@ -81,11 +81,7 @@ class MapView(QWidget):
             self.update()
 
     def show_tip(
-        self,
-        tip: FloatArray | None,
-        trail: FloatArray,
-        reach: Box,
-        zone: KeepOutZone | None,
+        self, tip: FloatArray | None, trail: FloatArray, reach: Box, zone: KeepOutZone | None
     ) -> None:
         """Show where the tip is and was, what it can reach, and what is forbidden."""
         same = tip is self._tip or (

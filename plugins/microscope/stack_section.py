@@ -99,8 +99,7 @@ class StackSection(Section):
         name = self.place.currentData()
         self._workbench.ask(
             lambda: self._microscope.stack(
-                name,
-                *(_metres(field) for field in (self.first, self.last, self.step)),
+                name, *(_metres(field) for field in (self.first, self.last, self.step))
             )
         )
 

@@ -8,13 +8,7 @@ from rotemina.app.microscope.calibration_file import StageCalibration
 from rotemina.app.microscope.calibration_run import CalibrationStatus, Phase
 from rotemina.app.microscope.click_corrections import Visit, VisitStatus
 from rotemina.app.microscope.focus_run import FocusStatus, Search
-from rotemina.app.microscope.status import (
-    DriftSeen,
-    FocusAxis,
-    MicroscopeStatus,
-    TipSeen,
-    TipState,
-)
+from rotemina.app.microscope.status import DriftSeen, FocusAxis, MicroscopeStatus, TipSeen, TipState
 from rotemina.app.microscope.targets import Target
 from rotemina.app.shell.engine_words import spoken
 from rotemina.plugins.microscope import mark, tr

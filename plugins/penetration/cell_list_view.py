@@ -3,9 +3,7 @@
 from pathlib import Path
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import (
-    QWidget,
-)
+from PySide6.QtWidgets import QWidget
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.files import write_text

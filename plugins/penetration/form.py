@@ -156,12 +156,7 @@ class ParameterForm(QScrollArea):
             shape.addItem(tr(text), str(form))
         for kind, text in _SHAPINGS.items():
             shaping.addItem(tr(text), str(kind))
-        self.choices = {
-            "axis": axis,
-            "direction": direction,
-            "shape": shape,
-            "shaping": shaping,
-        }
+        self.choices = {"axis": axis, "direction": direction, "shape": shape, "shaping": shaping}
         self.table = QPlainTextEdit()
         self.table.setAccessibleName(tr("Table of the thrust: time share, depth share"))
         self.table.setToolTip(plain_tip(*_table_tip()))

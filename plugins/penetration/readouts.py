@@ -2,11 +2,7 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtWidgets import (
-    QProgressBar,
-    QPushButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QProgressBar, QPushButton, QWidget
 
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase

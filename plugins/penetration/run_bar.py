@@ -70,10 +70,7 @@ class RunButtons(QWidget):
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
 
     def show_status(
-        self,
-        status: PenetrationStatus,
-        state: SessionState,
-        why_not: Callable[[], str | None],
+        self, status: PenetrationStatus, state: SessionState, why_not: Callable[[], str | None]
     ) -> str | None:
         """Show a moment; return why the first button cannot act: ``why_not`` says it of arming."""
         self._shown = phase = status.phase

@@ -20,11 +20,7 @@ from rotemina.plugins.penetration.plan_preview import (
 )
 
 POSITION, SPEED = "position", "speed"
-_ROLES = {
-    mark("desired"): "text",
-    mark("commanded"): "command",
-    mark("measured"): "real",
-}
+_ROLES = {mark("desired"): "text", mark("commanded"): "command", mark("measured"): "real"}
 _LEAST = {POSITION: 0.1, SPEED: 1.0}  # µm, µm/s
 
 

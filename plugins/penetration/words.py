@@ -10,14 +10,7 @@ from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.plan_preview import speed_text, way_text
 
 #: The phases of the strip, in their order.
-STRIP = (
-    Phase.APPROACH,
-    Phase.CONTACT,
-    Phase.THRUST,
-    Phase.HOLD,
-    Phase.INJECT,
-    Phase.RETRACT,
-)
+STRIP = (Phase.APPROACH, Phase.CONTACT, Phase.THRUST, Phase.HOLD, Phase.INJECT, Phase.RETRACT)
 SETTLE_S = 0.5  # a second press in alarm must not stop the way back, nor begin one
 #: Phases in which the parameters are those of a run.
 FIXED = UNDER_WAY | {Phase.ARMED, Phase.HELD}

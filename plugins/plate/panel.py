@@ -6,11 +6,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QBuffer, QIODevice, QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
-from PySide6.QtWidgets import (
-    QComboBox,
-    QPushButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.file_dialog import ask_where
@@ -26,14 +22,7 @@ from rotemina.plugins.plate.canvas import Canvas
 from rotemina.plugins.plate.controls import Controls
 from rotemina.plugins.plate.solution import Solved
 from rotemina.plugins.plate.surface_picture import mode_picture, static_picture
-from rotemina.plugins.plate.words import (
-    EMPTY,
-    MESHES,
-    mode_titles,
-    plate_text,
-    pose_lines,
-    yields,
-)
+from rotemina.plugins.plate.words import EMPTY, MESHES, mode_titles, plate_text, pose_lines, yields
 from rotemina.sim.plate.export import write_vtu
 from rotemina.sim.quantities import fixed
 from rotemina.sim.whole_files import replaced

@@ -85,10 +85,7 @@ def plate_text(solved: Solved) -> str:
     return "\n".join(
         [
             stiff.format(axial=1e-6 * axial, x=tilt_x, y=tilt_y, tolerance=percent(TOLERANCE)),
-            whole.format(
-                safety=safety_text(solved.least, solutions.held.plate),
-                pose=pose,
-            ),
+            whole.format(safety=safety_text(solved.least, solutions.held.plate), pose=pose),
         ]
     )
 

@@ -38,11 +38,7 @@ class RecorderPanel(Panel):
         self.recordings = RecordsView(workbench, self.unfinished)
         self.events = EventsView(workbench)
         self.tabs, self.views = tabbed(
-            tr("View"),
-            {
-                tr("Records"): self.recordings,
-                tr("Events"): self.events,
-            },
+            tr("View"), {tr("Records"): self.recordings, tr("Events"): self.events}
         )
         self._lay_out()
         self.recording.changed.connect(self.look)

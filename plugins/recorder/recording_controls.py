@@ -4,14 +4,7 @@ import time
 from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QGridLayout,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QLineEdit, QPushButton, QWidget
 
 from rotemina.app.display_units import duration_text, size_text
 from rotemina.app.motion.recording.recovery import UNFINISHED
@@ -67,11 +60,7 @@ class LabelFields(QWidget):
         super().__init__()
         self._library = workbench.library
         self.run, self.operator, self.sample = QLineEdit(), QLineEdit(), QLineEdit()
-        named = {
-            tr("Run"): self.run,
-            tr("Operator"): self.operator,
-            tr("Sample"): self.sample,
-        }
+        named = {tr("Run"): self.run, tr("Operator"): self.operator, tr("Sample"): self.sample}
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(10)
@@ -161,11 +150,7 @@ class RecordingSection(QWidget):
         figures.setHorizontalSpacing(10)
         figures.setVerticalSpacing(2)
         figures.setColumnStretch(1, 1)
-        named = {
-            tr("File"): self.file,
-            tr("Size"): self.size,
-            tr("Free"): self.room,
-        }
+        named = {tr("File"): self.file, tr("Size"): self.size, tr("Free"): self.room}
         for row, (name, value) in enumerate(named.items()):
             title = QLabel(name)
             title.setProperty("quiet", True)

@@ -1,12 +1,6 @@
 """The controls of a playback: play, pause, continue, step through it, and at which pace."""
 
-from PySide6.QtWidgets import (
-    QComboBox,
-    QDoubleSpinBox,
-    QProgressBar,
-    QPushButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QProgressBar, QPushButton, QWidget
 
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.retiming import FASTEST, SLOWEST
@@ -41,10 +35,7 @@ def _missing(workbench: Workbench) -> str | None:
 
 def play_word(phase: PlaybackPhase) -> str:
     """Return what the one button of a playback does now."""
-    words = {
-        PlaybackPhase.PLAYING: tr("Pause"),
-        PlaybackPhase.PAUSED: tr("Resume"),
-    }
+    words = {PlaybackPhase.PLAYING: tr("Pause"), PlaybackPhase.PAUSED: tr("Resume")}
     return words.get(phase, tr("Play"))
 
 
