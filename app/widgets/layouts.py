@@ -1,8 +1,8 @@
-"""Rows and columns of widgets, each laid out in one call."""
+"""Rows, columns and grids of widgets, each made in one call."""
 
 from typing import TypeVar
 
-from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QGridLayout, QHBoxLayout, QLayout, QVBoxLayout, QWidget
 
 Part = QWidget | QLayout | tuple[QWidget | QLayout, int] | int
 Margins = tuple[int, int, int, int] | int
@@ -34,6 +34,29 @@ def in_column(
     return _filled(QVBoxLayout(), parts, on, margins, spacing)
 
 
+def in_grid(
+    *,
+    on: QWidget | None = None,
+    margins: Margins | None = None,
+    spacing: int | tuple[int, int] | None = None,
+    stretched: int | tuple[int, ...] = (),
+) -> QGridLayout:
+    """Return an empty grid, ``on`` a widget where one is given.
+
+    ``spacing`` is between columns and between rows, or one for both; -1 is that of the style. The
+    columns that are ``stretched`` share what room is left.
+    """
+    grid = QGridLayout()
+    _place(grid, on, margins)
+    if spacing is not None:
+        across, down = spacing if isinstance(spacing, tuple) else (spacing, spacing)
+        grid.setHorizontalSpacing(across)
+        grid.setVerticalSpacing(down)
+    for column in stretched if isinstance(stretched, tuple) else (stretched,):
+        grid.setColumnStretch(column, 1)
+    return grid
+
+
 def _filled(
     box: _Box,
     parts: tuple[Part, ...],
@@ -41,10 +64,7 @@ def _filled(
     margins: Margins | None,
     spacing: int | None,
 ) -> _Box:
-    if on is not None:
-        on.setLayout(box)
-    if margins is not None:
-        box.setContentsMargins(*((margins,) * 4 if isinstance(margins, int) else margins))
+    _place(box, on, margins)
     if spacing is not None:
         box.setSpacing(spacing)
     for part in parts:
@@ -57,3 +77,10 @@ def _filled(
         else:
             box.addLayout(item, stretch)
     return box
+
+
+def _place(layout: QLayout, on: QWidget | None, margins: Margins | None) -> None:
+    if on is not None:
+        on.setLayout(layout)
+    if margins is not None:
+        layout.setContentsMargins(*((margins,) * 4 if isinstance(margins, int) else margins))

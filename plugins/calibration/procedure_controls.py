@@ -16,7 +16,7 @@ from rotemina.app.calibration.calibration_playback import Phase, RunState
 from rotemina.app.display_units import label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.controls import allow, named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.drivers.samples import DeviceState
@@ -40,9 +40,7 @@ class Procedure(QWidget):
     def __init__(self, robot: Robot) -> None:
         super().__init__()
         self._robot = robot
-        self.axis = QComboBox()
-        self.axis.setAccessibleName(tr("Axis"))
-        self.axis.setToolTip(tr("Axis whose sensor is calibrated"))
+        self.axis = named(QComboBox(), tr("Axis"), tr("Axis whose sensor is calibrated"))
         for name in robot.axes:
             self.axis.addItem(label(name), name)
         self.runs = _count(tr("Runs"), 3, 50, RUNS)
@@ -117,9 +115,8 @@ class Procedure(QWidget):
 
 
 def _count(name: str, least: int, most: int, preset: int) -> QSpinBox:
-    field = QSpinBox()
+    field = named(QSpinBox(), name)
     field.setRange(least, most)
     field.setValue(preset)
-    field.setAccessibleName(name)
     field.setKeyboardTracking(False)
     return field

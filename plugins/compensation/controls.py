@@ -3,7 +3,6 @@
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QGridLayout,
     QLabel,
     QProgressBar,
     QPushButton,
@@ -12,8 +11,9 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.display_units import label
+from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import heading, plain_text
-from rotemina.app.widgets.layouts import in_column
+from rotemina.app.widgets.layouts import in_column, in_grid
 from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.trial_motion import Aid
 from rotemina.plugins.compensation.typed_gains import TypedGains
@@ -33,9 +33,7 @@ class Controls(QWidget):
 
     def __init__(self, robot: Robot) -> None:
         super().__init__()
-        self.axis = QComboBox()
-        self.axis.setAccessibleName(tr("Axis"))
-        self.axis.setToolTip(tr("Piezo axis in open loop to be compensated"))
+        self.axis = named(QComboBox(), tr("Axis"), tr("Piezo axis in open loop to be compensated"))
         for name, axis in robot.axes.items():
             if isinstance(axis, PiezoAxis) and axis.controller is None:
                 self.axis.addItem(label(name), name)
@@ -43,9 +41,7 @@ class Controls(QWidget):
         self.files, self.open, self.save = (
             QPushButton(text) for text in (tr("Records …"), tr("Open …"), tr("Save …"))
         )
-        self.kind = QComboBox()
-        self.kind.setAccessibleName(tr("Inverse to apply"))
-        self.kind.setToolTip(tr("Trained inverse to apply"))
+        self.kind = named(QComboBox(), tr("Inverse to apply"), tr("Trained inverse to apply"))
         self.switch, self.trial = _switch(SWITCH, primary=True), QPushButton(tr("Try it"))
         self.sweep = QPushButton(tr("Sweep"))
         self.residuals = {one: _told() for one in Aid}
@@ -79,8 +75,7 @@ class Controls(QWidget):
         self.progress.setValue(round(1000.0 * (share or 0.0)))
 
     def _lay_out(self) -> None:
-        grid = QGridLayout()
-        grid.setSpacing(5)
+        grid = in_grid(spacing=5)
         rows: tuple[tuple[tuple[QWidget, int], ...], ...] = (
             ((QLabel(tr("Axis")), 1), (self.axis, 2)),
             ((heading(tr("Train with")), 3),),

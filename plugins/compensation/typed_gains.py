@@ -1,9 +1,10 @@
 """Typed gains that replace those of a front's point."""
 
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QWidget
 
 from rotemina.app.motion.regulation import NamedRegulation
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.plugins.compensation import tr
 from rotemina.plugins.compensation.background_search import RATE_HZ
 from rotemina.sim.effects.facts import Facts
@@ -32,9 +33,7 @@ class TypedGains(QWidget):
         super().__init__()
         self._robot = robot
         self.fields: dict[str, QLineEdit] = {}
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setSpacing(4)
+        grid = in_grid(on=self, margins=0, spacing=4)
         for column, (name, letter, unit) in enumerate(_AMOUNTS):
             field = QLineEdit()
             field.setMinimumWidth(44)

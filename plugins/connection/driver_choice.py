@@ -10,7 +10,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.operator_requests import OfferedPort
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.controls import allow, button, named, plain_tip
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.drivers.driver import Driver
@@ -82,10 +82,8 @@ class DeviceSection(Section):
         self._workbench = workbench
         discovery = discover_drivers()
         self.choice = DriverChoice(discovery.found, discovery.broken)
-        self.find = QToolButton()
+        self.find = named(QToolButton(), tr("Refresh the ports"), tr("Refresh the serial ports"))
         self.find.setText("⟳")
-        self.find.setAccessibleName(tr("Refresh the ports"))
-        self.find.setToolTip(tr("Refresh the serial ports"))
         self.add_row(self.choice, self.find, equal=False)
         self.broken = self.add_text()
         self.broken.setText(

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.controls import allow, button, named
 from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice, SteadyNumber
@@ -31,8 +31,7 @@ class VoltageSection(Section):
         self.axis.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         for name in self._axes:
             self.axis.addItem(label(name), name)
-        self.volts = SteadyNumber()
-        self.volts.setAccessibleName(tr("Voltage"))
+        self.volts = named(SteadyNumber(), tr("Voltage"))
         self.volts.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.volts.setDecimals(2)
         self.volts.setSuffix(" V")

@@ -1,6 +1,6 @@
 """Range and approach of one axis."""
 
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QWidget
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.backlash import OVER_PLAY, Approach, play_of
@@ -9,6 +9,7 @@ from rotemina.app.range_settings import keep_ranges
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import plain_text, show_text
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import no_position, typed
@@ -107,10 +108,7 @@ class AxesPage(QWidget):
         return str(self.axis.currentData())
 
     def _lay_out(self) -> None:
-        grid = QGridLayout(self)
-        grid.setContentsMargins(10, 6, 10, 4)
-        grid.setHorizontalSpacing(6)
-        grid.setVerticalSpacing(4)
+        grid = in_grid(on=self, margins=(10, 6, 10, 4), spacing=(6, 4), stretched=(1, 3))
         grid.addWidget(self.axis, 0, 0, 1, 2)
         grid.addWidget(self.unit, 0, 2)
         grid.addWidget(self.narrow, 0, 3)
@@ -123,8 +121,6 @@ class AxesPage(QWidget):
         grid.addWidget(self.width_field, 2, 3, 1, 2)
         grid.addWidget(self.play, 3, 0, 1, 4)
         grid.addWidget(self.use_play, 3, 4)
-        grid.setColumnStretch(1, 1)
-        grid.setColumnStretch(3, 1)
         grid.setRowStretch(4, 1)
 
     def _show(self) -> None:

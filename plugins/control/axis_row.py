@@ -5,15 +5,15 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QLineEdit, QPushButton
+from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QPushButton
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.ranges import Range
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.controls import allow, named, plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
-from rotemina.app.widgets.layouts import in_row
+from rotemina.app.widgets.layouts import in_grid, in_row
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.control import tr
@@ -77,16 +77,13 @@ class AxisRow(QFrame):
         self.holding = Holding(workbench, axis, self)
         self._bar = RangeBar(workbench, axis)
         self._readout = Readout(workbench, tr("{label} position").format(label=label(axis)))
-        self.status = ElidedLabel()
-        self.status.setAccessibleName(tr("{label} state").format(label=label(axis)))
-        self.left = plain_text()
+        self.status = named(ElidedLabel(), tr("{label} state").format(label=label(axis)))
+        self.left = named(plain_text(), tr("{label} range left").format(label=label(axis)))
         self.left.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.left.setAccessibleName(tr("{label} range left").format(label=label(axis)))
-        self.difference = plain_text()
-        self.difference.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.difference.setAccessibleName(
-            tr("{label}: measured minus command").format(label=label(axis))
+        self.difference = named(
+            plain_text(), tr("{label}: measured minus command").format(label=label(axis))
         )
+        self.difference.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.minus, self.plus = self._jog_button("−", -1), self._jog_button("+", +1)
         self.target = self._target_field()
         self.go = QPushButton(tr("Go"))
@@ -156,19 +153,15 @@ class AxisRow(QFrame):
         self.name.setMinimumWidth(_NAME)
         controls = in_row(self.minus, self.plus, (self.target, 1), self.go, self.left, spacing=4)
         self._roomy: bool | None = None
-        grid = self._grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 3)
-        grid.setVerticalSpacing(1)
+        grid = self._grid = in_grid(on=self, margins=(0, 0, 0, 3), spacing=(-1, 1), stretched=1)
         grid.addWidget(self.name, 0, 0)
-        grid.setColumnStretch(1, 1)
         grid.addWidget(self._bar, 2, 0, 1, 4)
         grid.addLayout(controls, 3, 0, 1, 4)
         self.give_room(roomy=False)
 
     def _jog_button(self, text: str, sign: int) -> QPushButton:
-        button = QPushButton(text)
+        button = named(QPushButton(text), f"{label(self._axis)} {text}")
         button.setProperty("jog", True)
-        button.setAccessibleName(f"{label(self._axis)} {text}")
         button.clicked.connect(lambda _: self._step(sign))
         button.pressed.connect(lambda: self._hold(button, sign))
         button.released.connect(self.holding.end)

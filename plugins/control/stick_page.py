@@ -9,7 +9,7 @@ from rotemina.app.panel import STALE_S
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import owners_text, taken
@@ -65,8 +65,7 @@ class HandPage(QWidget):
         )
 
     def _mode_buttons(self) -> QGridLayout:
-        grid = QGridLayout()
-        grid.setSpacing(4)
+        grid = in_grid(spacing=4)
         group = QButtonGroup(self)
         steered = self._operation.teleoperator
         for number, name in enumerate(steered.modes.names):

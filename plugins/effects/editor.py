@@ -1,12 +1,12 @@
 """The selected effect: its formulation, source axis, and parameters."""
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QScrollArea, QSizePolicy, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.effects import mark, tr
 from rotemina.plugins.effects.parameter_display import Quantity
@@ -107,10 +107,7 @@ class Editor(QWidget):
             field.retire()
         self.fields = {}
         content = QWidget()
-        grid = QGridLayout(content)
-        grid.setContentsMargins(0, 2, 4, 2)
-        grid.setVerticalSpacing(3)
-        grid.setColumnStretch(3, 1)
+        grid = in_grid(on=content, margins=(0, 2, 4, 2), spacing=(-1, 3), stretched=3)
         if one is not None:
             source = one.asked.from_axis
             source_unit = (self._robot.unit(source) or "m") if source is not None else ""

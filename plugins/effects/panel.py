@@ -13,7 +13,7 @@ from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import named, plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.effects import mark, tr
@@ -332,7 +332,5 @@ class EffectsPanel(Panel):
 
 
 def _button(text: str, about: str) -> QPushButton:
-    button = QPushButton(text)
-    button.setToolTip(about)
-    button.setAccessibleName(about if len(text) == 1 else text)
+    button = named(QPushButton(text), about if len(text) == 1 else text, about)
     return button

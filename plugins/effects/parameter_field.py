@@ -4,7 +4,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLineEdit, QToolButton, QWidget
 
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import named, plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.wheel_safe import SteadySlider
 from rotemina.plugins.effects import tr
@@ -37,10 +37,9 @@ class ParameterField(QObject):
             tr("Preset {value}").format(value=preset),
         )
         self._title = plain_text(spoken(name), quiet=False)
-        self.edit = QLineEdit()
+        self.edit = named(QLineEdit(), f"{name} {quantity.unit}".rstrip())
         self.edit.setFixedWidth(92)
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
-        self.edit.setAccessibleName(f"{name} {quantity.unit}".rstrip())
         self.edit.editingFinished.connect(self._commit)
         self._unit = plain_text(quantity.unit, quiet=False)
         self.slider = SteadySlider(name, SLIDER_STEPS)

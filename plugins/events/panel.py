@@ -12,7 +12,7 @@ from rotemina.app.shell.language import marked
 from rotemina.app.shell.model_chip import model_name
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.controls import named, plain_tip
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.events import tr
 from rotemina.plugins.events.journal import Entry, Journal, Moment
@@ -36,8 +36,7 @@ class EventsPanel(Panel):
         super().__init__(workbench)
         self.journal = Journal(workbench.robot)
         self._shown = 0
-        self.list = QListWidget()
-        self.list.setAccessibleName(tr("Events, newest first"))
+        self.list = named(QListWidget(), tr("Events, newest first"))
         self.list.setWordWrap(True)
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

@@ -6,9 +6,9 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QPushButton, QWidget
 
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.controls import allow, named, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice, SteadyNumber
 from rotemina.plugins.faults import mark, tr
 from rotemina.plugins.faults.board_process import TAKES_COMMANDS, BoardProcess
@@ -121,8 +121,7 @@ class Injection(QWidget):
         self.start = QPushButton(tr("Start virtual board"))
         self.start.setProperty("primary", True)
         self.start.clicked.connect(lambda _: self._start())
-        self.end = QPushButton(tr("End"))
-        self.end.setAccessibleName(tr("End the virtual board"))
+        self.end = named(QPushButton(tr("End")), tr("End the virtual board"))
         self.end.clicked.connect(lambda _: self.board.end())
         self.state = ElidedLabel()
         self.rows: list[FaultRow] = []
@@ -135,10 +134,7 @@ class Injection(QWidget):
         self.state.setProperty("quiet", True)
         buttons = in_row(self.start, self.end, (self.state, 1))
         options = in_row(self.lines, self.homed, 1)
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(5)
-        grid.setColumnStretch(1, 1)
+        grid = in_grid(spacing=(8, 5), stretched=1)
         axes = self._workbench.robot.axes
         steppers = tuple(name for name, axis in axes.items() if isinstance(axis, StepperAxis))
         for row, fault in enumerate(faults(tuple(axes), steppers, self._lines)):

@@ -4,11 +4,12 @@ from math import ceil
 
 from PySide6.QtCore import QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QResizeEvent
-from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QGridLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.words import AXIS_VERDICTS
@@ -136,8 +137,7 @@ class AxisCells(QWidget):
         self.cells: tuple[AxisCell, ...] = ()
         self._columns = 0
         self._group = QButtonGroup(self)
-        self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid = in_grid(on=self, margins=0)
         self._grid.setSpacing(SPACING)
         self.setAccessibleName(tr("Axis"))
         self._group.buttonToggled.connect(

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.files import write_text
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.controls import allow, named, plain_tip
 from rotemina.app.widgets.labels import hint, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
@@ -238,11 +238,9 @@ def _word(name: str) -> str:
 
 
 def _field(text: str, most: int, least: int, tooltip: str) -> QLineEdit:
-    field = QLineEdit(text)
+    field = named(QLineEdit(text), tooltip, tooltip)
     field.setValidator(QIntValidator(least, most, field))
     field.setMaximumWidth(90)
-    field.setToolTip(tooltip)
-    field.setAccessibleName(tooltip)
     return field
 
 

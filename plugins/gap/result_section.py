@@ -4,7 +4,7 @@ from PySide6.QtCore import QSignalBlocker
 from PySide6.QtWidgets import QMenu, QPushButton, QStackedWidget, QTabBar, QToolButton, QWidget
 
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.controls import allow, named, plain_tip, set_property
 from rotemina.app.widgets.labels import hint
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.gap import mark, tr
@@ -79,8 +79,7 @@ class ResultSection(QWidget):
             self.hint,
         ):
             self.views.addWidget(view)
-        self.tabs = QTabBar()
-        self.tabs.setAccessibleName(tr("View"))
+        self.tabs = named(QTabBar(), tr("View"))
         self.tabs.setExpanding(False)
         self.tabs.setDrawBase(False)
         for number, name in enumerate(VIEWS):

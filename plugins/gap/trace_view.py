@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.gap import tr
 from rotemina.sim.gap.report.traces import Trace
@@ -22,9 +23,7 @@ class TraceView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self.choice = QComboBox()
-        self.choice.setAccessibleName(tr("Record and signal"))
-        self.choice.setToolTip(tr("Record and channel"))
+        self.choice = named(QComboBox(), tr("Record and signal"), tr("Record and channel"))
         policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(policy)
         self.choice.setMinimumContentsLength(14)

@@ -6,6 +6,7 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
 from rotemina.app.display_units import label
+from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.filled_template import localized
@@ -151,9 +152,7 @@ class Controls(QWidget):
 
 
 def _choice(name: str, items: list[tuple[str, object]] | None = None) -> QComboBox:
-    choice = QComboBox()
-    choice.setAccessibleName(name)
-    choice.setToolTip(name)
+    choice = named(QComboBox(), name, name)
     choice.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
     choice.setMinimumWidth(64)  # where the window is narrow, a text is cut rather than the row
     for text, data in items or []:

@@ -5,7 +5,6 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QGridLayout,
     QLineEdit,
     QProgressBar,
     QPushButton,
@@ -21,7 +20,7 @@ from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.app.widgets.controls import allow, set_property
 from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.excitation import ExcitationRequest, Prepared, Wave, prepared
@@ -242,8 +241,7 @@ class ExciteView(QWidget):
         self.wave.setToolTip(
             tr("Motion of the excitation; the help (F1) describes what each one shows")
         )
-        grid = QGridLayout()
-        grid.setSpacing(4)
+        grid = in_grid(spacing=4)
         fields = (self.axis, self.wave, self.amplitude, self.frequency, self.time, self.here)
         for place, field in enumerate(fields):
             grid.addWidget(field, place // 2, place % 2)

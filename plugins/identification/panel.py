@@ -14,6 +14,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
@@ -300,7 +301,6 @@ def _scrolled(section: QWidget) -> QScrollArea:
 
 
 def _notices() -> QPlainTextEdit:
-    notices = QPlainTextEdit()
+    notices = named(QPlainTextEdit(), tr("Limits of this record"))
     notices.setReadOnly(True)
-    notices.setAccessibleName(tr("Limits of this record"))
     return notices

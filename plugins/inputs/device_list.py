@@ -3,7 +3,7 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QLabel, QListWidget, QListWidgetItem, QWidget
 
-from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.controls import named, plain_tip
 from rotemina.app.widgets.labels import plain_text, show_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.section import Section, clear
@@ -21,8 +21,7 @@ class DeviceList(Section):
         super().__init__(tr("Devices"))
         self.none = self.add_text()
         show_text(self.none, tr("No device. A device that is plugged in appears within a second."))
-        self.list = QListWidget()
-        self.list.setAccessibleName(tr("Connected input devices"))
+        self.list = named(QListWidget(), tr("Connected input devices"))
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.currentItemChanged.connect(lambda *_: self._pick())

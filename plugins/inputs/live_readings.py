@@ -1,7 +1,7 @@
 """Live readings of a device: axis bars and button lamps."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QGridLayout
+from PySide6.QtWidgets import QFrame
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
@@ -9,7 +9,7 @@ from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.labels import ElidedLabel, plain_text, show_text
-from rotemina.app.widgets.layouts import in_column
+from rotemina.app.widgets.layouts import in_column, in_grid
 from rotemina.app.widgets.section import Section, clear
 from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.reading_bars import AxisBar, Lamps
@@ -24,10 +24,7 @@ class AxisRow(QFrame):
 
     def __init__(self, theme: Theme, name: str) -> None:
         super().__init__()
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(6)
-        grid.setVerticalSpacing(0)
+        grid = in_grid(on=self, margins=0, spacing=(6, 0), stretched=1)
         title = ElidedLabel()
         title.show_text(name)
         title.setFixedWidth(_NAME_WIDTH)
@@ -43,7 +40,6 @@ class AxisRow(QFrame):
         grid.addWidget(self.bar, 0, 1)
         grid.addWidget(self.numbers, 0, 2)
         grid.addWidget(self.about, 1, 0, 1, 3)
-        grid.setColumnStretch(1, 1)
 
     def show_axis(self, axis: AxisView, calibration: Calibration, stale: bool) -> None:
         """Show what the axis says; ``stale``: that is old."""

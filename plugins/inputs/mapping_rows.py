@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QGridLayout, QPushButton, QToolButton, QWidget
 
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.profile import ActionMapping
-from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.controls import allow, named, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.number_field import NumberField
@@ -43,13 +43,11 @@ class Row(QObject):
         self.title = ElidedLabel()
         self.title.show_text(name)
         self.title.setToolTip(plain_tip(name, tip))
-        self.control = QPushButton(NOBODY)
+        self.control = named(QPushButton(NOBODY), tr("Control of: {name}").format(name=name))
         self.control.setCheckable(True)
-        self.control.setAccessibleName(tr("Control of: {name}").format(name=name))
         self.control.clicked.connect(lambda _: self.asked.emit())
-        self.clear = QToolButton()
+        self.clear = named(QToolButton(), tr("Clear: {name}").format(name=name))
         self.clear.setText("✕")
-        self.clear.setAccessibleName(tr("Clear: {name}").format(name=name))
         self.clear.clicked.connect(lambda _: self.cleared.emit())
         row = grid.rowCount()
         grid.addWidget(self.title, row, 0)

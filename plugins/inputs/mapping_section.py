@@ -2,8 +2,6 @@
 
 from collections.abc import Callable
 
-from PySide6.QtWidgets import QGridLayout
-
 from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
@@ -13,6 +11,7 @@ from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.inputs import mark, tr
@@ -54,11 +53,7 @@ class MappingSection(Section):
         self.add_row(self.seat, self.exchange, equal=False)
         self.message = plain_text(wrap=True)  # placed where it stays in sight
         self.message.setText(tr(HINT))
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(5)
-        grid.setVerticalSpacing(3)
-        grid.setColumnStretch(0, 1)
-        grid.setColumnStretch(1, 1)
+        grid = in_grid(spacing=(5, 3), stretched=(0, 1))
         self.column.addLayout(grid)
         self.target_rows = {
             target: TargetRow(target, grid) for target in axis_targets(tuple(workbench.robot.axes))

@@ -1,14 +1,14 @@
 """The steps of measuring a device: choice of axes, rest, ends, outcome."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QWidget
 
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text, show_text
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.section import clear
 from rotemina.plugins.inputs import mark, tr
 from rotemina.plugins.inputs.calibration_progress import Calibrating, Step
@@ -43,9 +43,7 @@ class Measuring(QWidget):
         self.wanted: dict[str, QCheckBox] = {}
         self.one_sided: dict[str, QCheckBox] = {}
         self.choice = QWidget()
-        self._grid = QGridLayout(self.choice)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setVerticalSpacing(2)
+        self._grid = in_grid(on=self.choice, margins=0, spacing=(-1, 2))
         self.problems = plain_text(wrap=True)
         self.next = button(tr("Measure …"), self._next)
         self.cancel = button(tr("Cancel"), self._cancel)

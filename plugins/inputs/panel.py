@@ -17,6 +17,7 @@ from rotemina.app.shell.language import marked
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
@@ -75,8 +76,7 @@ class InputsPanel(Panel):
         self.set_up.setCheckable(True)
         self.set_up.setToolTip(tr("Map and calibrate; meanwhile only stops are sent"))
         self.set_up.toggled.connect(self._toggle)
-        self.tabs = QTabBar()
-        self.tabs.setAccessibleName(tr("Section of the set-up"))
+        self.tabs = named(QTabBar(), tr("Section of the set-up"))
         self.tabs.setDrawBase(False)
         for page in Page:
             self.tabs.addTab(tr(page))

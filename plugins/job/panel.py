@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QPushButton, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.playback import PlaybackPhase
@@ -12,9 +12,9 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.gap_words import RUN, size, small_print
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Run, Workbench
-from rotemina.app.widgets.controls import allow, fill, plain_tip
+from rotemina.app.widgets.controls import allow, fill, named, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.job import tr, words
 from rotemina.plugins.job.words import Running
@@ -36,15 +36,11 @@ class Card(QFrame):
         for quiet in (self.kind, self.doing):
             quiet.setProperty("quiet", True)
         self.name.setProperty("heading", True)
-        self.bar = QProgressBar()
+        self.bar = named(QProgressBar(), kind)
         self.bar.setRange(0, _STEPS)
         self.bar.setTextVisible(False)
-        self.bar.setAccessibleName(kind)
         self._buttons = in_row(1, spacing=6)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(2, 4, 2, 6)
-        grid.setVerticalSpacing(3)
-        grid.setColumnStretch(0, 1)
+        grid = in_grid(on=self, margins=(2, 4, 2, 6), spacing=(-1, 3), stretched=0)
         grid.addWidget(self.kind, 0, 0)
         grid.addWidget(self.time, 0, 1)
         for row, widget in enumerate((self.name, self.doing, self.bar), start=1):
@@ -86,8 +82,7 @@ class ResultView(QFrame):
         heading = plain_text(translate("shell", RUN))
         self.name = ElidedLabel()
         self.name.setProperty("heading", True)
-        self.gaps = QGridLayout()
-        self.gaps.setHorizontalSpacing(12)
+        self.gaps = in_grid(spacing=(12, -1))
         buttons = in_row(1)
         for text, tip, panel in (
             (

@@ -10,7 +10,7 @@ from rotemina.app.microscope.status import Activity, MicroscopeStatus
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.controls import allow, button, named, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.plugins.microscope import mark, tr
@@ -47,9 +47,8 @@ class CalibrationSection(Section):
         self.nano = button(tr("Nano stage"), lambda: self._begin(NANO))
         self.add_row(self.micro, self.nano)
         self.abort = button(tr("Abort"), lambda: microscope.stop(by=OPERATOR))
-        self.progress = QProgressBar()
+        self.progress = named(QProgressBar(), tr("Progress of the calibration"))
         self.progress.setTextVisible(False)
-        self.progress.setAccessibleName(tr("Progress of the calibration"))
         self.add_row(self.progress, self.abort)
         self.said = self.add_text()
         self.residuals = self.add_text()

@@ -10,7 +10,7 @@ from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.controls import allow, button, named
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
@@ -65,8 +65,7 @@ class TargetSection(Section):
     ) -> None:
         super().__init__(tr("Targets"))
         self._workbench, self._microscope = workbench, microscope
-        self.list = QListWidget()
-        self.list.setAccessibleName(tr("Targets, in order"))
+        self.list = named(QListWidget(), tr("Targets, in order"))
         self.list.setMaximumHeight(120)
         self.column.addWidget(self.list)
         self.next = button(tr("Visit next"), visit)

@@ -9,7 +9,7 @@ from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.settings import Settings
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.controls import button, plain_tip
+from rotemina.app.widgets.controls import button, named, plain_tip
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.microscope import tr
@@ -35,10 +35,9 @@ class PictureSection(Section):
         self.auto.toggled.connect(lambda on: self._change(auto=on))
         self.whole = button(tr("Whole range"), lambda: self._set_levels(0.0, 1.0))
         self.whole.setToolTip(plain_tip(tr("Black at 0, white at the largest number")))
-        self.gamma = QSlider(Qt.Orientation.Horizontal)
+        self.gamma = named(QSlider(Qt.Orientation.Horizontal), tr("Gamma"))
         self.gamma.setRange(0, int(_STEPS))
         self.gamma.setValue(int(_STEPS / 2))
-        self.gamma.setAccessibleName(tr("Gamma"))
         self.gamma.valueChanged.connect(lambda step: self._change(gamma=_gamma(step)))
         self._gamma_text = QLabel()
         self.table = SteadyChoice(tr("Colours"), letters=6)

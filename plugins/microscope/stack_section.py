@@ -15,7 +15,7 @@ from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.controls import allow, button, named, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
@@ -154,8 +154,6 @@ def _text(stack: StackStatus | None) -> str:
 
 
 def _field(hint: str, name: str) -> QLineEdit:
-    field = QLineEdit()
+    field = named(QLineEdit(), name, plain_tip(name))
     field.setPlaceholderText(hint)
-    field.setAccessibleName(name)
-    field.setToolTip(plain_tip(name))
     return field

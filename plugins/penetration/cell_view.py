@@ -1,16 +1,16 @@
 """A demonstration cell on the simulator: place it ahead of the tip, remove it."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.controls import allow, named, plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_column
+from rotemina.app.widgets.layouts import in_column, in_grid
 from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.parameter_quantities import TypedError
 from rotemina.plugins.penetration.plan_preview import way_text
@@ -128,9 +128,7 @@ class CellView(QWidget):
         self.put.clicked.connect(lambda _: self._put())
         self.take.clicked.connect(lambda _: self._take())
         self.controls = QWidget()
-        grid = QGridLayout(self.controls)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setColumnStretch(4, 1)
+        grid = in_grid(on=self.controls, margins=0, stretched=4)
         grid.addWidget(QLabel(tr("Ahead of the tip")), 0, 0)
         grid.addWidget(self.ahead, 0, 1)
         grid.addWidget(QLabel("µm"), 0, 2)
@@ -202,9 +200,7 @@ def _value(field: QLineEdit, name: str) -> float:
 
 
 def _field(text: str, name: str, tip: str) -> QLineEdit:
-    field = QLineEdit(text)
+    field = named(QLineEdit(text), name, plain_tip(f"{name}. {tip}."))
     field.setFixedWidth(70)
     field.setAlignment(Qt.AlignmentFlag.AlignRight)
-    field.setAccessibleName(name)
-    field.setToolTip(plain_tip(f"{name}. {tip}."))
     return field

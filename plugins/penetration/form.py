@@ -24,7 +24,7 @@ from rotemina.app.motion.penetration.parameters import (
 from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import heading
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.form_fields import NumberField
@@ -182,11 +182,7 @@ class ParameterForm(QScrollArea):
             body = self._detection
             column.addWidget(self.more, 0, Qt.AlignmentFlag.AlignLeft)
         column.addWidget(body)
-        grid = QGridLayout(body)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setVerticalSpacing(3)
-        grid.setHorizontalSpacing(8)
-        grid.setColumnStretch(0, 1)
+        grid = in_grid(on=body, margins=0, spacing=(8, 3), stretched=0)
         if group is Group.APPROACH:
             self._add_choice(grid, tr("Axis"), "axis")
             self._add_choice(grid, tr("Cell is"), "direction")

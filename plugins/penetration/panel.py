@@ -15,6 +15,7 @@ from rotemina.app.shell.file_dialog import ask_file, ask_where
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.report_files import ask_run_report, recording_of
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
@@ -49,8 +50,7 @@ class PenetrationPanel(Panel):
         self._last_inputs: object = ()
         self._problem = ""
         self.bar = RunBar(workbench)
-        self.message = plain_text(quiet=False, wrap=True)
-        self.message.setAccessibleName(tr("State of the penetration"))
+        self.message = named(plain_text(quiet=False, wrap=True), tr("State of the penetration"))
         self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
         self._plan()
         self.readouts, self.preview = Readouts(workbench), ThrustPreview(workbench.theme)

@@ -9,7 +9,7 @@ from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus,
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, fill, plain_tip
+from rotemina.app.widgets.controls import allow, fill, named, plain_tip
 from rotemina.app.widgets.figures import Figures
 from rotemina.app.widgets.labels import heading
 from rotemina.app.widgets.layouts import in_column, in_row
@@ -44,10 +44,9 @@ class Readouts(QWidget):
         self._workbench = workbench
         self.plan = _figures(_PLAN, "50000 µm/s")
         self.run = _figures(_RUN, "−2000.00 µm")
-        self.load = QProgressBar()
+        self.load = named(QProgressBar(), tr("Load, up to the overload"))
         self.load.setRange(0, 1000)
         self.load.setMinimumWidth(144)
-        self.load.setAccessibleName(tr("Load, up to the overload"))
         self.tool = QPushButton()
         self.tool.setCheckable(True)
         self.tool.clicked.connect(self._toggle)

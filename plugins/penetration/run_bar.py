@@ -11,7 +11,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.controls import allow, named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.clock import Clock
@@ -65,8 +65,7 @@ class RunButtons(QWidget):
         self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         # On pressing, not on release: what stops must not wait for the finger to lift.
         self.button.pressed.connect(self._press)
-        self.phase = QLabel()
-        self.phase.setAccessibleName(tr("Phase of the penetration"))
+        self.phase = named(QLabel(), tr("Phase of the penetration"))
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
 
     def show_status(

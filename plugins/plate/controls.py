@@ -2,9 +2,11 @@
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QLabel, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QWidget
 
 from rotemina.app.display_units import label
+from rotemina.app.widgets.controls import named
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.wheel_safe import SteadySlider
 from rotemina.plugins.plate import mark, tr
 from rotemina.plugins.plate.coloured_quantities import QUANTITIES, Quantity
@@ -33,9 +35,7 @@ class Controls(QWidget):
         self.what = QComboBox()
         self.what.setAccessibleName(tr("View"))
         self.what.setToolTip(tr("The plate with its hub moved, or one of its modes"))
-        self.colour = QComboBox()
-        self.colour.setAccessibleName(tr("Colours"))
-        self.colour.setToolTip(tr("Quantity of the colours"))
+        self.colour = named(QComboBox(), tr("Colours"), tr("Quantity of the colours"))
         for quantity in QUANTITIES:
             self.colour.addItem(tr(quantity.title))
         self.sliders = tuple(
@@ -66,9 +66,7 @@ class Controls(QWidget):
         self._change()
 
     def _lay_out(self) -> None:
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setVerticalSpacing(4)
+        grid = in_grid(on=self, margins=0, spacing=(-1, 4), stretched=1)
         grid.addWidget(QLabel(tr("Show")), 0, 0)
         grid.addWidget(self.what, 0, 1, 1, 2)
         grid.addWidget(QLabel(tr("Colours")), 1, 0)
@@ -87,7 +85,6 @@ class Controls(QWidget):
             value.setTextFormat(Qt.TextFormat.PlainText)
             value.setMinimumWidth(86)
             value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        grid.setColumnStretch(1, 1)
         grid.setRowStretch(7, 1)
 
     def offer(self, ranges: FloatArray, modes: list[str]) -> None:

@@ -4,7 +4,7 @@ import time
 from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit, QPushButton, QWidget
 
 from rotemina.app.display_units import duration_text, size_text
 from rotemina.app.motion.recording.recovery import UNFINISHED
@@ -12,9 +12,9 @@ from rotemina.app.motion.run_labels import MOST_LETTERS, RunLabels
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.record_library import free_bytes
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.controls import allow, named
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
-from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.plugins.recorder import tr
 
 AT_START = "recorder.at_start"
@@ -61,10 +61,7 @@ class LabelFields(QWidget):
         self._library = workbench.library
         self.run, self.operator, self.sample = QLineEdit(), QLineEdit(), QLineEdit()
         named = {tr("Run"): self.run, tr("Operator"): self.operator, tr("Sample"): self.sample}
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(10)
-        grid.setVerticalSpacing(2)
+        grid = in_grid(on=self, margins=0, spacing=(10, 2))
         for row, (name, field) in enumerate(named.items()):
             title = QLabel(name)
             title.setProperty("quiet", True)
@@ -116,9 +113,8 @@ class RecordingSection(QWidget):
         self.record = QPushButton(tr("● Record"))
         self.record.setMinimumHeight(32)
         self.record.clicked.connect(self.toggle)
-        self.elapsed = QLabel("–")
+        self.elapsed = named(QLabel("–"), tr("Time since the recording began"))
         self.elapsed.setProperty("readout", True)
-        self.elapsed.setAccessibleName(tr("Time since the recording began"))
         self.file, self.size, self.room = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.complaint = plain_text(quiet=False, wrap=True)
         self.complaint.setProperty("bad", True)
@@ -146,10 +142,7 @@ class RecordingSection(QWidget):
 
     def _lay_out(self) -> None:
         top = in_row((self.record, 1), self.elapsed)
-        figures = QGridLayout()
-        figures.setHorizontalSpacing(10)
-        figures.setVerticalSpacing(2)
-        figures.setColumnStretch(1, 1)
+        figures = in_grid(spacing=(10, 2), stretched=1)
         named = {tr("File"): self.file, tr("Size"): self.size, tr("Free"): self.room}
         for row, (name, value) in enumerate(named.items()):
             title = QLabel(name)

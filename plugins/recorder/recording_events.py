@@ -11,6 +11,7 @@ from rotemina.app.display_units import duration_text
 from rotemina.app.recorded_events import Severity, TimelineEvent, timeline_events
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.recorder import mark, tr
@@ -148,9 +149,8 @@ class EventsView(QWidget):
 
 
 def _table(model: EventsModel) -> QTableView:
-    table = QTableView()
+    table = named(QTableView(), tr("Events of the displayed recording"))
     table.setModel(model)
-    table.setAccessibleName(tr("Events of the displayed recording"))
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
     table.setTabKeyNavigation(False)

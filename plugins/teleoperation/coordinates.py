@@ -2,15 +2,16 @@
 
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QFrame, QGridLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QFrame, QSizePolicy, QWidget
 
 from rotemina.app.display_units import Scale
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
 from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView, TeleoperationState
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import set_property
+from rotemina.app.widgets.controls import named, set_property
 from rotemina.app.widgets.labels import heading, keep_lines, plain_text
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.section import Section
 from rotemina.plugins.teleoperation import tr, wording
 
@@ -74,16 +75,12 @@ class CoordinateRow(QFrame):
         self.bar = CentreBar(workbench)
         self.bar.setAccessibleName(tr("{name} deflection of the stick").format(name=name))
         self.bar.setToolTip(tr("Deflection of the stick, −100 % to 100 %; dashed: none is active"))
-        self.law = plain_text(lines=1)
-        self.law.setAccessibleName(tr("{name} scaling").format(name=name))
+        self.law = named(plain_text(lines=1), tr("{name} scaling").format(name=name))
         self.felt_title = plain_text(tr("Force"))
         self.felt = CentreBar(workbench, "warning")
         self.felt.setAccessibleName(tr("{name} contact force at the stick").format(name=name))
         self.felt.setToolTip(tr("Force of a contact at the stick, −100 % to 100 % of its maximum"))
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 2, 0, 5)
-        grid.setVerticalSpacing(2)
-        grid.setColumnStretch(1, 1)
+        grid = in_grid(on=self, margins=(0, 2, 0, 5), spacing=(-1, 2), stretched=1)
         grid.addWidget(title, 0, 0)
         grid.addWidget(self.position, 0, 1, Qt.AlignmentFlag.AlignRight)
         grid.addWidget(self.bar, 1, 0, 1, 2)

@@ -3,15 +3,15 @@
 from collections.abc import Callable, Iterable
 from typing import Generic, TypeVar
 
-from PySide6.QtWidgets import QButtonGroup, QGridLayout, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QLabel, QPushButton, QWidget
 
 from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.controls import named, plain_tip
 from rotemina.app.widgets.labels import heading, plain_text
-from rotemina.app.widgets.layouts import in_row
+from rotemina.app.widgets.layouts import in_grid, in_row
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.teleoperation import tr, wording
@@ -28,16 +28,12 @@ class Buttons(QWidget, Generic[T]):
         self, what: str, choices: Iterable[tuple[T, Choice]], columns: int, use: Callable[[T], None]
     ) -> None:
         super().__init__()
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setSpacing(6)
+        grid = in_grid(on=self, margins=0, spacing=6)
         self.buttons: dict[T, QPushButton] = {}
         group = QButtonGroup(self)
         for number, (value, choice) in enumerate(choices):
-            one = QPushButton(choice.text)
+            one = named(QPushButton(choice.text), f"{what} {choice.text}", plain_tip(choice.tip))
             one.setCheckable(True)
-            one.setToolTip(plain_tip(choice.tip))
-            one.setAccessibleName(f"{what} {choice.text}")
             one.clicked.connect(lambda _, value=value: use(value))
             group.addButton(one)
             grid.addWidget(one, *divmod(number, columns))
@@ -72,8 +68,7 @@ class ChoiceSection(Section):
         for factor in STEP_PRESETS:
             self.preset.addItem(f"× {rounded(factor, 6)}", factor)
         self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
-        self.factor = plain_text()
-        self.factor.setAccessibleName(tr("Present factor"))
+        self.factor = named(plain_text(), tr("Present factor"))
         self.clutch = plain_text(lines=2)
         self.column.addWidget(self.modes)
         self.column.addWidget(heading(tr("Scaling")))

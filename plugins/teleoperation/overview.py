@@ -6,7 +6,7 @@ from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.phase_words import Tone, set_tone
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import named, plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
@@ -18,8 +18,7 @@ class OverviewSection(Section):
 
     def __init__(self) -> None:
         super().__init__()
-        self.word = plain_text("–", quiet=False)
-        self.word.setAccessibleName(tr("State of teleoperation"))
+        self.word = named(plain_text("–", quiet=False), tr("State of teleoperation"))
         self.word.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self.word, Tone.QUIET)
         self.device, self.trust, self.refused = ElidedLabel(), ElidedLabel(), ElidedLabel()
@@ -28,8 +27,7 @@ class OverviewSection(Section):
         self.trust.setProperty("quiet", True)
         self.trust.setAccessibleName(tr("Whether the stick is active"))
         self.refused.setAccessibleName(tr("Latest refusal or slowdown"))
-        self.reason = plain_text(lines=2)
-        self.reason.setAccessibleName(tr("Reason for no motion"))
+        self.reason = named(plain_text(lines=2), tr("Reason for no motion"))
         row = in_row(self.word, (self.device, 1), spacing=8)
         self.column.setSpacing(3)
         self.column.addLayout(row)

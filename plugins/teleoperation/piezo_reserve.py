@@ -1,6 +1,6 @@
 """Remaining piezo range, rotation of the tool, and re-centring."""
 
-from PySide6.QtWidgets import QGridLayout, QLabel, QProgressBar
+from PySide6.QtWidgets import QLabel, QProgressBar
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.operation import has_tip
@@ -9,7 +9,7 @@ from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationS
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, fill
 from rotemina.app.widgets.labels import plain_text
-from rotemina.app.widgets.layouts import in_row
+from rotemina.app.widgets.layouts import in_grid, in_row
 from rotemina.app.widgets.section import Section
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.teleoperation import tr, wording
@@ -32,9 +32,7 @@ class ReserveSection(Section):
         self.tilt = plain_text(quiet=False)
         self.tilt.setAccessibleName(tr("Tilt of the tool since the mode began"))
         self.tilt.setToolTip(tr("Rotation of the tool since the mode began"))
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(12)
-        grid.setColumnStretch(1, 1)
+        grid = in_grid(spacing=(12, -1), stretched=1)
         for row, (title, widget) in enumerate(
             ((tr("Remaining"), self.left), (tr("Tilt"), self.tilt))
         ):

@@ -1,7 +1,7 @@
 """Scales of the present mode: distance, speed and force at full deflection."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit
+from PySide6.QtWidgets import QLabel, QLineEdit
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.frames import Coordinate
@@ -11,6 +11,7 @@ from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.teleoperation import tr, wording
@@ -43,10 +44,7 @@ class ScaleEditor(Section):
         self.add_row(self.choice, self.presets, equal=False)
         self.fields: dict[str, QLineEdit] = {}
         self._units: dict[str, QLabel] = {}
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(4)
-        grid.setColumnStretch(1, 1)
+        grid = in_grid(spacing=(8, 4), stretched=1)
         for number, field in enumerate(FIELDS):
             title, unit, edit = plain_text(), plain_text(), QLineEdit()
             title.setText(field.shown_title)

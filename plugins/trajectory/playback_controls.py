@@ -6,7 +6,7 @@ from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.retiming import FASTEST, SLOWEST
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, fill
+from rotemina.app.widgets.controls import allow, fill, named
 from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.trajectory import mark, tr
@@ -60,13 +60,12 @@ class Transport(QWidget):
             self.rows.addItem(
                 tr("1 row") if rows == 1 else tr("{rows} rows").format(rows=rows), rows
             )
-        self.speed = QDoubleSpinBox()
+        self.speed = named(QDoubleSpinBox(), tr("Speed factor"))
         self.speed.setRange(SLOWEST, FASTEST)
         self.speed.setDecimals(2)
         self.speed.setSingleStep(0.05)
         self.speed.setValue(1.0)
         self.speed.setSuffix(" ×")
-        self.speed.setAccessibleName(tr("Speed factor"))
         self.speed.valueChanged.connect(self._set_pace)
         self.speed.setToolTip(
             tr(

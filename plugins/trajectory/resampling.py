@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display_units import speed_changes
 from rotemina.app.shell.engine_words import error_text
+from rotemina.app.widgets.controls import named
 from rotemina.plugins.trajectory import mark, tr
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
@@ -35,9 +36,7 @@ class ResamplingDialog(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._trajectory = trajectory
         self.resampled: Record | None = None
-        self.rate = QLineEdit("1000")
-        self.rate.setAccessibleName(tr("Rate in Hz"))
-        self.rate.setToolTip(tr("Rows per second, Hz; above 0"))
+        self.rate = named(QLineEdit("1000"), tr("Rate in Hz"), tr("Rows per second, Hz; above 0"))
         self.method = QComboBox()
         for text, name in METHODS.items():
             self.method.addItem(tr(text), name)

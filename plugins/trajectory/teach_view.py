@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.controls import allow, button, named
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.trajectory import tr
 from rotemina.plugins.trajectory.taught_trajectory import LONGEST_PAUSE_S, TaughtPoint, taught
@@ -39,8 +39,7 @@ class TeachView(QWidget):
             for axis, scale in zip(self._axes, self._scales, strict=True)
         ]
         heads += [tr("speed [%]"), tr("pause [s]")]
-        self.table = QTableWidget(0, len(heads))
-        self.table.setAccessibleName(tr("Taught points"))
+        self.table = named(QTableWidget(0, len(heads)), tr("Taught points"))
         self.table.setHorizontalHeaderLabels(heads)
         triggers = QAbstractItemView.EditTrigger
         self.table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed)

@@ -30,9 +30,15 @@ OPTIONS = (
 SHOWN_BY = (
     *("QLabel", "QPushButton", "QCheckBox", "QRadioButton", "QGroupBox", "QToolButton", "QAction"),
     *("setText", "setToolTip", "setStatusTip", "setWindowTitle", "setPlaceholderText", "setTitle"),
-    *("setAccessibleName", "setAccessibleDescription", "setSpecialValueText", "setTabText"),
+    *(
+        "setAccessibleName",
+        "setAccessibleDescription",
+        "setSpecialValueText",
+        "setTabText",
+        "named",
+    ),
     *("addItem", "addAction", "addMenu", "addTab", "addRow", "setLabelText"),
-    *("notify", "allow", "plain_tip", "show_text", "setHorizontalHeaderLabels", "setHtml"),
+    *("notify", "named", "allow", "plain_tip", "show_text", "setHorizontalHeaderLabels", "setHtml"),
 )
 # What no operator sees: self-tests, a board's own program, what stands in for a window.
 FOREIGN = {*dir(builtins), "ArgumentTypeError"}  # errors of Python
