@@ -221,8 +221,7 @@ class CalibrationPanel(Panel):
 
     def _ask_records(self) -> None:
         title = tr("Records with sensor and laser")
-        kinds = tr(RECORDS)
-        ask_files(self, self.workbench, title, kinds, self.fit_files)
+        ask_files(self, self.workbench, title, tr(RECORDS), self.fit_files)
 
     def _close_run(self) -> None:
         if self._run is not None:

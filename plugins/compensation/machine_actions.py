@@ -78,8 +78,7 @@ class Actuation:
 
         make = self._loop_of(robot, axis, own, name)
         if make is not None:
-            checking = tr("Checking the loop …")
-            workbench.work("apply gains", checking, make, done)
+            workbench.work("apply gains", tr("Checking the loop …"), make, done)
 
     def _loop_of(
         self, robot: Robot, axis: str, tuning: Tuning | None, name: str

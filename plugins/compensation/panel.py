@@ -278,8 +278,7 @@ class CompensationPanel(Panel):
 
     def _ask_where_inverses(self) -> None:
         title = tr("Save inverses")
-        kinds = tr(INVERSES)
-        ask_where(self, self.workbench, title, kinds, "inverses.json", self.save_file)
+        ask_where(self, self.workbench, title, tr(INVERSES), "inverses.json", self.save_file)
 
     def _ask_gains(self) -> None:
         title, kinds = tr("Gains"), tr(TUNINGS)

@@ -84,8 +84,7 @@ def owners_text(owners: Mapping[str, str]) -> str | None:
 def exceedance_text(said: Exceedance) -> str:
     """Return in what an axis went beyond its inverse; empty: in nothing."""
     parts = [tr(words) for flag, words in _SAID.items() if said & flag]
-    text = tr("The axis has been {where}.")
-    return text.format(where=", ".join(parts)) if parts else ""
+    return tr("The axis has been {where}.").format(where=", ".join(parts)) if parts else ""
 
 
 def point_text(point: Point, number: int) -> str:

@@ -239,13 +239,11 @@ class EffectsPanel(Panel):
 
     def _ask_load(self) -> None:
         title = tr("Load effects from a robot file")
-        kinds = tr(FILES)
-        ask_file(self, self.workbench, title, kinds, self.load_effects)
+        ask_file(self, self.workbench, title, tr(FILES), self.load_effects)
 
     def _ask_save(self) -> None:
         title = tr("Save the robot with its effects")
-        kinds = tr(FILES)
-        ask_where(self, self.workbench, title, kinds, "robot.toml", self.save_robot)
+        ask_where(self, self.workbench, title, tr(FILES), "robot.toml", self.save_robot)
 
     # --- what is shown ----------------------------------------------------------------------------
 

@@ -96,5 +96,4 @@ def meaning_of(text: str) -> str:
     weight = _WEIGHT.fullmatch(text)
     if weight is None:
         return tr(text) if text else text
-    told = tr("{name}, weight of the play with threshold {threshold}")
-    return told.format(**weight.groupdict())
+    return tr("{name}, weight of the play with threshold {threshold}").format(**weight.groupdict())

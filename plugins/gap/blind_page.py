@@ -155,8 +155,7 @@ class BlindPage(QDialog):
     def _show_progress(self, done: int, count: int) -> None:
         self.progress.setRange(0, count)
         self.progress.setValue(done)
-        text = tr("{done} of {count} cases done")
-        self.doing.setText(text.format(done=done, count=count))
+        self.doing.setText(tr("{done} of {count} cases done").format(done=done, count=count))
 
     def _show_end(self, text: str) -> None:
         self.doing.setText(text)

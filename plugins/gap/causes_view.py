@@ -77,8 +77,7 @@ class CausesView(QSplitter):
 def _row(ranked: Ranked) -> tuple[str, ...]:
     name = effect_title(ranked.effect)
     if ranked.from_axis is not None:
-        text = tr("{effect} from {axis}")
-        name = text.format(effect=name, axis=label(ranked.from_axis))
+        name = tr("{effect} from {axis}").format(effect=name, axis=label(ranked.from_axis))
     if ranked.formulation is not None:
         name += f" ({formulation_name(ranked.formulation)})"
     return (
@@ -105,8 +104,7 @@ def _cause(cause: Cause, answer: Answer) -> Iterator[str]:
     unit = answer.unit(cause.axis, cause.tap)
     name = effect_title(cause.effect)
     if cause.from_axis is not None:
-        source = tr("{effect} from {axis}")
-        name = source.format(effect=name, axis=label(cause.from_axis))
+        name = tr("{effect} from {axis}").format(effect=name, axis=label(cause.from_axis))
     text = tr(
         "{effect}: {share} likely; {before} rms without it, {after} with it at {tap}, on unseen "
         "data; closes {closed} ({interval})."

@@ -46,8 +46,7 @@ class Headline(QFrame):
         tone = Tone.WORSE if worse else TONES[diagnosis.verdict]
         if proof is not None and worse:
             listed = ", ".join(f"{label(one.trace.axis)} {change(one.times)}" for one in worse)
-            worse_on = tr("Worse on {motion}: {axes}.   ")
-            text = worse_on.format(motion=proof.name, axes=listed) + text
+            text = tr("Worse on {motion}: {axes}.   ").format(motion=proof.name, axes=listed) + text
             more = why_worse(worse[0], answer)
         elif proof is not None and proof.shrunk:
             better = ", ".join(

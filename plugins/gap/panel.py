@@ -224,8 +224,7 @@ class GapPanel(Panel):
 
     def _show_progress(self, doing: str, share: float) -> None:
         self.progress.setValue(round(1000 * share))
-        text = tr("{share:.0f} % done")
-        self.progress.setToolTip(text.format(share=100.0 * share))
+        self.progress.setToolTip(tr("{share:.0f} % done").format(share=100.0 * share))
         self.doing.setText(doing)
 
     # --- what is played ---------------------------------------------------------------------------

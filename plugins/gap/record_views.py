@@ -47,8 +47,7 @@ class RecordMenu(QToolButton):
     def ask_files(self) -> None:
         """Ask for files, and add them."""
         title = tr("Records of the real machine")
-        filters = tr(FILES)
-        ask_files(self.window(), self._workbench, title, filters, self._records.add_files)
+        ask_files(self.window(), self._workbench, title, tr(FILES), self._records.add_files)
 
     def _show(self) -> None:
         names = [each.full for each in self._records.chosen]

@@ -46,8 +46,7 @@ class UnseenMotion(QObject):
         made = suggestion(experiments[number], number + 1, "gap", answer.units)
         self._experiment = made.names.commands
         trajectory = made.records[self._experiment]
-        title = tr("Next experiment")
-        self._playing.ask(window, title, self._experiment, trajectory)
+        self._playing.ask(window, tr("Next experiment"), self._experiment, trajectory)
 
     def ask_check(self, answer: Answer, window: QWidget) -> None:
         """Ask whether to play a motion of the diagnosed axes that no record holds."""

@@ -172,8 +172,7 @@ class IdentificationPanel(Panel):
             self._show(self._known[view])
             return
         self._show(None)
-        computing = tr("{record}: computing …")
-        self.summary.setText(computing.format(record=question.name))
+        self.summary.setText(tr("{record}: computing …").format(record=question.name))
         self.workbench.work(
             "identification",
             tr("Identification of {record} …").format(record=question.name),

@@ -39,7 +39,6 @@ class Row(QObject):
     def __init__(self, name: str, tip: str, grid: QGridLayout) -> None:
         super().__init__()
         self.name = name
-        self._tip = tip
         self.title = ElidedLabel()
         self.title.show_text(name)
         self.title.setToolTip(plain_tip(name, tip))

@@ -152,14 +152,11 @@ class PenetrationPanel(Panel):
         self.workbench.write_file("save penetration", path, lambda: parameters.save(path))
 
     def _ask_load(self) -> None:
-        title = tr("Load parameters")
-        kinds = tr(FILES)
-        ask_file(self, self.workbench, title, kinds, self.load_parameters)
+        ask_file(self, self.workbench, tr("Load parameters"), tr(FILES), self.load_parameters)
 
     def _ask_save(self) -> None:
         title = tr("Save parameters")
-        kinds = tr(FILES)
-        ask_where(self, self.workbench, title, kinds, "penetration.toml", self.save_parameters)
+        ask_where(self, self.workbench, title, tr(FILES), "penetration.toml", self.save_parameters)
 
     # --- parameters -------------------------------------------------------------------------------
 

@@ -127,8 +127,7 @@ class PlatePanel(Panel):
         self._show_state()
 
     def _show_stage(self, name: str) -> None:
-        text = tr("Solving: {stage} …")
-        self.doing.setText(text.format(stage=tr(name)))
+        self.doing.setText(tr("Solving: {stage} …").format(stage=tr(name)))
 
     # --- what is shown ----------------------------------------------------------------------------
 

@@ -142,5 +142,4 @@ def _ask_run(panel: Panel, use: Callable[[OtherRun], None]) -> None:
         text = tr("The library has no records: play or record a motion first.")
         bench.notify(Level.WARNING, text, about=panel)
 
-    title = tr("Record beside the present run")
-    ask_records(panel.main_window, bench, title, take, nothing_there)
+    ask_records(panel.main_window, bench, tr("Record beside the present run"), take, nothing_there)

@@ -122,8 +122,7 @@ class PlotsPanel(Panel):
         age_s = state.age_s
         stale = age_s is not None and age_s > STALE_S
         if age_s is not None and stale:
-            text = tr("The newest reading is {n} s old")
-            self.age.setText(text.format(n=max(1, round(age_s))))
+            self.age.setText(tr("The newest reading is {n} s old").format(n=max(1, round(age_s))))
         self.age.setVisible(stale)
         for plot in self.plots.values():
             plot.set_stale(stale)

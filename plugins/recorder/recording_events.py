@@ -81,8 +81,7 @@ class EventsModel(QAbstractTableModel):
         """Return text, tooltip and colour of a cell."""
         one = self.events[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            word = tr(one.word)
-            return (duration_text(one.at_s, 2), word, one.text)[index.column()]
+            return (duration_text(one.at_s, 2), tr(one.word), one.text)[index.column()]
         if role == Qt.ItemDataRole.ForegroundRole and index.column() == 1:
             return self._colours[one.weight]
         return None

@@ -248,8 +248,7 @@ class RecordsView(QWidget):
 
     def _ask_other(self) -> None:
         kinds = tr("Recordings (*{suffix});;All files (*)").format(suffix=SUFFIX)
-        title = tr("Replay")
-        ask_file(self.window(), self._workbench, title, kinds, self._workbench.open_replay)
+        ask_file(self.window(), self._workbench, tr("Replay"), kinds, self._workbench.open_replay)
 
     def _ask_where_it_is(self) -> None:
         one = self.chosen
