@@ -330,5 +330,4 @@ class EffectsPanel(Panel):
 
 
 def _button(text: str, about: str) -> QPushButton:
-    button = named(QPushButton(text), about if len(text) == 1 else text, about)
-    return button
+    return named(QPushButton(text), about if len(text) == 1 else text, about)

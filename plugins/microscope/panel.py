@@ -211,5 +211,4 @@ class MicroscopePanel(Panel):
 def _page(sections: tuple[QWidget, ...]) -> QScrollArea:
     content = QWidget()
     in_column(*sections, 1, on=content, margins=(8, 0, 8, 4), spacing=4)
-    scroll = scrolled(content)
-    return scroll
+    return scrolled(content)

@@ -34,6 +34,24 @@ def circumstances(
     )
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder of pictures, if it is not there yet.
+
+    Raises
+    ------
+    MicroscopeError
+        If it cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise MicroscopeError(
+            tr("{folder}: the folder cannot be created ({reason})").format(
+                folder=folder, reason=error.strerror or error
+            )
+        ) from error
+
+
 def write_pictures(
     folder: Path, frame: Frame, contrast: Contrast, about: Circumstances, name: str
 ) -> tuple[Path, Path]:
@@ -46,14 +64,7 @@ def write_pictures(
     MicroscopeError
         If the folder cannot be made.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise MicroscopeError(
-            tr("{folder}: the folder cannot be created ({reason})").format(
-                folder=folder, reason=error.strerror or error
-            )
-        ) from error
+    make_folder(folder)
     tiff, png = folder / f"{name}.tif", folder / f"{name}.png"
     write_tiff(tiff, frame, about)
     write_png(png, as_rgb(shown(frame, contrast, levels(frame, contrast))), frame, about)
@@ -167,11 +178,7 @@ def summary(path: Path, status: VideoStatus) -> str:
     text = tr("Saved {path}: {pictures} pictures of {seconds:.1f} s").format(
         path=path, pictures=status.pictures, seconds=status.lasts_s
     )
-    return (
-        tr("{text}, {dropped} dropped").format(text=text, dropped=status.dropped)
-        if status.dropped
-        else text
-    )
+    return _with_dropped(text, status)
 
 
 def progress(status: VideoStatus) -> str:
@@ -179,11 +186,13 @@ def progress(status: VideoStatus) -> str:
     text = tr("{pictures} pictures, {seconds:.0f} s, {megabytes:.0f} MB").format(
         pictures=status.pictures, seconds=status.lasts_s, megabytes=status.bytes_written / 1e6
     )
-    return (
-        tr("{text}, {dropped} dropped").format(text=text, dropped=status.dropped)
-        if status.dropped
-        else text
-    )
+    return _with_dropped(text, status)
+
+
+def _with_dropped(text: str, status: VideoStatus) -> str:
+    if not status.dropped:
+        return text
+    return tr("{text}, {dropped} dropped").format(text=text, dropped=status.dropped)
 
 
 def _free(folder: Path, name: str) -> Path:

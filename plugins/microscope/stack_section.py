@@ -21,7 +21,7 @@ from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.feed_notice import against_moving
-from rotemina.plugins.microscope.picture_saving import STAMP, circumstances
+from rotemina.plugins.microscope.picture_saving import STAMP, circumstances, make_folder
 from rotemina.plugins.microscope.words import focus_name
 from rotemina.sim.quantities import parsed, rounded
 
@@ -119,14 +119,7 @@ class StackSection(Section):
 
 
 def _write(path: Path, stack: StackStatus, about: Circumstances) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise MicroscopeError(
-            tr("{folder}: the folder cannot be created ({reason})").format(
-                folder=path.parent, reason=error.strerror or error
-            )
-        ) from error
+    make_folder(path.parent)
     write_stack(path, stack.pages, stack.axis, about)
 
 
