@@ -96,6 +96,9 @@ languages: system $(VENV)/.run  ## find what is to be translated, make resources
 	context=$$(basename $$(dirname $$file)); \
 	sed -e "s/\([^[:alnum:]_.]\)tr(/\1translate(\"$$context\", /g" \
 	-e "s/\([^[:alnum:]_.]\)mark(/\1marked(\"$$context\", /g" $$file >$$file.new && mv $$file.new $$file || exit 1; done
+	@$(BIN)/python -c 'from rotemina.plugins.effects.words import catalogue; \
+	print(*(f"translate(\"effects\", {text!r})" for text in catalogue()), sep="\n")' \
+	>build/languages/plugins/effects/catalogue.py
 	@for folder in app/shell app/widgets app/cli plugins/*/; do \
 	if ls $$folder/*.py >/dev/null 2>&1 && grep -Eqs '\b(translate|marked|message|tr|mark)\(' $$folder/*.py; then \
 	$(LUPDATE) build/languages/$${folder%/}/*.py $$([ $$folder != plugins/gap/ ] || find sim/gap -name '*.py') \

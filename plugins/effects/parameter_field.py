@@ -9,8 +9,7 @@ from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.wheel_safe import SteadySlider
 from rotemina.plugins.effects import tr
 from rotemina.plugins.effects.parameter_display import SLIDER_STEPS, Quantity, ValueRefusedError
-from rotemina.plugins.effects.parameter_meanings import meaning_of
-from rotemina.plugins.effects.words import spoken
+from rotemina.plugins.effects.words import meaning_of, spoken
 
 
 class ParameterField(QObject):

@@ -14,6 +14,7 @@ from PySide6.QtCore import QTranslator
 
 from rotemina.app.cli.translated_help import CONTEXT as HELP
 from rotemina.app.records.run_report import TEXTS as RUN_TEXTS
+from rotemina.plugins.effects.words import catalogue
 from rotemina.sim.gap.report.texts import TEXTS as GAP_TEXTS
 
 ROOT = Path(__file__).parents[3]
@@ -30,13 +31,7 @@ OPTIONS = (
 SHOWN_BY = (
     *("QLabel", "QPushButton", "QCheckBox", "QRadioButton", "QGroupBox", "QToolButton", "QAction"),
     *("setText", "setToolTip", "setStatusTip", "setWindowTitle", "setPlaceholderText", "setTitle"),
-    *(
-        "setAccessibleName",
-        "setAccessibleDescription",
-        "setSpecialValueText",
-        "setTabText",
-        "named",
-    ),
+    *("setAccessibleName", "setAccessibleDescription", "setSpecialValueText", "setTabText"),
     *("addItem", "addAction", "addMenu", "addTab", "addRow", "setLabelText"),
     *("notify", "named", "allow", "plain_tip", "show_text", "setHorizontalHeaderLabels", "setHtml"),
 )
@@ -101,7 +96,10 @@ def test_every_text_of_the_window_is_translated(german, tmp_path):
         *("scene", "plugin_kit"),
     ):
         engine |= {*(ROOT / "app" / folder).rglob("*.py")}
-    sources = sorted(shown | engine)
+    model = tmp_path / "effects" / "catalogue.py"
+    words = (f'translate("effects", {text!r})' for text in catalogue())
+    model.write_text("\n".join(words), "utf-8")
+    sources = sorted({*shown, *engine, model})
     found = tmp_path / "found.ts"
     program = Path(PySide6.__file__).parent / "lupdate"
     done = subprocess.run(
