@@ -89,10 +89,19 @@ LRELEASE := $(BIN)/pyside6-lrelease -silent
 ENGINE := app/motion app/microscope app/cameras app/calibration app/records app/scene app/plugin_kit \
 $(wildcard app/*.py) drivers \
 $(filter-out sim/gap sim/blind%,$(wildcard sim/*))
+# lupdate knows no context that a panel's folder names once: it reads copies that name it at each text.
 languages: system $(VENV)/.run  ## find what is to be translated, make resources/languages/*.qm
+	@rm -rf build/languages; mkdir -p build/languages; cp -R app plugins build/languages
+	@for file in build/languages/plugins/*/*.py; do \
+	context=$$(basename $$(dirname $$file)); \
+	sed -e "s/\([^[:alnum:]_.]\)tr(/\1translate(\"$$context\", /g" \
+	-e "s/\([^[:alnum:]_.]\)mark(/\1marked(\"$$context\", /g" $$file >$$file.new && mv $$file.new $$file || exit 1; done
+	@$(BIN)/python -c 'from rotemina.plugins.effects.words import catalogue; \
+	print(*(f"translate(\"effects\", {text!r})" for text in catalogue()), sep="\n")' \
+	>build/languages/plugins/effects/catalogue.py
 	@for folder in app/shell app/widgets app/cli plugins/*/; do \
-	if ls $$folder/*.py >/dev/null 2>&1 && grep -Eqs '\b(translate|marked|message)\(' $$folder/*.py; then \
-	$(LUPDATE) $${folder%/}/*.py $$([ $$folder != plugins/gap/ ] || find sim/gap -name '*.py') \
+	if ls $$folder/*.py >/dev/null 2>&1 && grep -Eqs '\b(translate|marked|message|tr|mark)\(' $$folder/*.py; then \
+	$(LUPDATE) build/languages/$${folder%/}/*.py $$([ $$folder != plugins/gap/ ] || find sim/gap -name '*.py') \
 	-ts resources/languages/de/$$(basename $$folder).ts || exit 1; \
 	fi; done
 	@$(LUPDATE) $$(find $(ENGINE) -name '*.py') -ts resources/languages/de/engine.ts

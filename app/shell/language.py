@@ -1,9 +1,10 @@
 """The language of the window: English as the code says it, and what is translated from it.
 
-A text is written in English where it is shown, as ``translate("gap", "Diagnose")``: its context,
-the folder it stands in, and itself. A text that is kept in a table is marked there, and translated
-where it is shown: a table is made when its module is imported, before a language is in use. Texts
-with values are templates and are filled later: ``translate("gap", "{n} records").format(n=3)``.
+A text is written in English where it is shown, as ``translate("shell", "Stop")``: its context, the
+folder it stands in, and itself. The folder of a panel names its context once, for all its texts:
+``tr("Diagnose")``. A text that is kept in a table is marked there, and translated where it is
+shown: a table is made when its module is imported, before a language is in use. Texts with values
+are templates and are filled later: ``tr("{n} records").format(n=3)``.
 
 What is below the window says it in messages (:mod:`rotemina.sim.messages`), whose templates are
 translated where they are shown (:mod:`rotemina.app.shell.engine_words`). Numbers have the decimal
@@ -11,6 +12,8 @@ sign of the language. Logs and files are English.
 """
 
 import logging
+from collections.abc import Callable
+from functools import partial
 from importlib import resources
 from importlib.resources.abc import Traversable
 from string import Formatter
@@ -59,6 +62,11 @@ _FORMATTER = _LocalFormatter()
 def translate(context: str, text: str) -> Template:
     """Return ``text`` in the language in use, itself where it has no translation."""
     return Template(QCoreApplication.translate(context, text))
+
+
+def texts_of(context: str) -> tuple[Callable[[str], Template], Callable[[str], str]]:
+    """Return :func:`translate` and :func:`marked` for texts of one context."""
+    return partial(translate, context), partial(marked, context)
 
 
 def chosen(settings: Settings, asked: str | None = None) -> str:

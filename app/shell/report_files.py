@@ -39,14 +39,12 @@ def recording_of(entries: Iterable[Entry], run: PenetrationRun) -> Entry | None:
 def save_report(bench: Workbench, path: Path, write: Callable[[], None], about: QWidget) -> None:
     """Write a page to ``path`` by ``write`` in the background, and open it."""
 
-    def done(_: None) -> None:
-        bench.notify(Level.GOOD, translate("shell", "Saved {path}").format(path=path))
+    def show() -> None:
         if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(path))):
             text = translate("shell", "{path}: nothing here opens it; open it in a browser")
             bench.notify(Level.WARNING, text.format(path=path), about=about)
 
-    writing = translate("shell", "Writing {name} …").format(name=path.name)
-    bench.work(f"report {path}", writing, write, done)
+    bench.write_file(f"report {path}", path, write, show)
 
 
 def ask_run_report(parent: QWidget, bench: Workbench, entry: Entry | None = None) -> None:

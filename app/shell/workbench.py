@@ -333,7 +333,7 @@ class Workbench(Requests):
                 self.library.add(path, run.record, path.name)
             self._take_run(run, path)
 
-        self.work("run", _reading(path.name), work, done)
+        self.read_file("run", path.name, work, done)
 
     def open_entry(self, entry: Entry) -> None:
         """Compare a record of the library with the model, as :meth:`open_record` does."""
@@ -341,7 +341,7 @@ class Workbench(Requests):
         def work() -> Run:
             return compared(self.session.model, entry.name, read(entry, self.robot))
 
-        self.work("run", _reading(entry.name), work, lambda run: self._take_run(run, entry.path))
+        self.read_file("run", entry.name, work, lambda run: self._take_run(run, entry.path))
 
     def load_entry(self, entry: Entry) -> None:
         """Take the commands of a record of the library in hand as a trajectory."""
@@ -359,15 +359,8 @@ class Workbench(Requests):
             self.notify(Level.WARNING, text, about="comparison.md")
             return
 
-        def done(_: None) -> None:
-            self._note_saved(record)
-            self.notify(Level.GOOD, translate("shell", "Saved {path}").format(path=path))
-
-        self.work(
-            "save",
-            translate("shell", "Writing {name} …").format(name=path.name),
-            lambda: write_record(record, path),
-            done,
+        self.write_file(
+            "save", path, lambda: write_record(record, path), lambda: self._note_saved(record)
         )
 
     def open_replay(self, path: Path) -> None:
@@ -408,6 +401,33 @@ class Workbench(Requests):
 
         self.busy_changed.emit(doing)
         self._background.run(kind, work, finished, failed)
+
+    def read_file(
+        self,
+        kind: str,
+        name: object,
+        read: Callable[[], Answer],
+        done: Callable[[Answer], None],
+        undone: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Read a file of this name as :meth:`work` does."""
+        doing = translate("shell", "Reading {name} …").format(name=name)
+        self.work(kind, doing, read, done, undone)
+
+    def write_file(
+        self,
+        kind: str,
+        path: Path,
+        write: Callable[[], object],
+        saved: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Write a file as :meth:`work` does; say that it is saved, and call ``saved``."""
+
+        def done(_: object) -> None:
+            self.notify(Level.GOOD, translate("shell", "Saved {path}").format(path=path))
+            saved()
+
+        self.work(kind, translate("shell", "Writing {name} …").format(name=path.name), write, done)
 
     def long_work(
         self,

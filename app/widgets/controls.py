@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from html import escape
+from typing import TypeVar
 
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QProgressBar, QPushButton, QWidget
@@ -9,6 +10,7 @@ from PySide6.QtWidgets import QProgressBar, QPushButton, QWidget
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import translate
 
+_Widget = TypeVar("_Widget", bound=QWidget)
 _WHY_NOT = "whyNot"
 _TOLD = "_told_why_not"
 
@@ -52,6 +54,14 @@ def button(text: str, run: Callable[[], object], tip: str = "") -> QPushButton:
         made.setToolTip(plain_tip(tip))
     made.clicked.connect(lambda _: run())
     return made
+
+
+def named(widget: _Widget, name: str, tip: str = "") -> _Widget:
+    """Return a widget with its name, for those who hear the screen, and its tooltip, if any."""
+    widget.setAccessibleName(name)
+    if tip:
+        widget.setToolTip(tip)
+    return widget
 
 
 def set_property(widget: QWidget, name: str, value: object) -> bool:

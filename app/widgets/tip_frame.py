@@ -17,15 +17,14 @@ _BAR_SHARE, _BAR_HEIGHT = 0.3, 16.0  # of the width, and px
 
 def draw_scale(painter: QPainter, area: QRectF, scale: float, colour: QColor) -> None:
     """Draw a bar of a round length at the lower left of an area; ``scale`` in px/m."""
-    length = _round_down(_BAR_SHARE * area.width() / scale)
-    unit, name = next((one for one in _UNITS if length >= 0.9999 * one[0]), _UNITS[-1])
+    length, text = round_length(_BAR_SHARE * area.width() / scale)
     left, line = area.left() + 1.0, area.bottom() - 0.5 * _BAR_HEIGHT
     painter.setPen(QPen(colour, 2.0))
     painter.drawLine(QPointF(left, line), QPointF(left + length * scale, line))
     painter.drawText(
         QRectF(left + length * scale + 7.0, area.bottom() - _BAR_HEIGHT, 80.0, _BAR_HEIGHT),
         Qt.AlignmentFlag.AlignVCenter,
-        f"{rounded(length / unit)} {name}",
+        text,
     )
 
 
@@ -75,7 +74,14 @@ def forbidden(zone: KeepOutZone, frame: TipFrame) -> QPainterPath:
     return everything.subtracted(allowed)
 
 
-def _round_down(value: float) -> float:
+def round_length(most: float) -> tuple[float, str]:
+    """Return the greatest round length, m, that is not more, and how it is written."""
+    length = round_down(most)
+    unit, name = next((one for one in _UNITS if length >= 0.9999 * one[0]), _UNITS[-1])
+    return length, f"{rounded(length / unit)} {name}"
+
+
+def round_down(value: float) -> float:
     """Return the greatest 1, 2 or 5 times a power of ten that is not more."""
     power = 10.0 ** floor(log10(value))
     return next(step * power for step in _STEPS if step * power <= value * (1 + 1e-12))

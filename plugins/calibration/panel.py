@@ -12,10 +12,11 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_files
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.scroll_areas import lay_beside, tabbed
+from rotemina.plugins.calibration import mark, tr
 from rotemina.plugins.calibration.procedure_controls import Procedure
 from rotemina.plugins.calibration.result_view import ResultView
 from rotemina.plugins.calibration.stored_view import StoredView
@@ -28,7 +29,7 @@ from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 from rotemina.sim.trajectory.dry_run import dry_run
 
-RECORDS = marked("calibration", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
+RECORDS = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
 _ISO, _STORED = 1, 2  # tabs
 _WIDTH = 276  # of the procedure at least, px
 
@@ -51,12 +52,8 @@ class CalibrationPanel(Panel):
         self._motion: CheckedTrajectory | None = None
         self._run: CalibrationRun | None = None
         self.tabs, self.views = tabbed(
-            translate("calibration", "View"),
-            {
-                translate("calibration", "Result"): self.result,
-                "ISO 230-2": self.result.iso,
-                translate("calibration", "Stored"): self.stored,
-            },
+            tr("View"),
+            {tr("Result"): self.result, "ISO 230-2": self.result.iso, tr("Stored"): self.stored},
         )
         self.tabs.setTabEnabled(_ISO, False)
         lay_beside(self, self.procedure, _WIDTH, self.tabs, self.views)
@@ -75,9 +72,7 @@ class CalibrationPanel(Panel):
             motion = calibration_motion(robot, axis, runs=runs, targets=targets)
             return dry_run(robot, motion, setpoint_period_s=period_s).require()
 
-        self.workbench.work(
-            "calibration plan", translate("calibration", "Planning …"), work, self._take_plan
-        )
+        self.workbench.work("calibration plan", tr("Planning …"), work, self._take_plan)
 
     def start(self) -> None:
         """Play the planned motion; sensor and laser are recorded."""
@@ -127,20 +122,18 @@ class CalibrationPanel(Panel):
 
         def done(path: Path) -> None:
             self.result.done_storing()
-            text = translate("calibration", "Calibration of {axis} in use: {path}")
+            text = tr("Calibration of {axis} in use: {path}")
             self.workbench.notify(Level.GOOD, text.format(axis=calibration.axis, path=path))
             self._look()
 
-        self.workbench.work(
-            "store calibration", translate("calibration", "Storing the calibration …"), work, done
-        )
+        self.workbench.work("store calibration", tr("Storing the calibration …"), work, done)
 
     def switch(self, axis: str, path: Path | None) -> None:
         """Use a stored calibration of an axis, or none."""
         store = self.workbench.operation.calibrations
         self.workbench.work(
             "switch calibration",
-            translate("calibration", "Switching the calibration …"),
+            tr("Switching the calibration …"),
             lambda: store.switch(axis, path),
             lambda _: self._look(),
         )
@@ -153,7 +146,7 @@ class CalibrationPanel(Panel):
 
     def _forget_plan(self) -> None:
         self._motion = None
-        self.procedure.told.setText(translate("calibration", NOTHING))
+        self.procedure.told.setText(tr(NOTHING))
         self.procedure.progress.setValue(0)
 
     def _take_plan(self, motion: CheckedTrajectory) -> None:
@@ -181,7 +174,7 @@ class CalibrationPanel(Panel):
         if run.record is not None:
             self.fit_record(f"calibration of {self.procedure.chosen}", run.record)
         elif state.phase is Phase.FAILED:
-            text = translate("calibration", "Calibration: {message}.")
+            text = tr("Calibration: {message}.")
             self.workbench.notify(
                 Level.ERROR, text.format(message=spoken(state.message)), about=self
             )
@@ -199,12 +192,7 @@ class CalibrationPanel(Panel):
             )
             return found, tuple(source_of(record, name) for name, record in read)
 
-        self.workbench.work(
-            "calibration fit",
-            translate("calibration", "Fitting the sensor …"),
-            work,
-            self._take_result,
-        )
+        self.workbench.work("calibration fit", tr("Fitting the sensor …"), work, self._take_result)
 
     def _take_result(self, answer: tuple[Calibration, tuple[Source, ...]]) -> None:
         self.calibration, self._sources = answer
@@ -222,21 +210,18 @@ class CalibrationPanel(Panel):
 
         def done(answer: tuple[tuple[Stored, ...], tuple[str, ...]]) -> None:
             self.stored.show_stored(answer[0])
-            text = translate("calibration", "Stored")
+            text = tr("Stored")
             if answer[0]:
-                text = translate("calibration", "Stored ({n})").format(n=len(answer[0]))
+                text = tr("Stored ({n})").format(n=len(answer[0]))
             self.tabs.setTabText(_STORED, text)
             for problem in answer[1]:
                 self.workbench.notify(Level.WARNING, problem, about=self)
 
-        self.workbench.work(
-            "stored calibrations", translate("calibration", "Reading calibrations …"), work, done
-        )
+        self.workbench.work("stored calibrations", tr("Reading calibrations …"), work, done)
 
     def _ask_records(self) -> None:
-        title = translate("calibration", "Records with sensor and laser")
-        kinds = translate("calibration", RECORDS)
-        ask_files(self, self.workbench, title, kinds, self.fit_files)
+        title = tr("Records with sensor and laser")
+        ask_files(self, self.workbench, title, tr(RECORDS), self.fit_files)
 
     def _close_run(self) -> None:
         if self._run is not None:

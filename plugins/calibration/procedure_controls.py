@@ -1,16 +1,14 @@
 """The procedure's controls: which axis, how many runs, plan, run, stop, or fit files."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QFormLayout,
     QGridLayout,
-    QLabel,
     QProgressBar,
     QPushButton,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -18,9 +16,11 @@ from rotemina.app.calibration.calibration_playback import Phase, RunState
 from rotemina.app.display_units import label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
-from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.controls import allow, named
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.calibration import tr
 from rotemina.plugins.calibration.words import NOTHING, cycles, progress
 from rotemina.sim.calibration.plan import RUNS, TARGETS
 from rotemina.sim.records.record import Record
@@ -40,45 +40,27 @@ class Procedure(QWidget):
     def __init__(self, robot: Robot) -> None:
         super().__init__()
         self._robot = robot
-        self.axis = QComboBox()
-        self.axis.setAccessibleName(translate("calibration", "Axis"))
-        self.axis.setToolTip(translate("calibration", "Axis whose sensor is calibrated"))
+        self.axis = named(QComboBox(), tr("Axis"), tr("Axis whose sensor is calibrated"))
         for name in robot.axes:
             self.axis.addItem(label(name), name)
-        self.runs = _count(translate("calibration", "Runs"), 3, 50, RUNS)
+        self.runs = _count(tr("Runs"), 3, 50, RUNS)
         self.runs.setToolTip(
-            translate(
-                "calibration",
-                "3 to 50; each run validates the fit of the others once; ISO 230-2 requires 5",
-            )
+            tr("3 to 50; each run validates the fit of the others once; ISO 230-2 requires 5")
         )
-        self.targets = _count(translate("calibration", "Targets"), 5, 101, TARGETS)
-        self.targets.setToolTip(
-            translate("calibration", "5 to 101 positions, approached from both sides (ISO 230-2)")
-        )
-        self.absolute = QCheckBox(translate("calibration", "the laser's zero is the axis' zero"))
+        self.targets = _count(tr("Targets"), 5, 101, TARGETS)
+        self.targets.setToolTip(tr("5 to 101 positions, approached from both sides (ISO 230-2)"))
+        self.absolute = QCheckBox(tr("the laser's zero is the axis' zero"))
         self.absolute.setChecked(True)
         self.absolute.setToolTip(
-            translate(
-                "calibration",
-                "Off: the zero of the laser is arbitrary; the reading at mid-travel stays",
-            )
+            tr("Off: the zero of the laser is arbitrary; the reading at mid-travel stays")
         )
-        self.plan, self.run = (
-            QPushButton(translate("calibration", "Plan")),
-            QPushButton(translate("calibration", "Run")),
-        )
-        self.stop, self.fit = (
-            QPushButton(translate("calibration", "Stop")),
-            QPushButton(translate("calibration", "Fit records …")),
-        )
+        self.plan, self.run = QPushButton(tr("Plan")), QPushButton(tr("Run"))
+        self.stop, self.fit = QPushButton(tr("Stop")), QPushButton(tr("Fit records …"))
         self.run.setProperty("primary", True)
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
-        self.told = QLabel(translate("calibration", NOTHING))
-        self.told.setTextFormat(Qt.TextFormat.PlainText)
-        self.told.setWordWrap(True)
+        self.told = plain_text(tr(NOTHING), quiet=False, wrap=True)
         self._lay_out()
         self.axis.currentIndexChanged.connect(self._change)
         for field in (self.runs, self.targets):
@@ -98,36 +80,22 @@ class Procedure(QWidget):
     def refresh(self, session: SessionState, motion: Record | None, run: RunState) -> None:
         """Enable what can be done now, and say why the rest cannot."""
         moving = run.phase is Phase.MOVING
-        why_not = translate("calibration", "a run is in progress") if moving else None
+        why_not = tr("a run is in progress") if moving else None
         for widget in (self.axis, self.runs, self.absolute):
             widget.setEnabled(not moving)
         self.targets.setEnabled(not moving and cycles(self._robot, self.chosen))
+        allow(self.plan, why_not, tr("Compute the motion and check it against all limits"))
+        allow(self.fit, why_not, tr("Fit records of this axis with its sensor and the laser"))
         allow(
-            self.plan,
-            why_not,
-            translate("calibration", "Compute the motion and check it against all limits"),
-        )
-        allow(
-            self.fit,
-            why_not,
-            translate("calibration", "Fit records of this axis with its sensor and the laser"),
-        )
-        allow(
-            self.stop,
-            None if moving else translate("calibration", "no run is in progress"),
-            translate("calibration", "Stop the machine now"),
+            self.stop, None if moving else tr("no run is in progress"), tr("Stop the machine now")
         )
         if why_not is None and session.locked is not None:
             why_not = spoken(session.locked)
         if why_not is None and motion is None:
-            why_not = translate("calibration", "there is no plan yet")
+            why_not = tr("there is no plan yet")
         if why_not is None and session.activity is not DeviceState.IDLE:
-            why_not = translate("calibration", "the machine is still moving")
-        allow(
-            self.run,
-            why_not,
-            translate("calibration", "Play the motion, record sensor and laser, and fit"),
-        )
+            why_not = tr("the machine is still moving")
+        allow(self.run, why_not, tr("Play the motion, record sensor and laser, and fit"))
 
     def _change(self) -> None:
         self.targets.setEnabled(cycles(self._robot, self.chosen))
@@ -136,27 +104,19 @@ class Procedure(QWidget):
     def _lay_out(self) -> None:
         form = QFormLayout()
         form.setContentsMargins(0, 0, 0, 0)
-        form.addRow(translate("calibration", "Axis"), self.axis)
-        form.addRow(translate("calibration", "Runs"), self.runs)
-        form.addRow(translate("calibration", "Targets"), self.targets)
+        form.addRow(tr("Axis"), self.axis)
+        form.addRow(tr("Runs"), self.runs)
+        form.addRow(tr("Targets"), self.targets)
         buttons = QGridLayout()
         for place, button in enumerate((self.plan, self.run, self.stop, self.fit)):
             buttons.addWidget(button, place // 2, place % 2)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 6, 0)
-        column.setSpacing(4)
-        column.addLayout(form)
-        column.addWidget(self.absolute)
-        column.addLayout(buttons)
-        column.addWidget(self.progress)
-        column.addWidget(self.told)
-        column.addStretch(1)
+        parts = form, self.absolute, buttons, self.progress, self.told, 1
+        in_column(*parts, on=self, margins=(0, 0, 6, 0), spacing=4)
 
 
 def _count(name: str, least: int, most: int, preset: int) -> QSpinBox:
-    field = QSpinBox()
+    field = named(QSpinBox(), name)
     field.setRange(least, most)
     field.setValue(preset)
-    field.setAccessibleName(name)
     field.setKeyboardTracking(False)
     return field

@@ -3,14 +3,15 @@
 from html import escape
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSplitter, QWidget
 
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.labels import legend, plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.calibration import mark, tr
 from rotemina.plugins.calibration.words import (
     FIGURES_HEAD,
     ISO_HEAD,
@@ -23,10 +24,8 @@ from rotemina.plugins.calibration.words import (
 )
 from rotemina.sim.calibration.sensor_calibration import Calibration
 
-_TIP = marked(
-    "calibration",
-    "Store this calibration with its date, and correct the readings of the axis"
-    " with it from now on",
+_TIP = mark(
+    "Store this calibration with its date, and correct the readings of the axis with it from now on"
 )
 
 
@@ -55,14 +54,12 @@ class ResultView(QWidget):
         self.figures, self.iso = (
             Table(name, shown(head), choose=False)
             for name, head in (
-                (translate("calibration", "Figures of the sensor"), FIGURES_HEAD),
-                (translate("calibration", "Figures of ISO 230-2"), ISO_HEAD),
+                (tr("Figures of the sensor"), FIGURES_HEAD),
+                (tr("Figures of ISO 230-2"), ISO_HEAD),
             )
         )
-        self.verdict = QLabel()
-        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
-        self.verdict.setWordWrap(True)
-        self.store = QPushButton(translate("calibration", "Store and use"))
+        self.verdict = plain_text(quiet=False, wrap=True)
+        self.store = QPushButton(tr("Store and use"))
         self.store.clicked.connect(self.stored)
         self._lay_out()
         self.show_result(None)
@@ -84,18 +81,14 @@ class ResultView(QWidget):
         self.iso.show_rows(iso(result) if result is not None else ())
         self.verdict.setText(verdict(result) if result is not None else "")
         self.verdict.setVisible(result is not None)
-        why_not = (
-            translate("calibration", "there is no result yet") if result is None else result.refusal
-        )
-        allow(self.store, why_not, translate("calibration", _TIP))
+        why_not = tr("there is no result yet") if result is None else result.refusal
+        allow(self.store, why_not, tr(_TIP))
         if result is not None:
             self.show_drawing(error_drawing(result))
 
     def done_storing(self) -> None:
         """Show that the result is kept."""
-        allow(
-            self.store, translate("calibration", "already stored"), translate("calibration", _TIP)
-        )
+        allow(self.store, tr("already stored"), tr(_TIP))
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
@@ -107,27 +100,17 @@ class ResultView(QWidget):
         if self._drawing is None:
             return
         curves = self._drawing.curves
-        named = [(translate("calibration", name), role) for name, role, _ in curves if name]
+        named = [(tr(name), role) for name, role, _ in curves if name]
         names = legend(self._theme, named)
         self.title.setText(f"{escape(self._drawing.left)}{': ' if names else ''}{names}")
 
     def _lay_out(self) -> None:
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.title)
-        column.addWidget(self.plot, 1)
+        in_column(self.title, (self.plot, 1), on=left, margins=0, spacing=2)
         tables = QSplitter(Qt.Orientation.Horizontal)
         tables.addWidget(left)
         tables.addWidget(self.figures)
         tables.setSizes([380, 340])
-        foot = QHBoxLayout()
-        foot.addWidget(self.verdict, 1)
-        foot.addStretch(0)
+        foot = in_row((self.verdict, 1), 0)
         foot.addWidget(self.store, 0, Qt.AlignmentFlag.AlignTop)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(4)
-        outer.addWidget(tables, 1)
-        outer.addLayout(foot)
+        in_column((tables, 1), foot, on=self, margins=0, spacing=4)

@@ -3,15 +3,16 @@
 from pathlib import Path
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from rotemina.app.calibration.store import Stored
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.calibration import mark, tr
 from rotemina.plugins.calibration.words import STORED_HEAD, shown, stored_row
 
-_NONE = marked("calibration", "select a calibration in the table")
+_NONE = mark("select a calibration in the table")
 
 
 class StoredView(QWidget):
@@ -27,23 +28,12 @@ class StoredView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.stored: tuple[Stored, ...] = ()
-        self.table = Table(translate("calibration", "Stored calibrations"), shown(STORED_HEAD))
+        self.table = Table(tr("Stored calibrations"), shown(STORED_HEAD))
         self.table.itemSelectionChanged.connect(self._allow)
-        self.on, self.off = (
-            QPushButton(translate("calibration", "Use")),
-            QPushButton(translate("calibration", "Switch off")),
-        )
+        self.on, self.off = QPushButton(tr("Use")), QPushButton(tr("Switch off"))
         self.on.clicked.connect(lambda: self._switch(on=True))
         self.off.clicked.connect(lambda: self._switch(on=False))
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        buttons.addWidget(self.on)
-        buttons.addWidget(self.off)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        column.addWidget(self.table, 1)
-        column.addLayout(buttons)
+        in_column((self.table, 1), in_row(1, self.on, self.off), on=self, margins=0, spacing=4)
         self._allow()
 
     @property
@@ -71,18 +61,14 @@ class StoredView(QWidget):
             self.switched.emit(chosen.calibration.axis, path)
 
     def _allow(self) -> None:
-        chosen, none = self.chosen, translate("calibration", _NONE)
-        already = (
-            None if chosen is None or not chosen.on else translate("calibration", "already on")
-        )
-        idle = None if chosen is None or chosen.on else translate("calibration", "already off")
+        chosen, none = self.chosen, tr(_NONE)
+        already = None if chosen is None or not chosen.on else tr("already on")
+        idle = None if chosen is None or chosen.on else tr("already off")
         allow(
-            self.on,
-            none if chosen is None else already,
-            translate("calibration", "Correct the axis' readings with it"),
+            self.on, none if chosen is None else already, tr("Correct the axis' readings with it")
         )
         allow(
             self.off,
             none if chosen is None else idle,
-            translate("calibration", "Do not correct the readings of the axis"),
+            tr("Do not correct the readings of the axis"),
         )

@@ -10,30 +10,17 @@ from rotemina.app.calibration.store import Stored
 from rotemina.app.calibration.words import figure_rows, iso_rows
 from rotemina.app.display_units import duration_text, label
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.calibration import mark, tr
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.calibration.sensor_calibration import Calibration
 from rotemina.sim.quantities import amount, scale_of
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot, StepperAxis
 
-STORED_HEAD = (
-    marked("calibration", "axis"),
-    marked("calibration", "date"),
-    marked("calibration", "error before"),
-    marked("calibration", "after"),
-    marked("calibration", "state"),
-)
-FIGURES_HEAD = (marked("calibration", "figure"), marked("calibration", "value"), "± 95 %")
-ISO_HEAD = (
-    "ISO 230-2",
-    marked("calibration", "reading before"),
-    marked("calibration", "after"),
-    marked("calibration", "position reached"),
-)
-NOTHING = marked(
-    "calibration", "Plan and run the motion, or fit records with the sensor and the laser."
-)
+STORED_HEAD = (mark("axis"), mark("date"), mark("error before"), mark("after"), mark("state"))
+FIGURES_HEAD = (mark("figure"), mark("value"), "± 95 %")
+ISO_HEAD = ("ISO 230-2", mark("reading before"), mark("after"), mark("position reached"))
+NOTHING = mark("Plan and run the motion, or fit records with the sensor and the laser.")
 
 
 class Drawing(NamedTuple):
@@ -48,17 +35,12 @@ class Drawing(NamedTuple):
 def planned(motion: Record, axis: str, robot: Robot) -> str:
     """Return what a motion is."""
     if cycles(robot, axis):
-        text = translate(
-            "calibration",
-            "{axis}: {runs} runs, ISO 230-2 cycles of {targets} targets, {ends}, {time} min",
-        )
+        text = tr("{axis}: {runs} runs, ISO 230-2 cycles of {targets} targets, {ends}, {time} min")
     else:
-        text = translate(
-            "calibration", "{axis}: {runs} runs, triangles and moves, {ends}, {time} min"
-        )
+        text = tr("{axis}: {runs} runs, triangles and moves, {ends}, {time} min")
     low, high = (float(end(motion.signal(axis, Tap.CMD))) for end in (np.min, np.max))
     unit = robot.unit(axis) or "m"
-    ends = translate("calibration", "{low} to {high}").format(
+    ends = tr("{low} to {high}").format(
         low=amount(low, unit, size=high), high=amount(high, unit, size=high)
     )
     return text.format(
@@ -75,8 +57,8 @@ def motion_drawing(motion: Record, axis: str) -> Drawing:
     command = motion.signal(axis, Tap.CMD)
     scale = scale_of(motion.units[axis], float(np.abs(command).max()))
     return Drawing(
-        translate("calibration", "set-point [{unit}]").format(unit=scale.symbol),
-        translate("calibration", "time [s]"),
+        tr("set-point [{unit}]").format(unit=scale.symbol),
+        tr("time [s]"),
         motion.time_s,
         (("", "command", scale(command)),),
     )
@@ -91,13 +73,13 @@ def error_drawing(calibration: Calibration) -> Drawing:
     curves = tuple(
         (name, role, scale(error[order]))
         for name, role, error in (
-            (marked("calibration", "before"), "real", calibration.before),
-            (marked("calibration", "after"), "good", calibration.after),
+            (mark("before"), "real", calibration.before),
+            (mark("after"), "good", calibration.after),
         )
     )
     return Drawing(
-        translate("calibration", "error of the reading [{unit}]").format(unit=scale.symbol),
-        translate("calibration", "position [{unit}]").format(unit=across.symbol),
+        tr("error of the reading [{unit}]").format(unit=scale.symbol),
+        tr("position [{unit}]").format(unit=across.symbol),
         across(calibration.position[order]),
         curves,
     )
@@ -107,29 +89,23 @@ def progress(state: RunState, duration_s: float) -> str:
     """Return how far a run is."""
     if state.phase is Phase.MOVING:
         left_s = (1.0 - state.progress) * duration_s
-        text = translate("calibration", "Running: {share:.0f} %, {time} left")
+        text = tr("Running: {share:.0f} %, {time} left")
         return text.format(share=100.0 * state.progress, time=duration_text(left_s))
     if state.phase is Phase.FAILED:
-        return translate("calibration", "The run has failed: {message}.").format(
-            message=spoken(state.message)
-        )
-    return translate("calibration", "The run is complete.") if state.phase is Phase.DONE else ""
+        return tr("The run has failed: {message}.").format(message=spoken(state.message))
+    return tr("The run is complete.") if state.phase is Phase.DONE else ""
 
 
 def verdict(calibration: Calibration) -> str:
     """Return the benefit of a calibration, and its notes."""
     unit = calibration.unit
     if calibration.refusal is not None:
-        text = translate("calibration", "Refused: {reason}.").format(
-            reason=spoken(calibration.refusal)
-        )
+        text = tr("Refused: {reason}.").format(reason=spoken(calibration.refusal))
     else:
         before, after = (
             amount(each, unit) for each in (calibration.before_rms, calibration.after_rms)
         )
-        text = translate(
-            "calibration", "Error in the validation runs: {before} rms before, {after} after."
-        )
+        text = tr("Error in the validation runs: {before} rms before, {after} after.")
         text = text.format(before=before, after=after)
     return "\n".join(
         [text, *(f"{note[:1].upper()}{note[1:]}." for note in map(spoken, calibration.notes))]
@@ -155,7 +131,7 @@ def iso(calibration: Calibration) -> tuple[tuple[str, ...], ...]:
 
 def shown(head: tuple[str, ...]) -> tuple[str, ...]:
     """Return a head in the language of the window."""
-    return tuple(translate("calibration", text) for text in head)
+    return tuple(tr(text) for text in head)
 
 
 def stored_row(one: Stored) -> tuple[str, ...]:
@@ -166,7 +142,7 @@ def stored_row(one: Stored) -> tuple[str, ...]:
         kept.date.replace("T", " ")[:16],
         amount(kept.before_rms, kept.unit),
         amount(kept.after_rms, kept.unit),
-        translate("calibration", "on") if one.on else translate("calibration", "off"),
+        tr("on") if one.on else tr("off"),
     )
 
 

@@ -4,14 +4,7 @@ from collections.abc import Sequence
 from html import escape
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QSplitter,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QPushButton, QSplitter, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.panel import Area, Panel
@@ -21,26 +14,25 @@ from rotemina.app.shell.plot import LINES, SignalPlot
 from rotemina.app.shell.report_files import RUN_REPORT, RUN_REPORT_TIP, ask_run_report
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Run, Workbench
-from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.labels import legend, plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.comparison import mark, tr
 from rotemina.sim.comparison.comparison import TapComparison
 from rotemina.sim.comparison.gap import GapFigure, gap_text
 from rotemina.sim.comparison.table import HEAD, cells
 from rotemina.sim.quantities import scale_of
 from rotemina.sim.records.record import Tap
 
-EMPTY = marked(
-    "comparison",
-    "Play a trajectory or open a record of the real machine to compare it with the model.",
-)
+EMPTY = mark("Play a trajectory or open a record of the real machine to compare it with the model.")
 COLUMNS = (
-    marked("comparison", "signal"),
+    mark("signal"),
     RUN,
-    marked("comparison", "without offset"),
-    marked("comparison", "nominal"),
-    marked("comparison", "noise floor"),
-    marked("comparison", "rel. error"),
-    marked("comparison", "delay"),
+    mark("without offset"),
+    mark("nominal"),
+    mark("noise floor"),
+    mark("rel. error"),
+    mark("delay"),
 )
 
 
@@ -54,24 +46,20 @@ class ComparisonPanel(Panel):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self.open = QPushButton(translate("comparison", "Open record …"))
-        self.open.setToolTip(
-            translate("comparison", "Compare a record of the real machine with the model (Ctrl+O)")
-        )
+        self.open = QPushButton(tr("Open record …"))
+        self.open.setToolTip(tr("Compare a record of the real machine with the model (Ctrl+O)"))
         self.open.clicked.connect(lambda: self.main_window.ask_record())
-        self.save = QPushButton(translate("comparison", "Save record …"))
-        self.save.setToolTip(translate("comparison", "Save the current record to a file (Ctrl+S)"))
+        self.save = QPushButton(tr("Save record …"))
+        self.save.setToolTip(tr("Save the current record to a file (Ctrl+S)"))
         self.save.clicked.connect(lambda: self.main_window.ask_save())
         self.report = QPushButton(translate("shell", RUN_REPORT))
         self.report.setToolTip(translate("shell", RUN_REPORT_TIP))
         self.report.clicked.connect(lambda: ask_run_report(self, workbench))
         for one in (self.save, self.report):
             one.setEnabled(False)
-        self.summary = QLabel(translate("comparison", EMPTY))
-        self.summary.setWordWrap(True)
-        self.summary.setTextFormat(Qt.TextFormat.PlainText)
+        self.summary = plain_text(tr(EMPTY), quiet=False, wrap=True)
         self.table = Table(
-            translate("comparison", "Signals and their gaps"),
+            tr("Signals and their gaps"),
             [translate("shell" if name is RUN else "comparison", name) for name in COLUMNS],
             row_height=24,
         )
@@ -89,26 +77,19 @@ class ComparisonPanel(Panel):
         workbench.theme_changed.connect(self._use_theme)
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.open)
-        buttons.addWidget(self.save)
-        buttons.addWidget(self.report)
-        buttons.addWidget(self.summary, 1)
+        buttons = in_row(self.open, self.save, self.report, (self.summary, 1))
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
         split.addWidget(_titled(self.signals_title, self.signals))
         split.addWidget(_titled(self.gap_title, self.gap))
         split.setSizes([620, 220, 220])
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(10, 8, 10, 8)
-        outer.addLayout(buttons)
-        outer.addWidget(split, 1)
+        in_column(buttons, (split, 1), on=self, margins=(10, 8, 10, 8))
 
     def _show_run(self, run: Run) -> None:
         record = run.record
-        state = "" if run.completed else translate("comparison", ", stopped early")
+        state = "" if run.completed else tr(", stopped early")
         self.summary.setText(
-            translate("comparison", "{name}: {duration:.3f} s, {n} samples{state}").format(
+            tr("{name}: {duration:.3f} s, {n} samples{state}").format(
                 name=run.name, duration=record.duration_s, n=len(record.time_s), state=state
             )
             + (f"  ·  {run.model_id}" if run.model_id else "")
@@ -138,17 +119,12 @@ class ComparisonPanel(Panel):
         self.signals.show_signal("model", time_s, scale(model))
         self.gap.show_signal("gap", time_s, gap(real - model))
         self.signals.set_time(0.0, max(record.duration_s, 1e-9))
-        named = (
-            (translate("comparison", "real"), "real"),
-            (translate("comparison", "model in use"), "model"),
-        )
+        named = ((tr("real"), "real"), (tr("model in use"), "model"))
         self.signals_title.setText(
             f"{escape(label(tap.axis))} {tap.tap} [{scale.symbol}]: "
             f"{legend(self.workbench.theme, named)}"
         )
-        self.gap_title.setText(
-            translate("comparison", "real − model [{symbol}]").format(symbol=gap.symbol)
-        )
+        self.gap_title.setText(tr("real − model [{symbol}]").format(symbol=gap.symbol))
         self.signals.enableAutoRange(axis="y")
         self.gap.enableAutoRange(axis="y")
 
@@ -166,11 +142,7 @@ def _worst(taps: Sequence[TapComparison]) -> int:
 
 def _titled(title: QLabel, plot: SignalPlot) -> QWidget:
     box = QWidget()
-    column = QVBoxLayout(box)
-    column.setContentsMargins(4, 0, 0, 0)
-    column.setSpacing(2)
-    column.addWidget(title)
-    column.addWidget(plot, 1)
+    in_column(title, (plot, 1), on=box, margins=(4, 0, 0, 0), spacing=2)
     return box
 
 

@@ -1,30 +1,30 @@
 """The panel's controls for training, applying and tuning."""
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QGridLayout,
     QLabel,
     QProgressBar,
     QPushButton,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.controls import named
+from rotemina.app.widgets.labels import heading, plain_text
+from rotemina.app.widgets.layouts import in_column, in_grid
+from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.trial_motion import Aid
 from rotemina.plugins.compensation.typed_gains import TypedGains
 from rotemina.plugins.compensation.words import APPLY, LIVE_LOOP, SWITCH
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
 _LEFT = {
-    Aid.NONE: marked("compensation", "Without"),
-    Aid.INVERSE: marked("compensation", "Inverse"),
-    Aid.LOOP: marked("compensation", "Feedback"),
-    Aid.BOTH: marked("compensation", "Both"),
+    Aid.NONE: mark("Without"),
+    Aid.INVERSE: mark("Inverse"),
+    Aid.LOOP: mark("Feedback"),
+    Aid.BOTH: mark("Both"),
 }
 
 
@@ -33,61 +33,34 @@ class Controls(QWidget):
 
     def __init__(self, robot: Robot) -> None:
         super().__init__()
-        self.axis = QComboBox()
-        self.axis.setAccessibleName(translate("compensation", "Axis"))
-        self.axis.setToolTip(translate("compensation", "Piezo axis in open loop to be compensated"))
+        self.axis = named(QComboBox(), tr("Axis"), tr("Piezo axis in open loop to be compensated"))
         for name, axis in robot.axes.items():
             if isinstance(axis, PiezoAxis) and axis.controller is None:
                 self.axis.addItem(label(name), name)
-        self.simulate, self.record = (
-            QPushButton(translate("compensation", "Simulator")),
-            QPushButton(translate("compensation", "Last record")),
-        )
+        self.simulate, self.record = QPushButton(tr("Simulator")), QPushButton(tr("Last record"))
         self.files, self.open, self.save = (
-            QPushButton(text)
-            for text in (
-                translate("compensation", "Records …"),
-                translate("compensation", "Open …"),
-                translate("compensation", "Save …"),
-            )
+            QPushButton(text) for text in (tr("Records …"), tr("Open …"), tr("Save …"))
         )
-        self.kind = QComboBox()
-        self.kind.setAccessibleName(translate("compensation", "Inverse to apply"))
-        self.kind.setToolTip(translate("compensation", "Trained inverse to apply"))
-        self.switch, self.trial = (
-            _switch(SWITCH, primary=True),
-            QPushButton(translate("compensation", "Try it")),
-        )
-        self.sweep = QPushButton(translate("compensation", "Sweep"))
-        self.residuals = {one: _told("") for one in Aid}
-        self.beyond = _told("")
-        self.tune, self.open_gains = (
-            QPushButton(translate("compensation", "Tune")),
-            QPushButton(translate("compensation", "Open …")),
-        )
-        self.keep, self.apply = (
-            QPushButton(translate("compensation", "Save gains …")),
-            _switch(APPLY),
-        )
+        self.kind = named(QComboBox(), tr("Inverse to apply"), tr("Trained inverse to apply"))
+        self.switch, self.trial = _switch(SWITCH, primary=True), QPushButton(tr("Try it"))
+        self.sweep = QPushButton(tr("Sweep"))
+        self.residuals = {one: _told() for one in Aid}
+        self.beyond = _told()
+        self.tune, self.open_gains = QPushButton(tr("Tune")), QPushButton(tr("Open …"))
+        self.keep, self.apply = QPushButton(tr("Save gains …")), _switch(APPLY)
         self.generations = QSpinBox()
         self.generations.setRange(1, 500)
         self.generations.setValue(50)
-        self.generations.setAccessibleName(
-            translate("compensation", "Generations of 60 individuals")
-        )
-        self.generations.setToolTip(
-            translate("compensation", "1 to 500 generations of 60 individuals each")
-        )
-        self.forward = QCheckBox(translate("compensation", "through the inverse"))
-        self.forward.setToolTip(
-            translate("compensation", "Feed the reference forward through the current inverse")
-        )
+        self.generations.setAccessibleName(tr("Generations of 60 individuals"))
+        self.generations.setToolTip(tr("1 to 500 generations of 60 individuals each"))
+        self.forward = QCheckBox(tr("through the inverse"))
+        self.forward.setToolTip(tr("Feed the reference forward through the current inverse"))
         self.typed = TypedGains(robot)
-        self.stop = QPushButton(translate("compensation", "Stop"))
+        self.stop = QPushButton(tr("Stop"))
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
-        self.doing, self.point = _told(""), _told("")
+        self.doing, self.point = _told(), _told()
         self._lay_out()
 
     @property
@@ -102,27 +75,23 @@ class Controls(QWidget):
         self.progress.setValue(round(1000.0 * (share or 0.0)))
 
     def _lay_out(self) -> None:
-        grid = QGridLayout()
-        grid.setSpacing(5)
+        grid = in_grid(spacing=5)
         rows: tuple[tuple[tuple[QWidget, int], ...], ...] = (
-            ((_plain(translate("compensation", "Axis")), 1), (self.axis, 2)),
-            ((_head(translate("compensation", "Train with")), 3),),
+            ((QLabel(tr("Axis")), 1), (self.axis, 2)),
+            ((heading(tr("Train with")), 3),),
             ((self.simulate, 1), (self.record, 1), (self.files, 1)),
             ((self.open, 1), (self.save, 1)),
-            ((_head(translate("compensation", "Feed-forward")), 3),),
+            ((heading(tr("Feed-forward")), 3),),
             ((self.kind, 3),),
             ((self.switch, 1), (self.sweep, 1), (self.trial, 1)),
-            ((_head(translate("compensation", "Feedback")), 3),),
+            ((heading(tr("Feedback")), 3),),
             ((self.tune, 1), (self.generations, 1)),
             ((self.forward, 3),),
             ((self.point, 3),),
             ((self.typed, 3),),
             ((self.apply, 1), (self.keep, 1), (self.open_gains, 1)),
-            ((_head(translate("compensation", "Remaining error of a trial")), 3),),
-            *(
-                ((_plain(translate("compensation", _LEFT[one])), 1), (told, 2))
-                for one, told in self.residuals.items()
-            ),
+            ((heading(tr("Remaining error of a trial")), 3),),
+            *(((QLabel(tr(_LEFT[one])), 1), (told, 2)) for one, told in self.residuals.items()),
             ((self.beyond, 3),),
         )
         for number, row in enumerate(rows):
@@ -130,32 +99,14 @@ class Controls(QWidget):
             for widget, span in row:
                 grid.addWidget(widget, number, column, 1, span)
                 column += span
-        remark = _told(translate("compensation", LIVE_LOOP))
-        remark.setProperty("quiet", True)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 4, 0)
-        whole.addLayout(grid)
-        whole.addWidget(remark)
-        for widget in (self.doing, self.progress, self.stop):
-            whole.addWidget(widget)
-        whole.addStretch(1)
+        remark = plain_text(tr(LIVE_LOOP), wrap=True)
+        in_column(
+            grid, remark, self.doing, self.progress, self.stop, 1, on=self, margins=(0, 0, 4, 0)
+        )
 
 
-def _told(text: str) -> QLabel:
-    label_ = QLabel(text)
-    label_.setTextFormat(Qt.TextFormat.PlainText)
-    label_.setWordWrap(True)
-    return label_
-
-
-def _plain(text: str) -> QLabel:
-    return QLabel(text)
-
-
-def _head(text: str) -> QLabel:
-    head = QLabel(text)
-    head.setProperty("heading", True)
-    return head
+def _told() -> QLabel:
+    return plain_text(quiet=False, wrap=True)
 
 
 def _switch(texts: tuple[str, str], *, primary: bool = False) -> QPushButton:
@@ -164,7 +115,7 @@ def _switch(texts: tuple[str, str], *, primary: bool = False) -> QPushButton:
     button.setProperty("primary", primary)  # its bold text takes more room
     width = 0
     for text in reversed(texts):
-        button.setText(translate("compensation", text))
+        button.setText(tr(text))
         width = max(width, button.sizeHint().width())
     button.setMinimumWidth(width)
     return button

@@ -6,8 +6,8 @@ from threading import Event as Flag
 from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.shell.background_job import Job, Tell
-from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.background_search import problem_of, search
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.plot_views import FrontView
@@ -58,7 +58,7 @@ class GainSearch(QObject):
         self.tuning = self._problem = None
 
         def work(tell: Tell) -> tuple[TuningProblem, Tuning]:
-            tell(marked("compensation", "Preparing the simulated loop"), 0.0, None)
+            tell(mark("Preparing the simulated loop"), 0.0, None)
             problem = problem_of(robot, axis, model)
 
             def told(found: Generation) -> bool:
@@ -86,19 +86,11 @@ class GainSearch(QObject):
         """Write the gains with the point that was taken."""
         tuning = self.tuning
 
-        def done(_: None) -> None:
+        def done() -> None:
             self.name = path.name
-            self._workbench.notify(
-                Level.GOOD, translate("compensation", "Saved {path}").format(path=path)
-            )
 
         if tuning is not None:
-            self._workbench.work(
-                "keep tuning",
-                translate("compensation", "Writing {name} …").format(name=path.name),
-                lambda: save_tuning(tuning, path),
-                done,
-            )
+            self._workbench.write_file("keep tuning", path, lambda: save_tuning(tuning, path), done)
 
     def open(self, path: Path) -> None:
         """Take the gains of a file in hand."""
@@ -106,12 +98,7 @@ class GainSearch(QObject):
         def done(tuning: Tuning) -> None:
             self._take(tuning, None, path.name)
 
-        self._workbench.work(
-            "open tuning",
-            translate("compensation", "Reading {name} …").format(name=path.name),
-            lambda: load_tuning(path),
-            done,
-        )
+        self._workbench.read_file("open tuning", path.name, lambda: load_tuning(path), done)
 
     def stop(self) -> None:
         """End the search; it keeps what it found."""
@@ -124,9 +111,9 @@ class GainSearch(QObject):
         self._trying.close()
 
     def _told(self, what: str, share: float, news: object) -> None:
-        told = translate("compensation", what) if what else ""
+        told = tr(what) if what else ""
         if isinstance(news, Generation):
-            text = translate("compensation", "{done} of {total} generations, {points} points")
+            text = tr("{done} of {total} generations, {points} points")
             told = text.format(done=news.done, total=news.total, points=len(news.front))
             self._front.show_generation(news, SearchSettings().against)
         self._controls.tell(told, share)

@@ -7,7 +7,7 @@ from importlib.metadata import version
 
 import numpy as np
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.compensation import mark
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.compensate.excitation import excitation
 from rotemina.sim.compensate.file import Provenance, Source
@@ -77,7 +77,7 @@ def learned_simulated(
     CompensationError, EffectError
         As :func:`learned_from`, or if an effect cannot be used.
     """
-    listener(marked("compensation", "moving the simulated axis"), 0.0)
+    listener(mark("moving the simulated axis"), 0.0)
     rng = np.random.default_rng(seed)
     record = simulate(robot, effects, excitation(robot, axis, rng), rng)
     run = samples_of(robot, axis, record, "simulation")
@@ -85,11 +85,7 @@ def learned_simulated(
 
 
 def _learned(
-    robot: Robot,
-    runs: list[Samples],
-    sources: list[Source],
-    seed: int | None,
-    listener: Listener,
+    robot: Robot, runs: list[Samples], sources: list[Source], seed: int | None, listener: Listener
 ) -> Learned:
     trained = train(robot, runs, listener=listener)
     provenance = Provenance(

@@ -6,10 +6,10 @@ from rotemina.app.motion.compensation import NamedInverse
 from rotemina.app.motion.regulation import NamedRegulation, regulation_of
 from rotemina.app.motion.state import Event, PlaybackFinished, SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.compensation import tr
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.inverse_training import Learned
 from rotemina.plugins.compensation.plot_views import LiveView
@@ -78,8 +78,7 @@ class Actuation:
 
         make = self._loop_of(robot, axis, own, name)
         if make is not None:
-            checking = translate("compensation", "Checking the loop …")
-            workbench.work("apply gains", checking, make, done)
+            workbench.work("apply gains", tr("Checking the loop …"), make, done)
 
     def _loop_of(
         self, robot: Robot, axis: str, tuning: Tuning | None, name: str
@@ -131,48 +130,33 @@ class Actuation:
         for one, told in controls.residuals.items():
             told.setText(residual_text(self.trials.get(one), self._unit))
         inverse_on, loop_on = axis in session.inverses.applied, axis in session.loops.applied
-        controls.switch.setText(translate("compensation", SWITCH[inverse_on]))
-        controls.apply.setText(translate("compensation", APPLY[loop_on]))
+        controls.switch.setText(tr(SWITCH[inverse_on]))
+        controls.apply.setText(tr(APPLY[loop_on]))
         said = exceedance_text(session.inverses.exceedance(axis))
-        at_limit = translate("compensation", AT_A_LIMIT) if axis in session.loops.limited else ""
+        at_limit = tr(AT_A_LIMIT) if axis in session.loops.limited else ""
         controls.beyond.setText(" ".join(filter(None, (said, at_limit))))
-        moves = (
-            None
-            if state.activity is DeviceState.IDLE
-            else translate("compensation", "the axis is moving")
-        )
+        moves = None if state.activity is DeviceState.IDLE else tr("the axis is moving")
         locked = spoken(state.locked) if state.locked else None
         still = locked or moves or owners_text(state.owners)
-        no_axis = None if axis else translate("compensation", "the robot has no piezo in open loop")
+        no_axis = None if axis else tr("the robot has no piezo in open loop")
         allow(controls.switch, still or (None if inverse_on else other), self._switch_tip())
         no_loop = session.loops.unavailable or no_axis
-        tip = translate(
-            "compensation",
-            "Close a loop with these gains around the axis, or open it; the axis stays in place",
+        tip = tr(
+            "Close a loop with these gains around the axis, or open it; the axis stays in place"
         )
         allow(controls.apply, still or (None if loop_on else no_loop), tip)
-        no_inverse = (
-            None
-            if inverse_on
-            else translate("compensation", "no inverse is active: apply one first")
-        )
-        allow(controls.sweep, still or no_inverse, translate("compensation", SWEEP))
+        no_inverse = None if inverse_on else tr("no inverse is active: apply one first")
+        allow(controls.sweep, still or no_inverse, tr(SWEEP))
         allow(
-            controls.trial,
-            still or no_axis,
-            translate("compensation", "Play 6 s of oscillations over 60 % of the range"),
+            controls.trial, still or no_axis, tr("Play 6 s of oscillations over 60 % of the range")
         )
 
     def _switch_tip(self) -> str:
         if self._workbench.session.inverses.live:
-            return translate(
-                "compensation",
-                "Apply the inverse to every set-point of this axis; the axis stays in place",
-            )
-        return translate(
-            "compensation",
+            return tr("Apply the inverse to every set-point of this axis; the axis stays in place")
+        return tr(
             "Apply the inverse to ends of moves, speeds and each row of a trajectory; "
-            "the axis stays in place",
+            "the axis stays in place"
         )
 
     def _play(self, motion: Callable[[], Record], begun: Callable[[], None] = lambda: None) -> None:

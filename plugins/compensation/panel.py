@@ -5,9 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QTimer, Signal
-from PySide6.QtWidgets import (
-    QDockWidget,
-)
+from PySide6.QtWidgets import QDockWidget
 
 from rotemina.app.motion.compensation import NamedInverse, check_belongs
 from rotemina.app.motion.state import SessionState
@@ -15,12 +13,13 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.background_job import Job, Tell
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_files, ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow
 from rotemina.app.widgets.scroll_areas import lay_beside, tabbed
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.controls import Controls
 from rotemina.plugins.compensation.gain_search import GainSearch
 from rotemina.plugins.compensation.inverse_training import (
@@ -37,9 +36,9 @@ from rotemina.sim.compensate.file import read_trained, write_trained
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.model import Robot
 
-RECORDS = marked("compensation", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
-INVERSES = marked("compensation", "Inverses (*.json)")
-TUNINGS = marked("compensation", "Tunings (*.toml)")
+RECORDS = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
+INVERSES = mark("Inverses (*.json)")
+TUNINGS = mark("Tunings (*.toml)")
 CHECK, LIVE, FRONT = range(3)  # tabs
 _WIDTH = 300  # of the controls at least, px
 _SEED = 0
@@ -65,12 +64,7 @@ class CompensationPanel(Panel):
         self.learned: Learned | None = None
         self._source = ""
         self.tabs, self.views = tabbed(
-            translate("compensation", "View"),
-            {
-                translate("compensation", "Check"): self.check,
-                translate("compensation", "Live"): self.live,
-                translate("compensation", "Tuning"): self.front,
-            },
+            tr("View"), {tr("Check"): self.check, tr("Live"): self.live, tr("Tuning"): self.front}
         )
         lay_beside(self, self.controls, _WIDTH, self.tabs, self.views)
         self._connect()
@@ -83,8 +77,7 @@ class CompensationPanel(Panel):
         """Move the simulated axis with the machine's effects, and learn from that."""
         robot, axis = self._robot(), self.controls.chosen
         self._learn(
-            "simulator",
-            lambda tell: learned_simulated(robot, robot.effects, axis, _SEED, tell),
+            "simulator", lambda tell: learned_simulated(robot, robot.effects, axis, _SEED, tell)
         )
 
     def learn_record(self) -> None:
@@ -118,12 +111,7 @@ class CompensationPanel(Panel):
             self._source = path.name
             self._take(learned)
 
-        self.workbench.work(
-            "open inverse",
-            translate("compensation", "Reading {name} …").format(name=path.name),
-            work,
-            done,
-        )
+        self.workbench.read_file("open inverse", path.name, work, done)
 
     def save_file(self, path: Path) -> None:
         """Keep the inverses in hand."""
@@ -131,15 +119,12 @@ class CompensationPanel(Panel):
         if learned is None:
             return
 
-        def done(_: None) -> None:
+        def done() -> None:
             self._source = path.name
-            self.workbench.notify(
-                Level.GOOD, translate("compensation", "Saved {path}").format(path=path)
-            )
 
-        self.workbench.work(
+        self.workbench.write_file(
             "save inverse",
-            translate("compensation", "Writing {name} …").format(name=path.name),
+            path,
             lambda: write_trained(path, learned.trained, learned.provenance),
             done,
         )
@@ -163,7 +148,7 @@ class CompensationPanel(Panel):
             self.search.stop()
         elif self.job.running:
             self.job.stop()
-            self.controls.tell(translate("compensation", "Stopped; nothing was replaced."), None)
+            self.controls.tell(tr("Stopped; nothing was replaced."), None)
         else:
             self.workbench.stop()
 
@@ -178,7 +163,7 @@ class CompensationPanel(Panel):
         def named(tell: Tell) -> tuple[str, Learned]:
             return source, work(lambda what, share: tell(what, share, None))
 
-        self.controls.tell(translate("compensation", "Training …"), 0.0)
+        self.controls.tell(tr("Training …"), 0.0)
         self.job.start(named)
 
     def _told(self, what: str, share: float, _news: object) -> None:
@@ -190,8 +175,8 @@ class CompensationPanel(Panel):
         self._take(learned)
 
     def _failed(self, message: str) -> None:
-        self.controls.tell(translate("compensation", "Failed; nothing was replaced."), None)
-        text = translate("compensation", "Compensation: {message}")
+        self.controls.tell(tr("Failed; nothing was replaced."), None)
+        text = tr("Compensation: {message}")
         self.workbench.notify(Level.ERROR, text.format(message=message), about=self)
 
     def _take(self, learned: Learned) -> None:
@@ -201,7 +186,7 @@ class CompensationPanel(Panel):
         for kind in learned.trained.models:
             name = kind_name(kind)
             if kind == learned.trained.chosen:
-                name = translate("compensation", "{inverse} (recommended)").format(inverse=name)
+                name = tr("{inverse} (recommended)").format(inverse=name)
             kinds.addItem(name, kind)
         kinds.setCurrentIndex(kinds.findData(learned.trained.chosen))
         self.controls.axis.setCurrentIndex(self.controls.axis.findData(learned.axis))
@@ -222,76 +207,36 @@ class CompensationPanel(Panel):
 
     def _refresh(self, state: SessionState) -> None:
         controls, axis = self.controls, self.controls.chosen
-        no_axis = None if axis else translate("compensation", "the robot has no piezo in open loop")
+        no_axis = None if axis else tr("the robot has no piezo in open loop")
         running = self.job.running or self.search.running
-        busy = (
-            translate("compensation", "work is in progress; stop it or wait")
-            if running
-            else no_axis
-        )
-        record = (
-            None
-            if self.workbench.record is not None
-            else translate("compensation", "there is no record")
-        )
-        none = None if self.learned is not None else translate("compensation", NOTHING)
+        busy = tr("work is in progress; stop it or wait") if running else no_axis
+        record = None if self.workbench.record is not None else tr("there is no record")
+        none = None if self.learned is not None else tr(NOTHING)
         other = self._other(axis)
-        point = None if self.search.tuning is not None else translate("compensation", NO_FRONT)
+        point = None if self.search.tuning is not None else tr(NO_FRONT)
         self.actuation.refresh(state, other)
         allow(
-            controls.simulate,
-            busy,
-            translate("compensation", "Train with a motion of the simulated axis over its range"),
+            controls.simulate, busy, tr("Train with a motion of the simulated axis over its range")
         )
-        allow(
-            controls.record,
-            busy or record,
-            translate("compensation", "Train with the last record"),
-        )
-        allow(
-            controls.files,
-            busy,
-            translate("compensation", "Train with records that have cmd and meas or ref"),
-        )
-        allow(controls.open, busy, translate("compensation", "Load inverses from a file"))
-        allow(controls.save, none, translate("compensation", "Save these inverses to a file"))
-        allow(
-            controls.tune,
-            busy,
-            translate("compensation", "Search gains of a PID loop at 5 kHz on the simulated axis"),
-        )
-        allow(
-            controls.forward,
-            other,
-            translate("compensation", "Feed the reference forward through the current inverse"),
-        )
-        allow(
-            controls.keep,
-            busy or point,
-            translate("compensation", "Save the front with the selected point"),
-        )
-        allow(
-            controls.open_gains,
-            busy,
-            translate("compensation", "Load gains from a file that rotemina tune wrote"),
-        )
+        allow(controls.record, busy or record, tr("Train with the last record"))
+        allow(controls.files, busy, tr("Train with records that have cmd and meas or ref"))
+        allow(controls.open, busy, tr("Load inverses from a file"))
+        allow(controls.save, none, tr("Save these inverses to a file"))
+        allow(controls.tune, busy, tr("Search gains of a PID loop at 5 kHz on the simulated axis"))
+        allow(controls.forward, other, tr("Feed the reference forward through the current inverse"))
+        allow(controls.keep, busy or point, tr("Save the front with the selected point"))
+        allow(controls.open_gains, busy, tr("Load gains from a file that rotemina tune wrote"))
         working = running or state.activity is DeviceState.PLAYING
-        allow(
-            controls.stop,
-            None if working else translate("compensation", "nothing is running"),
-            translate("compensation", "Stop the work"),
-        )
+        allow(controls.stop, None if working else tr("nothing is running"), tr("Stop the work"))
 
     def _other(self, axis: str) -> str | None:
         """Return why the inverse in hand is none for an axis; None if it is one."""
         if self.learned is None:
-            return translate("compensation", NOTHING)
+            return tr(NOTHING)
         mine = self.learned.axis
         if mine == axis:
             return None
-        return translate("compensation", "the current inverse belongs to axis {axis}").format(
-            axis=mine
-        )
+        return tr("the current inverse belongs to axis {axis}").format(axis=mine)
 
     def _connect(self) -> None:
         controls = self.controls
@@ -324,24 +269,23 @@ class CompensationPanel(Panel):
         self.workbench.closing.connect(self._close)
 
     def _ask_records(self) -> None:
-        title, kinds = translate("compensation", "Records"), translate("compensation", RECORDS)
+        title, kinds = tr("Records"), tr(RECORDS)
         ask_files(self, self.workbench, title, kinds, self.learn_files)
 
     def _ask_inverses(self) -> None:
-        title, kinds = translate("compensation", "Inverses"), translate("compensation", INVERSES)
+        title, kinds = tr("Inverses"), tr(INVERSES)
         ask_file(self, self.workbench, title, kinds, self.open_file)
 
     def _ask_where_inverses(self) -> None:
-        title = translate("compensation", "Save inverses")
-        kinds = translate("compensation", INVERSES)
-        ask_where(self, self.workbench, title, kinds, "inverses.json", self.save_file)
+        title = tr("Save inverses")
+        ask_where(self, self.workbench, title, tr(INVERSES), "inverses.json", self.save_file)
 
     def _ask_gains(self) -> None:
-        title, kinds = translate("compensation", "Gains"), translate("compensation", TUNINGS)
+        title, kinds = tr("Gains"), tr(TUNINGS)
         ask_file(self, self.workbench, title, kinds, self.search.open)
 
     def _ask_where_gains(self) -> None:
-        title, kinds = translate("compensation", "Save gains"), translate("compensation", TUNINGS)
+        title, kinds = tr("Save gains"), tr(TUNINGS)
         ask_where(self, self.workbench, title, kinds, "gains.toml", self.search.keep)
 
     def _change_axis(self) -> None:

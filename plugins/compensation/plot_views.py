@@ -6,18 +6,14 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QWidget
 
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.labels import legend, plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.inverse_training import Learned
 from rotemina.plugins.compensation.trial_motion import Aid, Trial
 from rotemina.plugins.compensation.words import HEAD, NOTHING, judged, reasons
@@ -28,8 +24,8 @@ from rotemina.sim.tuning.search_problem import Evaluation
 from rotemina.sim.tuning.tuning_result import Tuning
 
 # Names of curves.
-_POSITION, _WANTED = marked("compensation", "position"), marked("compensation", "desired")
-_INVERTED, _FRONT = marked("compensation", "its inverse"), marked("compensation", "front")
+_POSITION, _WANTED = mark("position"), mark("desired")
+_INVERTED, _FRONT = mark("its inverse"), mark("front")
 _MICRO = 1e6
 _AXIS_WIDTH = 52
 _NEAR_PX = 40.0  # of a click to the point that it means
@@ -63,11 +59,7 @@ class Curves(QWidget):
         item.getAxis("left").setWidth(_AXIS_WIDTH)
         for name, role in roles.items():
             self.plot.add_curve(name, Line(role))
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.title)
-        column.addWidget(self.plot, 1)
+        in_column(self.title, (self.plot, 1), on=self, margins=0, spacing=2)
         self.set_theme(theme)
 
     def draw(self, name: str, x: FloatArray, y: FloatArray) -> None:
@@ -89,11 +81,10 @@ class Curves(QWidget):
         self._theme = theme
         self.plot.set_theme(theme)
         title, bottom = (
-            translate("compensation", text).format(unit=f"µ{self._unit}")
-            for text in (self._title, self._bottom)
+            tr(text).format(unit=f"µ{self._unit}") for text in (self._title, self._bottom)
         )
         self.plot.getPlotItem().setLabel("bottom", bottom)
-        shown = ((translate("compensation", name), role) for name, role in self._roles.items())
+        shown = ((tr(name), role) for name, role in self._roles.items())
         self.title.setText(f"{escape(title)}: {legend(theme, shown)}")
 
 
@@ -103,27 +94,19 @@ class CheckView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self.table = Table(
-            translate("compensation", "Residual of each inverse on validation rows"),
-            [translate("compensation", text) for text in HEAD],
+            tr("Residual of each inverse on validation rows"),
+            [tr(text) for text in HEAD],
             choose=False,
         )
-        self.why = QLabel(translate("compensation", NOTHING))
-        self.why.setTextFormat(Qt.TextFormat.PlainText)
-        self.why.setWordWrap(True)
+        self.why = plain_text(tr(NOTHING), quiet=False, wrap=True)
         roles = {_POSITION: "quiet", _INVERTED: "accent"}
         self.loop = Curves(
             theme,
-            marked("compensation", "Validation rows, over the command [{unit}]"),
+            mark("Validation rows, over the command [{unit}]"),
             roles,
-            marked("compensation", "command [{unit}]"),
+            mark("command [{unit}]"),
         )
-        left = QVBoxLayout()
-        left.addWidget(self.table, 1)
-        left.addWidget(self.why)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addLayout(left, 3)
-        row.addWidget(self.loop, 2)
+        in_row((in_column((self.table, 1), self.why), 3), (self.loop, 2), on=self, margins=0)
 
     def set_unit(self, unit: str) -> None:
         """Name the unit, "m" or "rad", of what will be drawn."""
@@ -153,21 +136,15 @@ class LiveView(QWidget):
         names = zip(Aid, ("quiet", "accent", "warning", "good"), strict=True)
         roles = {one.value: role for one, role in names}
         self.loop = Curves(
-            theme,
-            marked("compensation", "Reading over reference [{unit}]"),
-            roles,
-            marked("compensation", "reference [{unit}]"),
+            theme, mark("Reading over reference [{unit}]"), roles, mark("reference [{unit}]")
         )
         self.left = Curves(
             theme,
-            marked("compensation", "Reading − reference, mean removed [{unit}]"),
+            mark("Reading − reference, mean removed [{unit}]"),
             roles,
-            marked("compensation", "reference [{unit}]"),
+            mark("reference [{unit}]"),
         )
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.loop, 1)
-        row.addWidget(self.left, 1)
+        in_row((self.loop, 1), (self.left, 1), on=self, margins=0)
 
     def set_unit(self, unit: str) -> None:
         """Name the unit, "m" or "rad", of what will be drawn."""
@@ -209,37 +186,19 @@ class FrontView(QWidget):
         self._marked: int | None = None
         roles = {_FRONT: "accent"}
         self.front = Curves(
-            theme,
-            marked("compensation", "Effort [ranges/s] over tracking [%]"),
-            roles,
-            marked("compensation", "tracking rms [%]"),
+            theme, mark("Effort [ranges/s] over tracking [%]"), roles, mark("tracking rms [%]")
         )
         self._dots = pg.ScatterPlotItem(size=8, pen=None)
         self._mark = pg.ScatterPlotItem(size=14, brush=None)
         self.front.plot.addItem(self._dots)
         self.front.plot.addItem(self._mark)
-        self.front.plot.setToolTip(
-            translate("compensation", "Click a point to simulate its step and triangle")
-        )
-        self.front.plot.setAccessibleName(translate("compensation", "Pareto front"))
+        self.front.plot.setToolTip(tr("Click a point to simulate its step and triangle"))
+        self.front.plot.setAccessibleName(tr("Pareto front"))
         self.front.plot.scene().sigMouseClicked.connect(self._clicked)
         tries = {_WANTED: "quiet", _POSITION: "accent"}
-        self.step = Curves(
-            theme,
-            marked("compensation", "Step [{unit}]"),
-            tries,
-            marked("compensation", "time [ms]"),
-        )
-        self.triangle = Curves(
-            theme,
-            marked("compensation", "Triangle [{unit}]"),
-            tries,
-            marked("compensation", "time [ms]"),
-        )
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        for view in (self.front, self.step, self.triangle):
-            row.addWidget(view, 1)
+        self.step = Curves(theme, mark("Step [{unit}]"), tries, mark("time [ms]"))
+        self.triangle = Curves(theme, mark("Triangle [{unit}]"), tries, mark("time [ms]"))
+        in_row((self.front, 1), (self.step, 1), (self.triangle, 1), on=self, margins=0)
         self.set_theme(theme)
 
     def set_unit(self, unit: str) -> None:

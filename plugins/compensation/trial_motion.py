@@ -5,7 +5,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.compensation import mark
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
@@ -19,10 +19,10 @@ _ONSET_S, _SKIPPED_S = 1.0, 2.0
 class Aid(StrEnum):
     """What helped the axis on a trial."""
 
-    NONE = marked("compensation", "without")
-    INVERSE = marked("compensation", "with the inverse")
-    LOOP = marked("compensation", "with feedback")
-    BOTH = marked("compensation", "with both")
+    NONE = mark("without")
+    INVERSE = mark("with the inverse")
+    LOOP = mark("with feedback")
+    BOTH = mark("with both")
 
     @classmethod
     def of(cls, *, inverse: bool, loop: bool) -> "Aid":

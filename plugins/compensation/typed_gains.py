@@ -1,10 +1,11 @@
 """Typed gains that replace those of a front's point."""
 
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QWidget
 
 from rotemina.app.motion.regulation import NamedRegulation
-from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.layouts import in_grid
+from rotemina.plugins.compensation import tr
 from rotemina.plugins.compensation.background_search import RATE_HZ
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.feedback.errors import FeedbackError
@@ -32,9 +33,7 @@ class TypedGains(QWidget):
         super().__init__()
         self._robot = robot
         self.fields: dict[str, QLineEdit] = {}
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setSpacing(4)
+        grid = in_grid(on=self, margins=0, spacing=4)
         for column, (name, letter, unit) in enumerate(_AMOUNTS):
             field = QLineEdit()
             field.setMinimumWidth(44)
@@ -60,7 +59,7 @@ class TypedGains(QWidget):
             field.setText(rounded(getattr(gains, name), _DIGITS) if axis else "")
             field.setModified(False)
             if axis:
-                tip = translate("compensation", "0 to {most}; checked on the axis before use")
+                tip = tr("0 to {most}; checked on the axis before use")
                 field.setToolTip(plain_tip(tip.format(most=_told(most[name], unit))))
 
     def gains(self, axis: str, base: Gains | None) -> Gains:

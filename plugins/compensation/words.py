@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.compensation import mark, tr
 from rotemina.plugins.compensation.trial_motion import Trial
 from rotemina.sim.compensate.inverse import Exceedance
 from rotemina.sim.compensate.inverse_parameters import Kind
@@ -13,37 +13,29 @@ from rotemina.sim.compensate.training import Trained
 from rotemina.sim.quantities import amount, percent
 from rotemina.sim.tuning.pareto_front import Point
 
-HEAD = (
-    marked("compensation", "inverse"),
-    marked("compensation", "rms"),
-    marked("compensation", "worst"),
-    marked("compensation", "of range"),
-)
-NOTHING = marked("compensation", "There is no inverse: train one, or open a file.")
-NO_FRONT = marked("compensation", "there is no front: tune, or open gains")
-LIVE_LOOP = marked(
-    "compensation",
+HEAD = (mark("inverse"), mark("rms"), mark("worst"), mark("of range"))
+NOTHING = mark("There is no inverse: train one, or open a file.")
+NO_FRONT = mark("there is no front: tune, or open gains")
+LIVE_LOOP = mark(
     "The simulated machine closes the loop live at 5 kHz, only if it is also "
     "stable on axes off by 5 %. The boards close no loop: there, only "
-    "feedforward is possible.",
+    "feedforward is possible."
 )
-AT_A_LIMIT = marked(
-    "compensation",
-    "The loop demands more than the range of the axis: move the axis away from the end.",
+AT_A_LIMIT = mark(
+    "The loop demands more than the range of the axis: move the axis away from the end."
 )
-SWEEP = marked(
-    "compensation",
+SWEEP = mark(
     "Sweep the whole range of the inverse to erase the history of the axis: this removes most of "
-    "a constant error (a loop removes it anyway)",
+    "a constant error (a loop removes it anyway)"
 )
 # What the buttons that put on and take off say, each before and after.
-SWITCH = (marked("compensation", "Apply"), marked("compensation", "Remove"))
-APPLY = (marked("compensation", "Apply gains"), marked("compensation", "Open loop"))
+SWITCH = (mark("Apply"), mark("Remove"))
+APPLY = (mark("Apply gains"), mark("Open loop"))
 _SAID = {
-    Exceedance.LOW: marked("compensation", "below its training range (clamped)"),
-    Exceedance.HIGH: marked("compensation", "above its training range (clamped)"),
-    Exceedance.FAST: marked("compensation", "faster than in training"),
-    Exceedance.COMMAND: marked("compensation", "at an end of the machine's range (clamped)"),
+    Exceedance.LOW: mark("below its training range (clamped)"),
+    Exceedance.HIGH: mark("above its training range (clamped)"),
+    Exceedance.FAST: mark("faster than in training"),
+    Exceedance.COMMAND: mark("at an end of the machine's range (clamped)"),
 }
 
 
@@ -75,7 +67,7 @@ def residual_text(trial: Trial | None, unit: str) -> str:
     """Return what a trial left."""
     if trial is None:
         return "–"
-    text = translate("compensation", "{rms} rms, mean {mean}")
+    text = tr("{rms} rms, mean {mean}")
     return text.format(
         rms=amount(trial.rms, unit, digits=3), mean=amount(trial.offset, unit, digits=3)
     )
@@ -84,25 +76,23 @@ def residual_text(trial: Trial | None, unit: str) -> str:
 def owners_text(owners: Mapping[str, str]) -> str | None:
     """Return why the axes cannot be played: someone drives one still."""
     for axis, owner in owners.items():
-        text = translate("compensation", "{owner} still controls axis {axis}; wait, or stop it")
+        text = tr("{owner} still controls axis {axis}; wait, or stop it")
         return text.format(axis=label(axis), owner=spoken(owner))
     return None
 
 
 def exceedance_text(said: Exceedance) -> str:
     """Return in what an axis went beyond its inverse; empty: in nothing."""
-    parts = [translate("compensation", words) for flag, words in _SAID.items() if said & flag]
-    text = translate("compensation", "The axis has been {where}.")
-    return text.format(where=", ".join(parts)) if parts else ""
+    parts = [tr(words) for flag, words in _SAID.items() if said & flag]
+    return tr("The axis has been {where}.").format(where=", ".join(parts)) if parts else ""
 
 
 def point_text(point: Point, number: int) -> str:
     """Return the figures of a point of the front."""
     own = point.figures
-    text = translate(
-        "compensation",
+    text = tr(
         "Point {number}: tracking {tracking:.3g} %, settling {settling:.3g} ms, overshoot "
-        "{overshoot:.2g} %, Ms {peak:.2f}",
+        "{overshoot:.2g} %, Ms {peak:.2f}"
     )
     return text.format(
         number=number,

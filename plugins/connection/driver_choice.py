@@ -8,15 +8,14 @@ from serial.tools import list_ports
 from rotemina.app.driver_settings import keep, kept
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.background import Background
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.operator_requests import OfferedPort
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.controls import allow, button, named, plain_tip
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.registry import discover_drivers
-from rotemina.plugins.connection import unavailable_reasons
+from rotemina.plugins.connection import tr, unavailable_reasons
 from rotemina.plugins.connection.setting_fields import SettingForm
 
 
@@ -50,9 +49,7 @@ class PortFinder(QObject):
     def _failed(self, message: str) -> None:
         self._notify(
             Level.WARNING,
-            translate("connection", "Serial ports cannot be listed: {message}").format(
-                message=message
-            ),
+            tr("Serial ports cannot be listed: {message}").format(message=message),
             about=self,
         )
 
@@ -62,11 +59,8 @@ class DriverChoice(SteadyChoice):
 
     def __init__(self, found: dict[str, type[Driver]], broken: dict[str, str]) -> None:
         super().__init__(
-            translate("connection", "Driver"),
-            translate(
-                "connection",
-                "Device that the program controls: the simulator, boards, or a device of a plugin",
-            ),
+            tr("Driver"),
+            tr("Device that the program controls: the simulator, boards, or a device of a plugin"),
             letters=0,
         )
         for name, kind in found.items():
@@ -74,7 +68,7 @@ class DriverChoice(SteadyChoice):
         model = self.model()
         assert isinstance(model, QStandardItemModel)
         for name, reason in broken.items():
-            self.addItem(translate("connection", "{name} – cannot be used").format(name=name))
+            self.addItem(tr("{name} – cannot be used").format(name=name))
             item = model.item(self.count() - 1)
             item.setEnabled(False)
             item.setToolTip(plain_tip(reason))
@@ -84,19 +78,17 @@ class DeviceSection(Section):
     """The choice of a driver, its settings, and the connection to it."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("connection", "Device"))
+        super().__init__(tr("Device"))
         self._workbench = workbench
         discovery = discover_drivers()
         self.choice = DriverChoice(discovery.found, discovery.broken)
-        self.find = QToolButton()
+        self.find = named(QToolButton(), tr("Refresh the ports"), tr("Refresh the serial ports"))
         self.find.setText("⟳")
-        self.find.setAccessibleName(translate("connection", "Refresh the ports"))
-        self.find.setToolTip(translate("connection", "Refresh the serial ports"))
         self.add_row(self.choice, self.find, equal=False)
         self.broken = self.add_text()
         self.broken.setText(
             "\n".join(
-                translate("connection", "{name} is left out: {why}").format(name=name, why=why)
+                tr("{name} is left out: {why}").format(name=name, why=why)
                 for name, why in discovery.broken.items()
             )
         )
@@ -104,10 +96,10 @@ class DeviceSection(Section):
         self.form = SettingForm({}, {})
         self._place = self.column.count()
         self.column.addWidget(self.form)
-        self.connect_button = button(translate("connection", "Connect"), self._connect)
+        self.connect_button = button(tr("Connect"), self._connect)
         self.connect_button.setProperty("primary", True)
-        self.disconnect_button = button(translate("connection", "Disconnect"), workbench.let_go)
-        self.reconnect_button = button(translate("connection", "Reconnect"), workbench.reconnect)
+        self.disconnect_button = button(tr("Disconnect"), workbench.let_go)
+        self.reconnect_button = button(tr("Reconnect"), workbench.reconnect)
         self.add_row(self.connect_button, self.disconnect_button, self.reconnect_button)
         self._ports: list[OfferedPort] = []
         self._offered: tuple[OfferedPort, ...] = ()
@@ -127,11 +119,7 @@ class DeviceSection(Section):
 
     def refresh(self, state: SessionState) -> None:
         """Lock what cannot be done now."""
-        wrong = (
-            translate("connection", "no driver is chosen")
-            if self.kind is None
-            else self.form.complaint()
-        )
+        wrong = tr("no driver is chosen") if self.kind is None else self.form.complaint()
         why = wrong or unavailable_reasons.against_connecting(
             state, same=wrong is None and self._same()
         )
@@ -139,19 +127,17 @@ class DeviceSection(Section):
         allow(
             self.connect_button,
             why,
-            translate("connection", "Connect to {name}; any other device is disconnected").format(
-                name=name
-            ),
+            tr("Connect to {name}; any other device is disconnected").format(name=name),
         )
         allow(
             self.disconnect_button,
             unavailable_reasons.against_disconnecting(state),
-            translate("connection", "Stop and disconnect the device; it holds its position"),
+            tr("Stop and disconnect the device; it holds its position"),
         )
         allow(
             self.reconnect_button,
             unavailable_reasons.against_reconnecting(state),
-            translate("connection", "Connect to {name} again with the same settings").format(
+            tr("Connect to {name} again with the same settings").format(
                 name=self._workbench.session.driver.name
             ),
         )

@@ -4,29 +4,26 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import driven
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.section import Section
 from rotemina.drivers.abilities import Homer
-from rotemina.plugins.connection import unavailable_reasons
+from rotemina.plugins.connection import tr, unavailable_reasons
 
 
 class PositionSection(Section):
     """Homing of all axes or of one, confirming, and taking back a move."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("connection", "Position"))
+        super().__init__(tr("Position"))
         self._workbench = workbench
         self.text = self.add_text()
-        self.home_all = button(translate("connection", "Home all"), workbench.home)
+        self.home_all = button(tr("Home all"), workbench.home)
         self.home: dict[str, QPushButton] = {}
         self._axes: QHBoxLayout = self.add_row(self.home_all)
-        self.confirm = button(
-            translate("connection", "Confirm position"), workbench.confirm_position
-        )
-        self.back = button(translate("connection", "Back"), workbench.undo)
+        self.confirm = button(tr("Confirm position"), workbench.confirm_position)
+        self.back = button(tr("Back"), workbench.undo)
         self.add_row(self.confirm, self.back)
         self.owners = self.add_text()
 
@@ -36,38 +33,22 @@ class PositionSection(Section):
         self._offer(driver.homing_axes if isinstance(driver, Homer) else ())
         self.text.setText(_known(state))
         why = unavailable_reasons.against_homing(state, driver)
-        allow(
-            self.home_all,
-            why,
-            translate("connection", "Find the limit switches of all axes with switches"),
-        )
+        allow(self.home_all, why, tr("Find the limit switches of all axes with switches"))
         for axis, one in self.home.items():
-            allow(
-                one,
-                why,
-                translate("connection", "Find the limit switch of {label}").format(
-                    label=label(axis)
-                ),
-            )
+            allow(one, why, tr("Find the limit switch of {label}").format(label=label(axis)))
         allow(
             self.confirm,
             unavailable_reasons.against_confirming(state),
-            translate(
-                "connection",
-                "Confirm that the machine has not moved since the connection was lost",
-            ),
+            tr("Confirm that the machine has not moved since the connection was lost"),
         )
         allow(
             self.back,
             unavailable_reasons.against_going_back(
                 state, undoable=self._workbench.session.undoable
             ),
-            translate(
-                "connection",
-                "Return to the position before the latest move: up, across, down",
-            ),
+            tr("Return to the position before the latest move: up, across, down"),
         )
-        self.owners.setText(driven(state) or translate("connection", "No axis is moving."))
+        self.owners.setText(driven(state) or tr("No axis is moving."))
 
     def _offer(self, axes: tuple[str, ...]) -> None:
         """Have a button for each axis that has a switch."""
@@ -83,17 +64,11 @@ class PositionSection(Section):
 
     def _button(self, axis: str) -> QPushButton:
         made = button(label(axis), lambda: self._workbench.home((axis,)))
-        made.setAccessibleName(translate("connection", "Home {label}").format(label=label(axis)))
+        made.setAccessibleName(tr("Home {label}").format(label=label(axis)))
         return made
 
 
 def _known(state: SessionState) -> str:
     if state.unhomed:
-        return translate("connection", "Not homed: {axes}").format(
-            axes=", ".join(label(axis) for axis in state.unhomed)
-        )
-    return (
-        translate("connection", "All positions are known.")
-        if state.position_known
-        else translate("connection", "No position is known.")
-    )
+        return tr("Not homed: {axes}").format(axes=", ".join(label(axis) for axis in state.unhomed))
+    return tr("All positions are known.") if state.position_known else tr("No position is known.")

@@ -1,26 +1,26 @@
 """The quality of the line, and the latency of stops."""
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.figures import Figures
 from rotemina.app.widgets.section import Section
+from rotemina.plugins.connection import mark, tr
 from rotemina.sim.quantities import fixed
 
 _LINE = (
-    marked("connection", "Frames sent"),
-    marked("connection", "Frames received"),
-    marked("connection", "Rejected"),
-    marked("connection", "Repeated"),
-    marked("connection", "Round trip"),
-    marked("connection", "Load"),
+    mark("Frames sent"),
+    mark("Frames received"),
+    mark("Rejected"),
+    mark("Repeated"),
+    mark("Round trip"),
+    mark("Load"),
 )
 _STOP = (
-    marked("connection", "Latest"),
-    marked("connection", "99.9 % of stops within"),
-    marked("connection", "Worst"),
-    marked("connection", "Last stop sent within"),
-    marked("connection", "At rest after"),
+    mark("Latest"),
+    mark("99.9 % of stops within"),
+    mark("Worst"),
+    mark("Last stop sent within"),
+    mark("At rest after"),
 )
 
 
@@ -28,10 +28,10 @@ class LineSection(Section):
     """Frames, losses, round trip and load."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("connection", "Line"))
+        super().__init__(tr("Line"))
         self._session = workbench.session
         self.text = self.add_text()
-        self.figures = Figures({translate("connection", name): "" for name in _LINE})
+        self.figures = Figures({tr(name): "" for name in _LINE})
         self.column.addWidget(self.figures)
 
     def refresh(self, state: SessionState) -> None:
@@ -40,11 +40,7 @@ class LineSection(Section):
         self.text.setVisible(link is None)
         self.figures.setVisible(link is not None)
         if link is None:
-            self.text.setText(
-                translate("connection", "{name} has no open line.").format(
-                    name=self._session.driver.name
-                )
-            )
+            self.text.setText(tr("{name} has no open line.").format(name=self._session.driver.name))
             return
         self.figures.show_values(
             f"{link.sent}",
@@ -60,8 +56,8 @@ class StopSection(Section):
     """How long a stop takes to be out on the line, as of all the time."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("connection", "Stop latency"))
-        self.figures = Figures({translate("connection", name): "" for name in _STOP})
+        super().__init__(tr("Stop latency"))
+        self.figures = Figures({tr(name): "" for name in _STOP})
         self.column.addWidget(self.figures)
 
     def refresh(self, state: SessionState) -> None:

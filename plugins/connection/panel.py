@@ -1,11 +1,12 @@
 """The connected device and its state: everything to settle before motion."""
 
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
 from rotemina.plugins.connection.driver_choice import DeviceSection
 from rotemina.plugins.connection.homing_section import PositionSection
@@ -45,16 +46,9 @@ class ConnectionPanel(Panel):
             self.stop,
         )
         content = QWidget()
-        column = QVBoxLayout(content)
-        column.setContentsMargins(10, 4, 10, 8)
-        column.setSpacing(4)
-        for section in self._sections:
-            column.addWidget(section)
-        column.addStretch(1)
+        in_column(*self._sections, 1, on=content, margins=(10, 4, 10, 8), spacing=4)
         scroll = scrolled(content)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(scroll)
+        in_column(scroll, on=self, margins=0)
         self.setMinimumWidth(max(least_width(scroll), 300))
         self.follow(self._refresh)
         self._refresh(workbench.session.snapshot())

@@ -3,21 +3,16 @@
 from PySide6.QtWidgets import QHeaderView
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.table import Table
 from rotemina.drivers.abilities import Parameterised
 from rotemina.drivers.driver import Driver
-from rotemina.plugins.connection import unavailable_reasons
+from rotemina.plugins.connection import mark, tr, unavailable_reasons
 from rotemina.sim.quantities import rounded
 
-COLUMNS = (
-    marked("connection", "Parameter"),
-    marked("connection", "Device"),
-    marked("connection", "Robot file"),
-)
+COLUMNS = (mark("Parameter"), mark("Device"), mark("Robot file"))
 _MOST_ROWS_SHOWN = 6
 
 
@@ -25,20 +20,18 @@ class ParameterSection(Section):
     """A table of the differences, and the two ways to settle them."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("connection", "Parameters"))
+        super().__init__(tr("Parameters"))
         self._session = workbench.session
         self._shown: tuple[str, ...] = ()
         self.text = self.add_text()
         self.table = Table(
-            translate("connection", "Parameters that differ"),
-            [translate("connection", name) for name in COLUMNS],
-            row_height=24,
+            tr("Parameters that differ"), [tr(name) for name in COLUMNS], row_height=24
         )
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self.table.setVisible(False)
         self.column.addWidget(self.table)
-        self.write = button(translate("connection", "Write to device"), workbench.write_parameters)
-        self.accept = button(translate("connection", "Accept"), workbench.accept_parameters)
+        self.write = button(tr("Write to device"), workbench.write_parameters)
+        self.accept = button(tr("Accept"), workbench.accept_parameters)
         self.add_row(self.write, self.accept)
 
     def refresh(self, state: SessionState) -> None:
@@ -51,33 +44,22 @@ class ParameterSection(Section):
         count = len(state.differences)
         if count:
             are = (
-                translate("connection", "One parameter differs")
+                tr("One parameter differs")
                 if count == 1
-                else translate("connection", "{count} parameters differ").format(count=count)
+                else tr("{count} parameters differ").format(count=count)
             )
             self.text.setText(
-                translate(
-                    "connection",
+                tr(
                     "{are} from the robot file; the machine cannot move until you write or "
-                    "accept the values.",
+                    "accept the values."
                 ).format(are=are)
             )
         else:
             keeps = isinstance(driver, Parameterised)
-            none = translate("connection", "{name} stores no parameters.").format(name=driver.name)
-            self.text.setText(
-                translate("connection", "The parameters match the robot file.") if keeps else none
-            )
-        allow(
-            self.write,
-            why,
-            translate("connection", "Store the values of the robot file in the device"),
-        )
-        allow(
-            self.accept,
-            why,
-            translate("connection", "Use the values of the device until the next connection"),
-        )
+            none = tr("{name} stores no parameters.").format(name=driver.name)
+            self.text.setText(tr("The parameters match the robot file.") if keeps else none)
+        allow(self.write, why, tr("Store the values of the robot file in the device"))
+        allow(self.accept, why, tr("Use the values of the device until the next connection"))
 
     def _fill(self, rows: list[tuple[str, ...]]) -> None:
         self.table.show_rows(rows, tips=True)

@@ -7,24 +7,24 @@ from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QLineEdit, QWidget
 
 from rotemina.app.driver_settings import typed
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.operator_requests import OfferedPort
 from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.drivers.settings import SettingError, SettingValue
+from rotemina.plugins.connection import mark, tr
 
 # Settings of the program's own drivers, as people say them.
 NAMES = (
-    marked("connection", "sample rate"),
-    marked("connection", "seed"),
-    marked("connection", "settle"),
-    marked("connection", "start fraction"),
-    marked("connection", "start homed"),
-    marked("connection", "port"),
-    marked("connection", "second port"),
-    marked("connection", "baud"),
-    marked("connection", "watchdog"),
-    marked("connection", "latency"),
+    mark("sample rate"),
+    mark("seed"),
+    mark("settle"),
+    mark("start fraction"),
+    mark("start homed"),
+    mark("port"),
+    mark("second port"),
+    mark("baud"),
+    mark("watchdog"),
+    mark("latency"),
 )
 _UNITS = {"s": "s", "ms": "ms", "hz": "Hz", "v": "V", "m": "m"}
 
@@ -38,7 +38,7 @@ class PortChoice(SteadyChoice):
         self.setInsertPolicy(self.InsertPolicy.NoInsert)
         edit = self.lineEdit()
         assert edit is not None
-        edit.setPlaceholderText(translate("connection", "none"))
+        edit.setPlaceholderText(tr("none"))
 
     def offer(self, ports: Sequence[OfferedPort]) -> None:
         """Put ports into the list; what is written stays."""
@@ -67,12 +67,8 @@ class SettingField(QObject):
         super().__init__()
         self.name, self._default = name, default
         self.widget = self._made(value)
-        self.widget.setAccessibleName(
-            translate("connection", "Setting {name}").format(name=spoken(name))
-        )
-        self._about = translate("connection", "{name}; preset {default!r}").format(
-            name=spoken(name), default=default
-        )
+        self.widget.setAccessibleName(tr("Setting {name}").format(name=spoken(name)))
+        self._about = tr("{name}; preset {default!r}").format(name=spoken(name), default=default)
         self.widget.setToolTip(plain_tip(self._about))
 
     @property
@@ -195,4 +191,4 @@ def spoken(name: str) -> str:
 
 
 def _translated(name: str) -> str:
-    return translate("connection", name.replace("_", " "))
+    return tr(name.replace("_", " "))

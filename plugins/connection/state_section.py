@@ -1,34 +1,28 @@
 """The state of the session: its phase, locks, and the emergency stop."""
 
-from PySide6.QtWidgets import QHBoxLayout, QLabel
-
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import PhaseLabel
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
-from rotemina.plugins.connection import unavailable_reasons
+from rotemina.plugins.connection import tr, unavailable_reasons
 
 
 class StateSection(Section):
     """The phase in one word, and the reason why motion is locked."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("connection", "State"))
+        super().__init__(tr("State"))
         self.phase = PhaseLabel()
-        self.device = QLabel()
-        self.device.setProperty("quiet", True)
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(self.phase)
-        row.addWidget(self.device, 1)
-        self.column.addLayout(row)
+        self.device = plain_text()
+        self.column.addLayout(in_row(self.phase, (self.device, 1), spacing=8))
         self.reason = self.add_text()
-        self.emergency = button(translate("connection", "Stop and lock"), workbench.emergency_stop)
-        self.release = button(translate("connection", "Release"), workbench.release)
-        self.clear = button(translate("connection", "Clear fault"), workbench.clear_fault)
+        self.emergency = button(tr("Stop and lock"), workbench.emergency_stop)
+        self.release = button(tr("Release"), workbench.release)
+        self.clear = button(tr("Clear fault"), workbench.clear_fault)
         self.add_row(self.emergency, self.release, self.clear)
         self._session = workbench.session
 
@@ -38,31 +32,23 @@ class StateSection(Section):
         self.device.setText(self._session.driver.name)
         locked = state.locked
         self.reason.setText(
-            translate("connection", "Motion is possible.")
+            tr("Motion is possible.")
             if locked is None
-            else translate("connection", "Locked: {locked}.").format(locked=spoken(locked))
+            else tr("Locked: {locked}.").format(locked=spoken(locked))
         )
         latched = (
-            translate("connection", "{latched} is already locked").format(
-                latched=spoken(state.latched)
-            )
+            tr("{latched} is already locked").format(latched=spoken(state.latched))
             if state.latched is not None
             else None
         )
-        allow(
-            self.emergency,
-            latched,
-            translate("connection", "Stop all axes and block motion until release"),
-        )
+        allow(self.emergency, latched, tr("Stop all axes and block motion until release"))
         allow(
             self.release,
-            None if state.latched is not None else translate("connection", "nothing is locked"),
-            translate(
-                "connection", "Release the lock; the machine stays at rest until the next command"
-            ),
+            None if state.latched is not None else tr("nothing is locked"),
+            tr("Release the lock; the machine stays at rest until the next command"),
         )
         allow(
             self.clear,
             unavailable_reasons.against_clearing(state),
-            translate("connection", "Acknowledge the device's fault"),
+            tr("Acknowledge the device's fault"),
         )

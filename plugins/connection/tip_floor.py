@@ -3,35 +3,30 @@
 from math import isfinite
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.figures import Figures
 from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.section import Section
-from rotemina.plugins.connection import unavailable_reasons
+from rotemina.plugins.connection import mark, tr, unavailable_reasons
 from rotemina.sim.quantities import fixed
 
 _STILL_M = 1e-9  # a tip that has moved more than this is not where the question was asked
-_FIGURES = (
-    marked("connection", "Tip height"),
-    marked("connection", "Floor"),
-    marked("connection", "Above the floor"),
-)
+_FIGURES = (mark("Tip height"), mark("Floor"), mark("Above the floor"))
 
 
 class TipSection(Section):
     """Tip, floor and what is between them."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("connection", "Tip"))
+        super().__init__(tr("Tip"))
         self._workbench = workbench
         self._height: float | None = None
         self._asked: float | None = None  # the tip's height at which a floor is to be taught
-        self.figures = Figures({translate("connection", name): "" for name in _FIGURES})
+        self.figures = Figures({tr(name): "" for name in _FIGURES})
         self.column.addWidget(self.figures)
-        self.teach = button(translate("connection", "Teach floor …"), self._ask_teach)
-        self.remove = button(translate("connection", "Remove floor …"), self._ask_remove)
+        self.teach = button(tr("Teach floor …"), self._ask_teach)
+        self.remove = button(tr("Remove floor …"), self._ask_remove)
         self.question = Question()
         self.column.addWidget(self.question)  # above what asks it, which is in sight
         self.add_row(self.teach, self.remove)
@@ -44,25 +39,20 @@ class TipSection(Section):
         floor = self._floor()
         above = None if floor is None or self._height is None else self._height - floor
         self.figures.show_values(
-            translate("connection", "unknown") if self._height is None else height(self._height),
-            translate("connection", "none") if floor is None else height(floor),
+            tr("unknown") if self._height is None else height(self._height),
+            tr("none") if floor is None else height(floor),
             "–" if above is None else height(above),
         )
         why = unavailable_reasons.against_teaching(state, zone)
         allow(
             self.teach,
             why,
-            translate(
-                "connection",
-                "Set the floor at the present height of the tip; nothing moves below it",
-            ),
+            tr("Set the floor at the present height of the tip; nothing moves below it"),
         )
         allow(
             self.remove,
             unavailable_reasons.against_removing(zone, state),
-            translate(
-                "connection", "Remove the lower limit of the tip; only the axis ranges remain"
-            ),
+            tr("Remove the lower limit of the tip; only the axis ranges remain"),
         )
         self._withdraw(why)
 
@@ -75,10 +65,7 @@ class TipSection(Section):
             self.question.hide()
             self._workbench.notify(
                 Level.WARNING,
-                translate(
-                    "connection",
-                    "The tip has moved, so no floor was set. Try again when it is at rest.",
-                ),
+                tr("The tip has moved, so no floor was set. Try again when it is at rest."),
                 about=self,
             )
 
@@ -91,16 +78,15 @@ class TipSection(Section):
             return
         self._asked, floor = self._height, self._floor()
         old = (
-            translate("connection", "there is none")
+            tr("there is none")
             if floor is None
-            else translate("connection", "it is at {height}").format(height=height(floor))
+            else tr("it is at {height}").format(height=height(floor))
         )
         self.question.ask(
-            translate(
-                "connection",
-                "Set the floor at {height}, the present height of the tip? So far {old}.",
-            ).format(height=height(self._height), old=old),
-            translate("connection", "Set floor"),
+            tr("Set the floor at {height}, the present height of the tip? So far {old}.").format(
+                height=height(self._height), old=old
+            ),
+            tr("Set floor"),
             self._workbench.teach_floor,
         )
 
@@ -110,11 +96,10 @@ class TipSection(Section):
             return
         self._asked = None
         self.question.ask(
-            translate(
-                "connection",
-                "Remove the floor at {height}? Without a floor only the axis ranges limit the tip.",
+            tr(
+                "Remove the floor at {height}? Without a floor only the axis ranges limit the tip."
             ).format(height=height(floor)),
-            translate("connection", "Remove"),
+            tr("Remove"),
             self._workbench.clear_floor,
         )
 

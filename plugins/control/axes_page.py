@@ -1,16 +1,17 @@
 """Range and approach of one axis."""
 
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QWidget
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.backlash import OVER_PLAY, Approach, play_of
 from rotemina.app.motion.state import SessionState
 from rotemina.app.range_settings import keep_ranges
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import plain_text, show_text
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import no_position, typed
 from rotemina.sim.quantities import Scale, rounded
 from rotemina.sim.robot.model import StepperAxis
@@ -24,28 +25,22 @@ class AxesPage(QWidget):
     def __init__(self, workbench: Workbench) -> None:
         super().__init__()
         self._workbench, self._session = workbench, workbench.session
-        self.axis = SteadyChoice(
-            translate("control", "Axis"),
-            translate("control", "Axis whose range and approach are set"),
-        )
+        self.axis = SteadyChoice(tr("Axis"), tr("Axis whose range and approach are set"))
         for name in workbench.robot.axes:
             self.axis.addItem(label(name), name)
         self.axis.currentIndexChanged.connect(lambda _: self._show())
         self.low, self.high, self.width_field = QLineEdit(), QLineEdit(), QLineEdit()
-        self.low.setAccessibleName(translate("control", "Low end of the range"))
-        self.high.setAccessibleName(translate("control", "High end of the range"))
-        self.width_field.setAccessibleName(translate("control", "Overshoot of the approach"))
-        self.narrow = button(translate("control", "Narrow"), self._narrow)
-        self.whole = button(translate("control", "Whole"), self._restore)
+        self.low.setAccessibleName(tr("Low end of the range"))
+        self.high.setAccessibleName(tr("High end of the range"))
+        self.width_field.setAccessibleName(tr("Overshoot of the approach"))
+        self.narrow = button(tr("Narrow"), self._narrow)
+        self.whole = button(tr("Whole"), self._restore)
         self.unit = QLabel()
-        self.side = SteadyChoice(
-            translate("control", "Approach"),
-            translate("control", "Side from which targets are approached"),
-        )
+        self.side = SteadyChoice(tr("Approach"), tr("Side from which targets are approached"))
         for text, rising in (
-            (translate("control", "straight"), None),
-            (translate("control", "from below"), True),
-            (translate("control", "from above"), False),
+            (tr("straight"), None),
+            (tr("from below"), True),
+            (tr("from above"), False),
         ):
             self.side.addItem(text, rising)
         self.side.activated.connect(lambda _: self._approach())
@@ -53,7 +48,7 @@ class AxesPage(QWidget):
         self.high.returnPressed.connect(self._narrow)
         self.width_field.returnPressed.connect(self._approach)
         self.play = plain_text()
-        self.use_play = button(translate("control", "Use"), self._use_play)
+        self.use_play = button(tr("Use"), self._use_play)
         self._lay_out()
         self._show()
 
@@ -62,22 +57,18 @@ class AxesPage(QWidget):
         axis, session = self._axis, self._session
         why = state.locked
         if why is None and not session.at_rest:
-            why = translate("control", "the machine is moving")
+            why = tr("the machine is moving")
         narrowed = axis in session.ranges.narrowed
-        allow(self.narrow, why, translate("control", "Limit the targets of the axis to this range"))
+        allow(self.narrow, why, tr("Limit the targets of the axis to this range"))
         allow(
             self.whole,
-            why or (None if narrowed else translate("control", "its range is not limited")),
-            translate("control", "Restore the range of the robot file"),
+            why or (None if narrowed else tr("its range is not limited")),
+            tr("Restore the range of the robot file"),
         )
         if not isinstance(self._workbench.robot.axes[axis], StepperAxis):
-            why = translate("control", "only stepper axes have backlash")
-        allow(self.side, why, translate("control", "Side from which targets are approached"))
-        allow(
-            self.width_field,
-            why,
-            translate("control", "Distance beyond the target, more than the backlash"),
-        )
+            why = tr("only stepper axes have backlash")
+        allow(self.side, why, tr("Side from which targets are approached"))
+        allow(self.width_field, why, tr("Distance beyond the target, more than the backlash"))
         self._show_play(why)
 
     def _show_play(self, why: str | None) -> None:
@@ -85,19 +76,16 @@ class AxesPage(QWidget):
         play, scale = self._play, self._scale
         stepper = isinstance(self._workbench.robot.axes[self._axis], StepperAxis)
         show_text(
-            self.play,
-            translate("control", "Measured play: {play}").format(play=scale.text(play))
-            if stepper
-            else "",
+            self.play, tr("Measured play: {play}").format(play=scale.text(play)) if stepper else ""
         )
         self.use_play.setVisible(stepper)
         none = None
         if play is None:
-            none = translate("control", "the model in use has no backlash of this axis; diagnose")
+            none = tr("the model in use has no backlash of this axis; diagnose")
         allow(
             self.use_play,
             why or none,
-            translate("control", "Make {factor} × the play of the model in use the width").format(
+            tr("Make {factor} × the play of the model in use the width").format(
                 factor=rounded(OVER_PLAY)
             ),
         )
@@ -120,24 +108,19 @@ class AxesPage(QWidget):
         return str(self.axis.currentData())
 
     def _lay_out(self) -> None:
-        grid = QGridLayout(self)
-        grid.setContentsMargins(10, 6, 10, 4)
-        grid.setHorizontalSpacing(6)
-        grid.setVerticalSpacing(4)
+        grid = in_grid(on=self, margins=(10, 6, 10, 4), spacing=(6, 4), stretched=(1, 3))
         grid.addWidget(self.axis, 0, 0, 1, 2)
         grid.addWidget(self.unit, 0, 2)
         grid.addWidget(self.narrow, 0, 3)
         grid.addWidget(self.whole, 0, 4)
-        grid.addWidget(QLabel(translate("control", "Range")), 1, 0)
+        grid.addWidget(QLabel(tr("Range")), 1, 0)
         grid.addWidget(self.low, 1, 1, 1, 2)
         grid.addWidget(self.high, 1, 3, 1, 2)
-        grid.addWidget(QLabel(translate("control", "Approach")), 2, 0)
+        grid.addWidget(QLabel(tr("Approach")), 2, 0)
         grid.addWidget(self.side, 2, 1, 1, 2)
         grid.addWidget(self.width_field, 2, 3, 1, 2)
         grid.addWidget(self.play, 3, 0, 1, 4)
         grid.addWidget(self.use_play, 3, 4)
-        grid.setColumnStretch(1, 1)
-        grid.setColumnStretch(3, 1)
         grid.setRowStretch(4, 1)
 
     def _show(self) -> None:
@@ -150,7 +133,7 @@ class AxesPage(QWidget):
         whole = self._workbench.robot.axes[axis].range
         ends = " … ".join(scale.text(end) for end in whole)
         for field in (self.low, self.high):
-            field.setToolTip(plain_tip(translate("control", "Within {ends}").format(ends=ends)))
+            field.setToolTip(plain_tip(tr("Within {ends}").format(ends=ends)))
         self.unit.setText(f"[{scale.symbol}]")
         approach = self._session.backlash.applied.get(axis)
         self.side.setCurrentIndex(self.side.findData(approach.rising if approach else None))

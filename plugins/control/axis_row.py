@@ -5,17 +5,18 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton
+from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QPushButton
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.ranges import Range
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.controls import allow, named, plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.layouts import in_grid, in_row
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.control import tr
 from rotemina.plugins.control.hold_to_jog import Holding
 from rotemina.plugins.control.large_move_confirmation import Confirmation
 from rotemina.plugins.control.readout import RangeBar, Readout
@@ -75,29 +76,18 @@ class AxisRow(QFrame):
         self.confirmation = Confirmation(self._described.span, workbench.session)
         self.holding = Holding(workbench, axis, self)
         self._bar = RangeBar(workbench, axis)
-        self._readout = Readout(
-            workbench, translate("control", "{label} position").format(label=label(axis))
-        )
-        self.status = ElidedLabel()
-        self.status.setAccessibleName(
-            translate("control", "{label} state").format(label=label(axis))
-        )
-        self.left = plain_text()
+        self._readout = Readout(workbench, tr("{label} position").format(label=label(axis)))
+        self.status = named(ElidedLabel(), tr("{label} state").format(label=label(axis)))
+        self.left = named(plain_text(), tr("{label} range left").format(label=label(axis)))
         self.left.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.left.setAccessibleName(
-            translate("control", "{label} range left").format(label=label(axis))
+        self.difference = named(
+            plain_text(), tr("{label}: measured minus command").format(label=label(axis))
         )
-        self.difference = plain_text()
         self.difference.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.difference.setAccessibleName(
-            translate("control", "{label}: measured minus command").format(label=label(axis))
-        )
         self.minus, self.plus = self._jog_button("−", -1), self._jog_button("+", +1)
         self.target = self._target_field()
-        self.go = QPushButton(translate("control", "Go"))
-        self.go.setAccessibleName(
-            translate("control", "Go to the typed {label}").format(label=label(axis))
-        )
+        self.go = QPushButton(tr("Go"))
+        self.go.setAccessibleName(tr("Go to the typed {label}").format(label=label(axis)))
         self.go.clicked.connect(self._go)
         self._lay_out()
 
@@ -108,7 +98,7 @@ class AxisRow(QFrame):
         position = state.measured[self._axis] if known else None
         self._command = state.command[self._axis] if known else None
         self._readout.show_value(
-            translate("control", "unknown") if position is None else self._scale.text(position),
+            tr("unknown") if position is None else self._scale.text(position),
             stale=stale or not known,
         )
         self._bar.show_position(position, self._command, stale=stale)
@@ -161,27 +151,17 @@ class AxisRow(QFrame):
         self.name.setTextFormat(Qt.TextFormat.PlainText)  # a name from a file is no markup
         self.name.setProperty("heading", True)
         self.name.setMinimumWidth(_NAME)
-        controls = QHBoxLayout()
-        controls.setSpacing(4)
-        controls.addWidget(self.minus)
-        controls.addWidget(self.plus)
-        controls.addWidget(self.target, 1)
-        controls.addWidget(self.go)
-        controls.addWidget(self.left)
+        controls = in_row(self.minus, self.plus, (self.target, 1), self.go, self.left, spacing=4)
         self._roomy: bool | None = None
-        grid = self._grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 3)
-        grid.setVerticalSpacing(1)
+        grid = self._grid = in_grid(on=self, margins=(0, 0, 0, 3), spacing=(-1, 1), stretched=1)
         grid.addWidget(self.name, 0, 0)
-        grid.setColumnStretch(1, 1)
         grid.addWidget(self._bar, 2, 0, 1, 4)
         grid.addLayout(controls, 3, 0, 1, 4)
         self.give_room(roomy=False)
 
     def _jog_button(self, text: str, sign: int) -> QPushButton:
-        button = QPushButton(text)
+        button = named(QPushButton(text), f"{label(self._axis)} {text}")
         button.setProperty("jog", True)
-        button.setAccessibleName(f"{label(self._axis)} {text}")
         button.clicked.connect(lambda _: self._step(sign))
         button.pressed.connect(lambda: self._hold(button, sign))
         button.released.connect(self.holding.end)
@@ -193,7 +173,7 @@ class AxisRow(QFrame):
         field.setPlaceholderText(f"[{self._scale.symbol}]")  # *Go* is beside it
         field.setMinimumWidth(60)
         field.setAccessibleName(
-            translate("control", "{label} target in {symbol}").format(
+            tr("{label} target in {symbol}").format(
                 label=label(self._axis), symbol=self._scale.symbol
             )
         )
@@ -219,9 +199,7 @@ class AxisRow(QFrame):
 
     def _fit(self) -> None:
         self.left.setFixedWidth(
-            self.left.fontMetrics().horizontalAdvance(
-                translate("control", "{way} left").format(way="8888.8 µrad")
-            )
+            self.left.fontMetrics().horizontalAdvance(tr("{way} left").format(way="8888.8 µrad"))
         )
         high = self._described.range[1]
         # Beyond the following bound motion is locked; until there, its width is that of a bound.
@@ -253,9 +231,9 @@ class AxisRow(QFrame):
         if speed is None:
             self._workbench.notify(
                 Level.WARNING,
-                translate(
-                    "control", "{label}: the robot file gives no max_speed; use steps instead."
-                ).format(label=label(self._axis)),
+                tr("{label}: the robot file gives no max_speed; use steps instead.").format(
+                    label=label(self._axis)
+                ),
                 about=self,
             )
             return
@@ -298,11 +276,7 @@ class AxisRow(QFrame):
         if set_property(self.difference, "grade", grade):
             bound = self._scale.text(self._described.following)
             self.difference.setToolTip(
-                plain_tip(
-                    translate("control", "Measured minus command; the bound is {bound}.").format(
-                        bound=bound
-                    )
-                )
+                plain_tip(tr("Measured minus command; the bound is {bound}.").format(bound=bound))
             )
 
     def _show_status(self, state: SessionState) -> None:
@@ -312,43 +286,33 @@ class AxisRow(QFrame):
         self.status.show_text(meant or status_text(self._axis, state, self._scale))
         set_property(self.status, "quiet", not meant)
         set_property(self.status, "bad", not meant and self._axis in state.unhomed)
-        word = translate("control", "Move?") if asked else translate("control", "Go")
+        word = tr("Move?") if asked else tr("Go")
         if word != self.go.text():
             self.go.setText(word)
             set_property(self.go, "primary", asked)
 
     def _lock(self, why_not: str | None) -> None:
         name, held = label(self._axis), self._steps.step(self._axis) is None
-        how = translate("control", "while pressed") if held else translate("control", "one step")
+        how = tr("while pressed") if held else tr("one step")
         for button in (self.minus, self.plus):
             button.setProperty("held", held)  # the command palette can only click
-        allow(
-            self.minus,
-            why_not,
-            translate("control", "Move {name} down {how}").format(name=name, how=how),
-        )
-        allow(
-            self.plus,
-            why_not,
-            translate("control", "Move {name} up {how}").format(name=name, how=how),
-        )
+        allow(self.minus, why_not, tr("Move {name} down {how}").format(name=name, how=how))
+        allow(self.plus, why_not, tr("Move {name} up {how}").format(name=name, how=how))
         low, high = (self._scale.number(end) for end in self._ends)
-        bounds = translate("control", "{low} to {high} {symbol}").format(
+        bounds = tr("{low} to {high} {symbol}").format(
             low=low, high=high, symbol=self._scale.symbol
         )
         allow(
             self.target,
             why_not,
-            translate("control", "Target of {name}, {bounds}; press Enter or Go").format(
-                name=name, bounds=bounds
-            ),
+            tr("Target of {name}, {bounds}; press Enter or Go").format(name=name, bounds=bounds),
         )
         allow(
             self.go,
             why_not,
-            translate("control", "A large move: press again to confirm")
+            tr("A large move: press again to confirm")
             if self.confirmation.asked is not None
-            else translate("control", "Move {name} to the typed position").format(name=name),
+            else tr("Move {name} to the typed position").format(name=name),
         )
 
 
@@ -357,11 +321,7 @@ def _against(state: SessionState, *, known: bool, stale: bool) -> str | None:
     if state.locked is not None:
         return state.locked
     if not known:
-        return translate("control", "its position is unknown")
+        return tr("its position is unknown")
     if stale:
-        return translate("control", "its reading is too old")
-    return (
-        translate("control", "a trajectory is playing")
-        if state.activity is DeviceState.PLAYING
-        else None
-    )
+        return tr("its reading is too old")
+    return tr("a trajectory is playing") if state.activity is DeviceState.PLAYING else None

@@ -4,15 +4,16 @@ from collections.abc import Callable, Mapping
 from math import isfinite
 from typing import NamedTuple
 
-from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QLabel, QWidget
 
 from rotemina.app.motion.saved_positions import LOAD, WORK
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.connection.unavailable_reasons import against_teaching, in_motion
+from rotemina.plugins.control import tr
 
 LIFT = "z"
 _THERE = 1e-9  # m or rad
@@ -49,7 +50,7 @@ class ChangeGuide(QDialog):
         parent: QWidget,
     ) -> None:
         super().__init__(parent)
-        self.setWindowTitle(translate("control", "Change pin or dish"))
+        self.setWindowTitle(tr("Change pin or dish"))
         self._bench, self._session = workbench, workbench.session
         self._places, self._show_panel = places, show_panel
         self._teaching: Pending[bool] = Pending(workbench.session)
@@ -58,16 +59,8 @@ class ChangeGuide(QDialog):
         self.steps = self._listed()
         self.lines = [QLabel() for _ in self.steps]
         self.do = button("", self._do)
-        self.skip = button(
-            translate("control", "Skip"), self._next, translate("control", "Skip this step")
-        )
-        column = QVBoxLayout(self)
-        for line in self.lines:
-            column.addWidget(line)
-        row = QHBoxLayout()
-        row.addWidget(self.do, 1)
-        row.addWidget(self.skip)
-        column.addLayout(row)
+        self.skip = button(tr("Skip"), self._next, tr("Skip this step"))
+        in_column(*self.lines, on=self).addLayout(in_row((self.do, 1), self.skip))
         workbench.refreshed.connect(self.refresh)
 
     @property
@@ -95,7 +88,7 @@ class ChangeGuide(QDialog):
         if self._at < len(self.steps):
             step = self.steps[self._at]
             asked = self._teaching.what is not None
-            self.do.setText(translate("control", "Teach here?") if asked else step.word)
+            self.do.setText(tr("Teach here?") if asked else step.word)
             allow(self.do, step.against(state), step.text)
 
     def _do(self) -> None:
@@ -118,66 +111,64 @@ class ChangeGuide(QDialog):
             return state.locked or in_motion(state)
 
         def to_place(name: str) -> Callable[[SessionState], str | None]:
-            none = translate(
-                "control", "position {name!r} is not saved; skip the step or save the position"
-            )
+            none = tr("position {name!r} is not saved; skip the step or save the position")
             return lambda state: (
                 to_move(state) if name in self._places() else none.format(name=name)
             )
 
         return (
             Step(
-                translate("control", "Retract: Z to its upper end"),
-                translate("control", "Retract"),
+                tr("Retract: Z to its upper end"),
+                tr("Retract"),
                 lambda: self._bench.go_to({LIFT: top}),
                 to_move,
                 lambda state: _rests_at(state, {LIFT: top}),
             ),
             Step(
-                translate("control", "Go to the load position"),
-                translate("control", "Go there"),
+                tr("Go to the load position"),
+                tr("Go there"),
                 lambda: self._bench.ask(lambda: session.go_safely(self._places()[LOAD])),
                 to_place(LOAD),
                 lambda state: _rests_at(state, self._places().get(LOAD, {})),
             ),
             Step(
-                translate("control", "Forget the floor and the tip in the picture"),
-                translate("control", "Forget them"),
+                tr("Forget the floor and the tip in the picture"),
+                tr("Forget them"),
                 self._forget,
                 to_move,
                 lambda _: self._floor() is None,
             ),
             Step(
-                translate("control", "Lock; then change the pin or the dish by hand"),
-                translate("control", "Stop and lock"),
+                tr("Lock; then change the pin or the dish by hand"),
+                tr("Stop and lock"),
                 self._bench.emergency_stop,
                 lambda _: None,
                 lambda state: state.latched is not None,
             ),
             Step(
-                translate("control", "Pin or dish changed, hands clear: release the lock"),
-                translate("control", "Release"),
+                tr("Pin or dish changed, hands clear: release the lock"),
+                tr("Release"),
                 self._bench.release,
                 lambda _: None,
                 lambda state: state.latched is None,
             ),
             Step(
-                translate("control", "Move above the work position with Z raised"),
-                translate("control", "Go there"),
+                tr("Move above the work position with Z raised"),
+                tr("Go there"),
                 lambda: self._bench.ask(lambda: session.go_safely(self._above_work())),
                 to_place(WORK),
                 lambda state: _rests_at(state, self._above_work()),
             ),
             Step(
-                translate("control", "Find the tip in the microscope; lower it slowly by hand"),
-                translate("control", "Show the microscope"),
+                tr("Find the tip in the microscope; lower it slowly by hand"),
+                tr("Show the microscope"),
                 lambda: self._show_panel("microscope"),
                 lambda _: None,
                 lambda _: True,
             ),
             Step(
-                translate("control", "Teach the floor where the tip touches"),
-                translate("control", "Teach floor"),
+                tr("Teach the floor where the tip touches"),
+                tr("Teach floor"),
                 self._teach,
                 lambda state: against_teaching(state, session.bounds.keep_out),
                 lambda _: self._floor() is not None,

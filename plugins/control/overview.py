@@ -1,14 +1,15 @@
 """Overview above the axes: steering, the tip, and the speed of moves."""
 
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import named, plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_grid, in_row
+from rotemina.plugins.control import tr
 from rotemina.plugins.control.step_choice import SpeedChoice
 from rotemina.plugins.control.wording import above_floor, steering_text, tip_short, tip_text
 from rotemina.plugins.teleoperation.wording import driver_text, standing, trust_text
@@ -26,24 +27,17 @@ class Overview(QWidget):
         self.speed = SpeedChoice(workbench.robot)
         self.speed.choose(workbench.settings.get(_SPEED_KEY, 1.0))
         self.speed.activated.connect(lambda _: workbench.settings.set(_SPEED_KEY, self.speed.share))
-        self.stick = QLabel("–")
-        self.stick.setAccessibleName(translate("control", "State of the joystick"))
+        self.stick = named(QLabel("–"), tr("State of the joystick"))
         self.stick.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self.stick, Tone.QUIET)
         self.device, self.tip = ElidedLabel(), ElidedLabel()
-        self.device.setAccessibleName(translate("control", "Device, mode and scaling"))
-        self.tip.setAccessibleName(translate("control", "Height of the tip"))
-        first = QHBoxLayout()
-        first.setSpacing(8)
-        first.addWidget(self.stick)
-        first.addWidget(self.device, 1)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(10, 4, 10, 2)
-        grid.setVerticalSpacing(3)
+        self.device.setAccessibleName(tr("Device, mode and scaling"))
+        self.tip.setAccessibleName(tr("Height of the tip"))
+        first = in_row(self.stick, (self.device, 1), spacing=8)
+        grid = in_grid(on=self, margins=(10, 4, 10, 2), spacing=(-1, 3), stretched=0)
         grid.addLayout(first, 0, 0, 1, 3)
         grid.addWidget(self.tip, 1, 0)
-        grid.setColumnStretch(0, 1)
-        grid.addWidget(QLabel(translate("control", "Speed")), 1, 1)
+        grid.addWidget(QLabel(tr("Speed")), 1, 1)
         grid.addWidget(self.speed, 1, 2)
 
     def refresh(self, state: SessionState) -> None:

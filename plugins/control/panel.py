@@ -3,24 +3,18 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QScrollArea,
-    QStackedWidget,
-    QTabBar,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QScrollArea, QStackedWidget, QTabBar, QVBoxLayout, QWidget
 
 from rotemina.app.display_units import stages
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.labels import heading
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
+from rotemina.plugins.control import mark, tr
 from rotemina.plugins.control.axes_page import AxesPage
 from rotemina.plugins.control.axis_row import AxisRow
 from rotemina.plugins.control.overview import Overview
@@ -41,11 +35,7 @@ QPushButton[jog="true"] { padding: 0; }
 # Five names side by side have room in a dock of 330 px, in German too.
 _FIVE_TABS = "QTabBar::tab { padding-left: 5px; padding-right: 5px; }"
 _ROOMY_FROM = 860  # px of height
-_STAGES = {
-    "micro": marked("control", "Micro stage"),
-    "nano": marked("control", "Nano stage"),
-    "axes": marked("control", "Axes"),
-}
+_STAGES = {"micro": mark("Micro stage"), "nano": mark("Nano stage"), "axes": mark("Axes")}
 
 
 _STEP = 1e-3  # of the range, over which the tip's height is differentiated
@@ -113,30 +103,23 @@ class ControlPanel(Panel):
             self.tabs.addTab(name)
             self.pages.addWidget(page)
         self.tabs.currentChanged.connect(self._turn_to)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
-        outer.addWidget(self.head)
-        outer.addWidget(self._scrolled_axes(), 1)
-        outer.addWidget(self.tabs)
-        outer.addWidget(self.pages)
+        parts = self.head, (self._scrolled_axes(), 1), self.tabs, self.pages
+        in_column(*parts, on=self, margins=0, spacing=0)
         workbench.shown.connect(self._show)
         self.follow(self._refresh)
 
     def _pages(self) -> tuple[tuple[str, QWidget], ...]:
         return (
-            (translate("control", "Hand"), self.hand),
-            (translate("control", "Positions"), self.positions),
-            (translate("control", "Tip"), self.tip),
-            (translate("control", "Penetration"), self.penetration),
-            (translate("control", "Axes"), self.axes),
+            (tr("Hand"), self.hand),
+            (tr("Positions"), self.positions),
+            (tr("Tip"), self.tip),
+            (tr("Penetration"), self.penetration),
+            (tr("Axes"), self.axes),
         )
 
     def _scrolled_axes(self) -> QScrollArea:
         content = QWidget()
-        column = QVBoxLayout(content)
-        column.setContentsMargins(10, 0, 8, 0)
-        column.setSpacing(1)
+        column = in_column(on=content, margins=(10, 0, 8, 0), spacing=1)
         for stage, axes in stages(self.workbench.robot).items():
             self._add_stage(column, stage, axes)
         column.addStretch(1)
@@ -152,19 +135,14 @@ class ControlPanel(Panel):
         self.setMinimumWidth(max(needed, 330))
 
     def _add_stage(self, column: QVBoxLayout, stage: str, axes: tuple[str, ...]) -> None:
-        heading = QLabel(
-            translate("control", _STAGES[stage])
+        title = heading(
+            tr(_STAGES[stage])
             if stage in _STAGES
-            else translate("control", "{name} stage").format(name=stage.capitalize())
+            else tr("{name} stage").format(name=stage.capitalize())
         )
-        heading.setProperty("heading", True)
-        heading.setTextFormat(Qt.TextFormat.PlainText)
         steps = StepChoice(self.workbench.robot, axes)
         self.steps[stage] = steps
-        line = QHBoxLayout()
-        line.addWidget(heading, 1)
-        line.addWidget(steps)
-        column.addLayout(line)
+        column.addLayout(in_row((title, 1), steps))
         for name in axes:
             row = AxisRow(name, self.workbench, steps, self.head.speed)
             self.rows[name] = row

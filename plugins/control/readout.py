@@ -7,9 +7,9 @@ from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from rotemina.app.display_units import axis_scale
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import set_property
+from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import LITTLE
 
 
@@ -30,7 +30,7 @@ class Readout(QLabel):
             self.setText(text)
         if bool(self.property("stale")) != stale:
             set_property(self, "stale", stale)
-            self.setAccessibleDescription(translate("control", "outdated") if stale else "")
+            self.setAccessibleDescription(tr("outdated") if stale else "")
             self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
@@ -38,8 +38,7 @@ class Readout(QLabel):
         if self.property("stale"):
             painter = QPainter(self)
             painter.fillRect(
-                self.rect(),
-                QBrush(QColor(self._workbench.theme.line), Qt.BrushStyle.BDiagPattern),
+                self.rect(), QBrush(QColor(self._workbench.theme.line), Qt.BrushStyle.BDiagPattern)
             )
             painter.end()
         super().paintEvent(event)

@@ -2,11 +2,12 @@
 
 from collections.abc import Iterable
 
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from rotemina.app.display_units import step_presets
-from rotemina.app.shell.language import translate
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.control import tr
 from rotemina.sim.quantities import rounded, scale_in
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.units import to_unit
@@ -23,10 +24,7 @@ class StepChoice(QWidget):
 
     def __init__(self, robot: Robot, axes: tuple[str, ...]) -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(6)
-        row.addWidget(QLabel(translate("control", "Step")))
+        row = in_row(QLabel(tr("Step")), on=self, margins=0, spacing=6)
         self.boxes: dict[str, SteadyChoice] = {}
         self._quantities = {name: robot.axes[name].unit or "m" for name in axes}
         for quantity in dict.fromkeys(self._quantities.values()):
@@ -51,8 +49,7 @@ class SpeedChoice(SteadyChoice):
 
     def __init__(self, robot: Robot) -> None:
         super().__init__(
-            translate("control", "Speed of moves"),
-            translate("control", "Speed of jogging and go-to, relative to the axis' maximum"),
+            tr("Speed of moves"), tr("Speed of jogging and go-to, relative to the axis' maximum")
         )
         self._robot = robot
         for share in SPEEDS:
@@ -85,19 +82,18 @@ class SpeedChoice(SteadyChoice):
 
 
 def _box(quantity: str, span: float) -> SteadyChoice:
-    kind = translate("control", "angles") if quantity == "rad" else translate("control", "lengths")
+    kind = tr("angles") if quantity == "rad" else tr("lengths")
     box = SteadyChoice(
-        translate("control", "Jog step, {kind}").format(kind=kind),
-        translate(
-            "control",
-            "Distance of one press of + or − ({kind}); hold: while the button is pressed",
-        ).format(kind=kind),
+        tr("Jog step, {kind}").format(kind=kind),
+        tr("Distance of one press of + or − ({kind}); hold: while the button is pressed").format(
+            kind=kind
+        ),
     )
     for step in step_presets(quantity, span):
         box.addItem(step_text(step, quantity), step)
         if step <= span / 1000:
             box.setCurrentIndex(box.count() - 1)
-    box.addItem(translate("control", "hold"), None)
+    box.addItem(tr("hold"), None)
     return box
 
 

@@ -1,24 +1,17 @@
 """Steering by stick: mode, law, owner, and taking over."""
 
-from PySide6.QtWidgets import (
-    QButtonGroup,
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QButtonGroup, QGridLayout, QLabel, QPushButton, QWidget
 
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import owners_text, taken
 from rotemina.plugins.teleoperation.wording import law_choices, mode_choice, reason_text, trust_text
 from rotemina.sim.quantities import rounded
@@ -32,44 +25,26 @@ class HandPage(QWidget):
         self._workbench, self._operation = workbench, workbench.operation
         steered = self._operation.teleoperator
         self.modes: dict[str, QPushButton] = {}
-        self.law = SteadyChoice(
-            translate("control", "Scaling"), translate("control", "Meaning of the stick's position")
-        )
+        self.law = SteadyChoice(tr("Scaling"), tr("Meaning of the stick's position"))
         for kind, choice in law_choices():
             self.law.addItem(choice.text, kind)
         self.law.activated.connect(
             lambda _: workbench.ask(lambda: steered.use_law(self.law.currentData()))
         )
         self.preset = SteadyChoice(
-            translate("control", "Step preset"),
-            translate("control", "Factor on distance, speed and force of the joystick"),
+            tr("Step preset"), tr("Factor on distance, speed and force of the joystick")
         )
         for factor in STEP_PRESETS:
             self.preset.addItem(f"× {rounded(factor, 6)}", factor)
         self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
         self.trust, self.reason, self.owners = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.reason.setProperty("quiet", True)
-        self.over = button(translate("control", "Take over"), self._take_over)
-        scaling = QHBoxLayout()
-        scaling.setSpacing(6)
-        for widget, stretch in (
-            (QLabel(translate("control", "Scaling")), 0),
-            (self.law, 1),
-            (self.preset, 1),
-        ):
-            scaling.addWidget(widget, stretch)
-        owned = QHBoxLayout()
-        owned.addWidget(self.owners, 1)
-        owned.addWidget(self.over)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 6, 10, 4)
-        column.setSpacing(4)
-        column.addLayout(self._mode_buttons())
-        column.addLayout(scaling)
-        column.addWidget(self.trust)
-        column.addWidget(self.reason)
-        column.addLayout(owned)
-        column.addStretch(1)
+        self.over = button(tr("Take over"), self._take_over)
+        heading = QLabel(tr("Scaling"))
+        scaling = in_row(heading, (self.law, 1), (self.preset, 1), spacing=6)
+        owned = in_row((self.owners, 1), self.over)
+        parts = self._mode_buttons(), scaling, self.trust, self.reason, owned, 1
+        in_column(*parts, on=self, margins=(10, 6, 10, 4), spacing=4)
 
     def refresh(self, state: SessionState) -> None:
         """Show a moment of the machine."""
@@ -81,20 +56,16 @@ class HandPage(QWidget):
                 box.setCurrentIndex(box.findData(value))
         self.trust.show_text(trust_text(view))
         self.reason.show_text(steered.refused or reason_text(steered, stale=stale))
-        self.owners.show_text(owners_text(state) or translate("control", "No axis is moving."))
+        self.owners.show_text(owners_text(state) or tr("No axis is moving."))
         others = taken(state)
         allow(
             self.over,
-            None if others else translate("control", "no other control moves an axis"),
-            translate(
-                "control",
-                "Take over axes that another control moves; they continue until your first command",
-            ),
+            None if others else tr("no other control moves an axis"),
+            tr("Take over axes that another control moves; they continue until your first command"),
         )
 
     def _mode_buttons(self) -> QGridLayout:
-        grid = QGridLayout()
-        grid.setSpacing(4)
+        grid = in_grid(spacing=4)
         group = QButtonGroup(self)
         steered = self._operation.teleoperator
         for number, name in enumerate(steered.modes.names):
@@ -102,7 +73,7 @@ class HandPage(QWidget):
             one = QPushButton(choice.text)
             one.setCheckable(True)
             one.setToolTip(plain_tip(choice.tip))
-            one.setAccessibleName(translate("control", "Mode {text}").format(text=choice.text))
+            one.setAccessibleName(tr("Mode {text}").format(text=choice.text))
             one.clicked.connect(
                 lambda _, name=name: self._workbench.ask(lambda: steered.use_mode(name))
             )

@@ -2,12 +2,13 @@
 
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import above_floor, bounds_text, tip_text
 from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT
 from rotemina.sim.quantities import fixed
@@ -25,8 +26,8 @@ class HeightGauge(QWidget):
         self.setFixedWidth(46)
         self.setMinimumHeight(80)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName(translate("control", "Height of the tip above its floor"))
-        self.setToolTip(translate("control", "0 to 2 mm above the floor; hatched: the slow zone"))
+        self.setAccessibleName(tr("Height of the tip above its floor"))
+        self.setToolTip(tr("0 to 2 mm above the floor; hatched: the slow zone"))
 
     def show_height(self, above: float | None) -> None:
         """Show another height, m; None: it is not known."""
@@ -64,16 +65,8 @@ class TipPage(QWidget):
         self._workbench = workbench
         self.gauge = HeightGauge(workbench)
         self.height_text, self.place, self.bounds = (plain_text(lines=n) for n in (2, 2, 3))
-        column = QVBoxLayout()
-        column.setSpacing(4)
-        for one in (self.height_text, self.place, self.bounds):
-            column.addWidget(one)
-        column.addStretch(1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(10, 6, 10, 4)
-        row.setSpacing(10)
-        row.addWidget(self.gauge)
-        row.addLayout(column, 1)
+        column = in_column(self.height_text, self.place, self.bounds, 1, spacing=4)
+        in_row(self.gauge, (column, 1), on=self, margins=(10, 6, 10, 4), spacing=10)
 
     def refresh(self, state: SessionState) -> None:
         """Show a moment of the machine."""
@@ -83,10 +76,7 @@ class TipPage(QWidget):
         place = "" if tip is None else " · ".join(fixed(1e3 * at, 4) for at in tip)
         texts = (
             (self.height_text, tip_text(state, zone)),
-            (
-                self.place,
-                translate("control", "x, y, z [mm]: {place}").format(place=place) if place else "",
-            ),
+            (self.place, tr("x, y, z [mm]: {place}").format(place=place) if place else ""),
             (self.bounds, bounds_text(zone)),
         )
         for text_shown, text in texts:

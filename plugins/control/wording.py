@@ -11,7 +11,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.control import mark, tr
 from rotemina.sim.kinematics.keep_out import SLOW_HEIGHT, SLOW_SPEED, KeepOutZone
 from rotemina.sim.quantities import Scale, exact, fixed, parsed, rounded
 from rotemina.sim.robot.model import Axis
@@ -19,14 +19,14 @@ from rotemina.sim.robot.model import Axis
 LITTLE = 0.1  # of the range: what is left below it is pointed at
 # Modes and laws of the stick, as the engine names them.
 MODES_AND_LAWS = (
-    marked("control", "micro"),
-    marked("control", "nano"),
-    marked("control", "hybrid"),
-    marked("control", "fine"),
-    marked("control", "pivot"),
-    marked("control", "position"),
-    marked("control", "rate"),
-    marked("control", "impedance"),
+    mark("micro"),
+    mark("nano"),
+    mark("hybrid"),
+    mark("fine"),
+    mark("pivot"),
+    mark("position"),
+    mark("rate"),
+    mark("impedance"),
 )
 _NOT_TAKEN = (OPERATOR, PLAYBACK, HOMING)
 
@@ -42,13 +42,13 @@ def is_stale(state: SessionState) -> bool:
 def age_text(age_s: float | None) -> str:
     """Return how old a reading is that is too old."""
     if age_s is None:
-        return translate("control", "no data")
+        return tr("no data")
     if age_s < 100.0:
-        return translate("control", "{age:.1f} s old").format(age=age_s)
+        return tr("{age:.1f} s old").format(age=age_s)
     return (
-        translate("control", "{age:.0f} min old").format(age=age_s / 60.0)
+        tr("{age:.0f} min old").format(age=age_s / 60.0)
         if age_s < 6000.0
-        else translate("control", "{age:.0f} h old").format(age=age_s / 3600.0)
+        else tr("{age:.0f} h old").format(age=age_s / 3600.0)
     )
 
 
@@ -58,7 +58,7 @@ def status_text(axis: str, state: SessionState, scale: Scale) -> str:
     Who drives it stands in the header: here there is room for the command alone.
     """
     if axis in state.unhomed:
-        return translate("control", "not homed")
+        return tr("not homed")
     if is_stale(state) and state.measured:
         return age_text(state.age_s)
     if not state.position_known or axis not in state.command:
@@ -97,23 +97,19 @@ def aids(
     signs, meant = [], []
     if inverse is not None:
         signs.append("H⁻¹")
-        text = translate(
-            "control", "H⁻¹: commands pass the inverse {name}; remove it in the panel Compensation."
-        )
+        text = tr("H⁻¹: commands pass the inverse {name}; remove it in the panel Compensation.")
         meant.append(text.format(name=inverse.name))
     if approach is not None:
         arrow = "↑" if approach.rising else "↓"
         signs.append(arrow if taken_up else f"({arrow})")
         side = (
-            translate("control", "{sign}: jogs and go-to approach from below.")
+            tr("{sign}: jogs and go-to approach from below.")
             if approach.rising
-            else translate("control", "{sign}: jogs and go-to approach from above.")
+            else tr("{sign}: jogs and go-to approach from above.")
         )
         meant.append(side.format(sign=arrow))
         if not taken_up:
-            meant.append(
-                translate("control", "In brackets: the last approach was from the other side.")
-            )
+            meant.append(tr("In brackets: the last approach was from the other side."))
     return " ".join(signs), " ".join(meant)
 
 
@@ -121,7 +117,7 @@ def room_left_text(position: float | None, ends: Range, scale: Scale) -> str:
     """Return how far it is to the nearer end of the range."""
     if position is None:
         return ""
-    return translate("control", "{way} left").format(way=_rough(_left(position, ends), scale))
+    return tr("{way} left").format(way=_rough(_left(position, ends), scale))
 
 
 def is_little(position: float | None, ends: Range) -> bool:
@@ -132,13 +128,13 @@ def is_little(position: float | None, ends: Range) -> bool:
 def range_tip(axis: str, position: float | None, ends: Range, scale: Scale) -> str:
     """Return the range of an axis, and the travel left on both sides."""
     low, high = ends
-    text = translate("control", "{label} range: {low} … {high}").format(
+    text = tr("{label} range: {low} … {high}").format(
         label=label(axis), low=scale.text(low), high=scale.text(high)
     )
     if position is None:
         return text
     down, up = max(position - low, 0.0), max(high - position, 0.0)
-    return translate("control", "{range}; remaining: {down} down, {up} up").format(
+    return tr("{range}; remaining: {down} down, {up} up").format(
         range=text, down=scale.text(down), up=scale.text(up)
     )
 
@@ -170,12 +166,8 @@ def echo(text: str, scale: Scale) -> str:
         return ""
     target = typed(text, scale)
     if target is None:
-        return (
-            translate("control", "decimal point, no comma")
-            if "," in text
-            else translate("control", "not a number")
-        )
-    return translate("control", "to {target}").format(target=scale.text(target))
+        return tr("decimal point, no comma") if "," in text else tr("not a number")
+    return tr("to {target}").format(target=scale.text(target))
 
 
 def way(text: str, scale: Scale, command: float | None) -> str:
@@ -189,9 +181,8 @@ def way(text: str, scale: Scale, command: float | None) -> str:
 
 def no_position(axis: str, text: str, scale: Scale) -> str:
     """Return why a text moves nothing."""
-    return translate(
-        "control",
-        "{label}: {text!r} is not a position; type a number in {symbol} with a decimal point.",
+    return tr(
+        "{label}: {text!r} is not a position; type a number in {symbol} with a decimal point."
     ).format(label=label(axis), text=text.strip(), symbol=scale.symbol)
 
 
@@ -201,22 +192,16 @@ def no_position(axis: str, text: str, scale: Scale) -> str:
 def tip_text(state: SessionState, zone: KeepOutZone | None) -> str:
     """Return where the tip is, and what is below it."""
     if zone is None:
-        return translate("control", "No tip: this robot has no kinematic chain to a tip.")
+        return tr("No tip: this robot has no kinematic chain to a tip.")
     if state.tip is None or not state.position_known:
-        return translate("control", "Tip: unknown.")
+        return tr("Tip: unknown.")
     above = above_floor(state, zone)
     if above is None:
-        return translate("control", "Tip at {height}; no floor is taught.").format(
-            height=_millimetres(state.tip[2])
-        )
+        return tr("Tip at {height}; no floor is taught.").format(height=_millimetres(state.tip[2]))
     if above < 0.0:
-        return translate("control", "Tip {height} below its floor.").format(
-            height=_millimetres(-above)
-        )
-    slow = translate("control", "; slow zone") if above < SLOW_HEIGHT else ""
-    return translate("control", "Tip {height} above its floor{slow}.").format(
-        height=_millimetres(above), slow=slow
-    )
+        return tr("Tip {height} below its floor.").format(height=_millimetres(-above))
+    slow = tr("; slow zone") if above < SLOW_HEIGHT else ""
+    return tr("Tip {height} above its floor{slow}.").format(height=_millimetres(above), slow=slow)
 
 
 def tip_short(state: SessionState, zone: KeepOutZone | None) -> str:
@@ -225,9 +210,9 @@ def tip_short(state: SessionState, zone: KeepOutZone | None) -> str:
         return ""
     above = above_floor(state, zone)
     if above is not None:
-        return translate("control", "Tip over floor {height}").format(height=_millimetres(above))
+        return tr("Tip over floor {height}").format(height=_millimetres(above))
     known = state.tip is not None and state.position_known
-    return translate("control", "No floor taught") if known else translate("control", "Tip unknown")
+    return tr("No floor taught") if known else tr("Tip unknown")
 
 
 def above_floor(state: SessionState, zone: KeepOutZone | None) -> float | None:
@@ -241,31 +226,22 @@ def above_floor(state: SessionState, zone: KeepOutZone | None) -> float | None:
 def bounds_text(zone: KeepOutZone | None) -> str:
     """Return what bounds the tip, and what the slow zone means."""
     if zone is None:
-        return translate("control", "Only the axis ranges limit this robot.")
+        return tr("Only the axis ranges limit this robot.")
     bounds = []
     if abs(zone.low) < float("inf"):
-        bounds.append(
-            translate("control", "floor at {height}").format(height=_millimetres(zone.low))
-        )
+        bounds.append(tr("floor at {height}").format(height=_millimetres(zone.low)))
     if abs(zone.high) < float("inf"):
-        bounds.append(
-            translate("control", "objective at {height}").format(height=_millimetres(zone.high))
-        )
+        bounds.append(tr("objective at {height}").format(height=_millimetres(zone.high)))
     if zone.radius < float("inf"):
         bounds.append(
-            translate("control", "at most {height} from the middle").format(
-                height=_millimetres(zone.radius)
-            )
+            tr("at most {height} from the middle").format(height=_millimetres(zone.radius))
         )
     if not bounds:
-        return translate(
-            "control",
-            "Only the axis ranges limit the tip. Teach a floor in Connection, Tip.",
-        )
+        return tr("Only the axis ranges limit the tip. Teach a floor in Connection, Tip.")
     slow = (
-        translate(
-            "control", " Within {height} above the floor it descends at {speed} at most."
-        ).format(height=exact(SLOW_HEIGHT, "m"), speed=exact(SLOW_SPEED, "m/s"))
+        tr(" Within {height} above the floor it descends at {speed} at most.").format(
+            height=exact(SLOW_HEIGHT, "m"), speed=exact(SLOW_SPEED, "m/s")
+        )
         if abs(zone.low) < float("inf")
         else ""
     )
@@ -295,5 +271,5 @@ def owners_text(state: SessionState) -> str:
 
 def steering_text(state: TeleoperationState, device: str) -> str:
     """Return what drives, and how."""
-    mode, law = translate("control", state.mode), translate("control", state.law)
+    mode, law = tr(state.mode), tr(state.law)
     return f"{device} · {mode} · {law} × {rounded(state.factor, 6)}"

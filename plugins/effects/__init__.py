@@ -2,3 +2,7 @@
 
 Switch, tune, load and save them.
 """
+
+from rotemina.app.shell.language import texts_of
+
+tr, mark = texts_of("effects")

@@ -1,28 +1,21 @@
 """The selected effect: its formulation, source axis, and parameters."""
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QFrame,
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QScrollArea,
-    QSizePolicy,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.effects import mark, tr
 from rotemina.plugins.effects.parameter_display import Quantity
 from rotemina.plugins.effects.parameter_field import ParameterField
 from rotemina.plugins.effects.words import effect_summary, effect_title, formulation_name
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.robot.model import Robot
 
-NOTHING = marked("effects", "Add an effect and adjust it while the simulator runs.")
+NOTHING = mark("Add an effect and adjust it while the simulator runs.")
 LEAST_HEIGHT = 10  # of the fields, which scroll: a notice must not make the window taller
 
 
@@ -46,21 +39,17 @@ class Editor(QWidget):
         self._robot = robot
         self._shown: object = None
         self.fields: dict[str, ParameterField] = {}
-        self.title = QLabel(translate("effects", NOTHING))
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.title = plain_text(tr(NOTHING), quiet=False)
         self.formulation = SteadyChoice(
-            translate("effects", "Formulation"),
-            translate("effects", "Formulation of the effect; its equations appear below"),
+            tr("Formulation"), tr("Formulation of the effect; its equations appear below")
         )
         self.formulation.activated.connect(
             lambda: self.formulation_chosen.emit(self.formulation.currentData())
         )
-        self._from = QLabel(translate("effects", "from"))
-        self.source = SteadyChoice(translate("effects", "Axis in which the effect originates"))
+        self._from = QLabel(tr("from"))
+        self.source = SteadyChoice(tr("Axis in which the effect originates"))
         self.source.activated.connect(lambda: self.source_chosen.emit(self.source.currentData()))
-        self.equation = QLabel()
-        self.equation.setTextFormat(Qt.TextFormat.PlainText)
-        self.equation.setProperty("quiet", True)
+        self.equation = plain_text()
         # A long equation must not widen the window; its tooltip has all of it.
         self.equation.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self._scroll = QScrollArea()
@@ -72,18 +61,8 @@ class Editor(QWidget):
         self.show_effect(None, -1)
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(6)
-        head.addWidget(self.title)
-        head.addStretch(1)
-        for widget in (self.formulation, self._from, self.source):
-            head.addWidget(widget)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(8, 0, 0, 0)
-        column.setSpacing(3)
-        column.addLayout(head)
-        column.addWidget(self.equation)
-        column.addWidget(self._scroll, 1)
+        head = in_row(self.title, 1, self.formulation, self._from, self.source, spacing=6)
+        in_column(head, self.equation, (self._scroll, 1), on=self, margins=(8, 0, 0, 0), spacing=3)
 
     def show_effect(self, one: Attached | None, place: int) -> None:
         """Show an effect at its place in the list, or that there is none."""
@@ -106,7 +85,7 @@ class Editor(QWidget):
         set_property(self.title, "quiet", one is None)
         set_property(self.title, "heading", one is not None)
         if one is None:
-            self.title.setText(translate("effects", NOTHING))
+            self.title.setText(tr(NOTHING))
             self.title.setToolTip("")
             return
         self.title.setText(f"{label(one.asked.axis)}: {effect_title(one.effect)}")
@@ -128,10 +107,7 @@ class Editor(QWidget):
             field.retire()
         self.fields = {}
         content = QWidget()
-        grid = QGridLayout(content)
-        grid.setContentsMargins(0, 2, 4, 2)
-        grid.setVerticalSpacing(3)
-        grid.setColumnStretch(3, 1)
+        grid = in_grid(on=content, margins=(0, 2, 4, 2), spacing=(-1, 3), stretched=3)
         if one is not None:
             source = one.asked.from_axis
             source_unit = (self._robot.unit(source) or "m") if source is not None else ""

@@ -5,10 +5,10 @@ from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QTableWidgetItem
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.effects import mark, tr
 from rotemina.plugins.effects.chosen_effects import Chain
 from rotemina.plugins.effects.words import (
     effect_summary,
@@ -18,13 +18,7 @@ from rotemina.plugins.effects.words import (
 )
 from rotemina.sim.effects.attachment import Attached
 
-COLUMNS = (
-    marked("effects", "On"),
-    marked("effects", "Axis"),
-    marked("effects", "Stage"),
-    marked("effects", "Effect"),
-    marked("effects", "Formulation"),
-)
+COLUMNS = (mark("On"), mark("Axis"), mark("Stage"), mark("Effect"), mark("Formulation"))
 _CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
 
 
@@ -41,11 +35,7 @@ class EffectTable(Table):
     chosen = Signal(int)
 
     def __init__(self) -> None:
-        super().__init__(
-            translate("effects", "List of effects"),
-            [translate("effects", column) for column in COLUMNS],
-            row_height=24,
-        )
+        super().__init__(tr("List of effects"), [tr(column) for column in COLUMNS], row_height=24)
         self.horizontalHeader().setStretchLastSection(True)
         self.itemChanged.connect(self._on_change)
         self.currentCellChanged.connect(lambda row, *_: self.chosen.emit(row))
@@ -67,7 +57,7 @@ class EffectTable(Table):
             switch = self.item(row, 0)
             switch.setFlags(switch.flags() | Qt.ItemFlag.ItemIsUserCheckable)
             switch.setCheckState(_CHECKS[acts])
-            switch.setToolTip(plain_tip(translate("effects", "Turn the effect on or off")))
+            switch.setToolTip(plain_tip(tr("Turn the effect on or off")))
         if 0 <= place < len(chain):
             self.setCurrentCell(place, max(self.currentColumn(), 0))
         self.blockSignals(False)
@@ -80,7 +70,7 @@ class EffectTable(Table):
 def _texts(one: Attached) -> tuple[str, ...]:
     formulation = formulation_name(one.formulation.name)
     if one.asked.from_axis is not None:
-        text = translate("effects", "{formulation}, from {axis}")
+        text = tr("{formulation}, from {axis}")
         formulation = text.format(formulation=formulation, axis=label(one.asked.from_axis))
     return (
         label(one.asked.axis),

@@ -7,7 +7,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import CommandRefused, Connection, Event, SessionState
 from rotemina.app.shell.engine_words import error_text, spoken
-from rotemina.app.shell.language import translate
+from rotemina.plugins.effects import tr
 from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import AxisEffect
 
@@ -77,7 +77,7 @@ class LiveEffects(QObject):
         elif now == self._sent:
             self._end(ApplyState.APPLIED)
         elif state.connection is not Connection.CONNECTED:
-            why = spoken(state.locked) if state.locked else translate("effects", "not connected")
+            why = spoken(state.locked) if state.locked else tr("not connected")
             self._end(ApplyState.REFUSED, why)
         elif self._was_done(state):
             self._not_taken()
@@ -121,8 +121,7 @@ class LiveEffects(QObject):
         """Send again what a stop swept out of the queue; tell of what was refused."""
         if self._told or self._tries > 1:
             self._end(
-                ApplyState.REFUSED,
-                self._told or translate("effects", "the simulator did not accept the change"),
+                ApplyState.REFUSED, self._told or tr("the simulator did not accept the change")
             )
             return
         self._wanted = self._wanted or self._sent

@@ -6,8 +6,8 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.effects import tr
 from rotemina.plugins.effects.chosen_effects import candidates
 from rotemina.plugins.effects.words import (
     effect_summary,
@@ -29,7 +29,7 @@ def fill(
         _add_axis(_submenu(menu, label(axis)), robot, axis, effects, add)
     if broken:
         menu.addSeparator()
-        left_out = _submenu(menu, translate("effects", "Left out ({n})").format(n=len(broken)))
+        left_out = _submenu(menu, tr("Left out ({n})").format(n=len(broken)))
         for effect_id, reason in broken.items():
             action = _line(left_out, effect_id)
             action.setToolTip(plain_tip(reason))

@@ -4,25 +4,19 @@ from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Qt
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QMenu,
-    QPushButton,
-    QSizePolicy,
-    QSplitter,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QMenu, QPushButton, QSizePolicy, QSplitter, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import named, plain_tip, set_property
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.effects import mark, tr
 from rotemina.plugins.effects.chosen_effects import Chain, with_formulation, with_value
 from rotemina.plugins.effects.editor import Editor
 from rotemina.plugins.effects.effect_table import EffectTable
@@ -37,12 +31,10 @@ from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.robot.writing import write_robot
 from rotemina.sim.trajectory.worn_machine_demo import worn_effects
 
-REAL_MACHINE = marked(
-    "effects",
-    "Only the simulator has adjustable effects. Connect to the simulator to "
-    "switch and adjust them.",
+REAL_MACHINE = mark(
+    "Only the simulator has adjustable effects. Connect to the simulator to switch and adjust them."
 )
-FILES = marked("effects", "Robot files (*.toml)")
+FILES = mark("Robot files (*.toml)")
 MOST_PAST = 100  # lists that can be brought back
 
 
@@ -63,8 +55,7 @@ class EffectsPanel(Panel):
         self._past: list[Chain] = []
         self._make_buttons()
         self.table, self.editor = EffectTable(), Editor(workbench.robot)
-        self.status = QLabel()
-        self.status.setTextFormat(Qt.TextFormat.PlainText)
+        self.status = plain_text(quiet=False)
         # Its text may be long; the notice and the tooltip have all of it.
         self.status.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.left_out = QLabel()
@@ -78,69 +69,37 @@ class EffectsPanel(Panel):
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_buttons(self) -> None:
-        self.add = QPushButton(translate("effects", "Add effect"))
-        self.add.setToolTip(translate("effects", "Choose an axis, an effect and its formulation"))
-        self.machine = QPushButton(translate("effects", "Machine"))
+        self.add = QPushButton(tr("Add effect"))
+        self.add.setToolTip(tr("Choose an axis, an effect and its formulation"))
+        self.machine = QPushButton(tr("Machine"))
         self.machine.setToolTip(
-            translate(
-                "effects",
-                "Simulate the machine of the robot file, or a worn one for demonstration",
-            )
+            tr("Simulate the machine of the robot file, or a worn one for demonstration")
         )
-        self.up = _button("▲", translate("effects", "Apply this effect earlier within its stage"))
-        self.down = _button("▼", translate("effects", "Apply this effect later within its stage"))
-        self.remove = _button(
-            translate("effects", "Remove"), translate("effects", "Remove this effect")
-        )
-        self.undo = _button(
-            translate("effects", "Undo"),
-            translate("effects", "Undo the last change of this list"),
-        )
+        self.up = _button("▲", tr("Apply this effect earlier within its stage"))
+        self.down = _button("▼", tr("Apply this effect later within its stage"))
+        self.remove = _button(tr("Remove"), tr("Remove this effect"))
+        self.undo = _button(tr("Undo"), tr("Undo the last change of this list"))
         self.all_off = _button(
-            translate("effects", "All off"),
-            translate(
-                "effects",
-                "Compare with the nominal machine: disable all effects until this is released",
-            ),
+            tr("All off"),
+            tr("Compare with the nominal machine: disable all effects until this is released"),
         )
         self.all_off.setCheckable(True)
-        self.load = _button(
-            translate("effects", "Load …"),
-            translate("effects", "Replace these effects by those of a robot file"),
-        )
+        self.load = _button(tr("Load …"), tr("Replace these effects by those of a robot file"))
         self.save = _button(
-            translate("effects", "Save robot …"),
-            translate("effects", "Save a robot file of this robot with these effects"),
+            tr("Save robot …"), tr("Save a robot file of this robot with these effects")
         )
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.setSpacing(6)
-        for widget in (
-            self.machine,
-            self.add,
-            self.up,
-            self.down,
-            self.remove,
-            self.undo,
-            self.all_off,
-        ):
-            buttons.addWidget(widget)
-        buttons.addWidget(self.status, 1)
-        for widget in (self.left_out, self.load, self.save):
-            buttons.addWidget(widget)
+        changes = self.add, self.up, self.down, self.remove, self.undo, self.all_off
+        files = self.left_out, self.load, self.save
+        buttons = in_row(self.machine, *changes, (self.status, 1), *files, spacing=6)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
         split.addWidget(self.editor)
         split.setSizes([450, 500])
         self._body = QWidget()
-        body = QVBoxLayout(self._body)
-        body.setContentsMargins(10, 8, 10, 8)
-        body.addLayout(buttons)
-        body.addWidget(split, 1)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(self._body)
+        in_column(buttons, (split, 1), on=self._body, margins=(10, 8, 10, 8))
+        in_column(self._body, on=self, margins=0)
 
     def _offer_effects(self) -> None:
         effects, broken = all_effects()
@@ -148,20 +107,15 @@ class EffectsPanel(Panel):
         fill(menu, self.workbench.robot, effects, broken, self.add_effect)
         self.add.setMenu(menu)
         self.left_out.setVisible(bool(broken))
-        self.left_out.setText(translate("effects", "{n} left out").format(n=len(broken)))
-        self.left_out.setToolTip(
-            plain_tip(translate("effects", "Effects that cannot be loaded:"), *broken.values())
-        )
+        self.left_out.setText(tr("{n} left out").format(n=len(broken)))
+        self.left_out.setToolTip(plain_tip(tr("Effects that cannot be loaded:"), *broken.values()))
 
     def _offer_machines(self) -> None:
         robot = self.workbench.robot
         menu = QMenu(self.machine)
-        menu.addAction(
-            translate("effects", "From the robot file"), lambda: self.use_effects(robot.effects)
-        )
+        menu.addAction(tr("From the robot file"), lambda: self.use_effects(robot.effects))
         worn = menu.addAction(
-            translate("effects", "Worn, for demonstration"),
-            lambda: self.use_effects(worn_effects(robot)),
+            tr("Worn, for demonstration"), lambda: self.use_effects(worn_effects(robot))
         )
         worn.setEnabled(bool(worn_effects(robot)))
         self.machine.setMenu(menu)
@@ -266,9 +220,7 @@ class EffectsPanel(Panel):
         def work() -> Chain:
             effects = load_robot(path).effects
             if not effects:
-                text = translate(
-                    "effects", "{path}: the robot file has no effects; the list is unchanged"
-                )
+                text = tr("{path}: the robot file has no effects; the list is unchanged")
                 raise InputError(text.format(path=path))
             return Chain.of(self.workbench.robot, effects)
 
@@ -276,34 +228,22 @@ class EffectsPanel(Panel):
             self.place = 0
             self._use(chain)
 
-        self.workbench.work(
-            "load effects",
-            translate("effects", "Reading {name} …").format(name=path.name),
-            work,
-            done,
-        )
+        self.workbench.read_file("load effects", path.name, work, done)
 
     def save_robot(self, path: Path) -> None:
         """Write a robot file of the robot with its effects, over one that is there."""
         robot = replace(self.workbench.robot, effects=self.chain.asked)
-        self.workbench.work(
-            "save robot",
-            translate("effects", "Writing {name} …").format(name=path.name),
-            lambda: write_robot(robot, path, overwrite=True),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("effects", "Saved {path}").format(path=path)
-            ),
+        self.workbench.write_file(
+            "save robot", path, lambda: write_robot(robot, path, overwrite=True)
         )
 
     def _ask_load(self) -> None:
-        title = translate("effects", "Load effects from a robot file")
-        kinds = translate("effects", FILES)
-        ask_file(self, self.workbench, title, kinds, self.load_effects)
+        title = tr("Load effects from a robot file")
+        ask_file(self, self.workbench, title, tr(FILES), self.load_effects)
 
     def _ask_save(self) -> None:
-        title = translate("effects", "Save the robot with its effects")
-        kinds = translate("effects", FILES)
-        ask_where(self, self.workbench, title, kinds, "robot.toml", self.save_robot)
+        title = tr("Save the robot with its effects")
+        ask_where(self, self.workbench, title, tr(FILES), "robot.toml", self.save_robot)
 
     # --- what is shown ----------------------------------------------------------------------------
 
@@ -357,14 +297,11 @@ class EffectsPanel(Panel):
     def _show_standing(self) -> None:
         self._mark_fields()
         if self._real:
-            self._say(translate("effects", REAL_MACHINE))
+            self._say(tr(REAL_MACHINE))
         elif self.live.apply_state is ApplyState.REFUSED:
-            self._say(
-                translate("effects", "Not applied: {reason}").format(reason=self.live.reason),
-                bad=True,
-            )
+            self._say(tr("Not applied: {reason}").format(reason=self.live.reason), bad=True)
         elif self.live.apply_state is ApplyState.PREPARING:
-            self._say(translate("effects", "preparing …"))
+            self._say(tr("preparing …"))
         else:
             self._say(self._count())
 
@@ -380,17 +317,10 @@ class EffectsPanel(Panel):
 
     def _count(self) -> str:
         if not len(self.chain):
-            return translate("effects", "No effects: nominal")
+            return tr("No effects: nominal")
         on = sum(one.enabled for one in self.chain.asked)
-        state = (
-            translate("effects", "all off")
-            if self.all_off.isChecked()
-            else translate("effects", "{n} on").format(n=on)
-        )
-        one, more = (
-            translate("effects", "1 effect, {state}"),
-            translate("effects", "{n} effects, {state}"),
-        )
+        state = tr("all off") if self.all_off.isChecked() else tr("{n} on").format(n=on)
+        one, more = tr("1 effect, {state}"), tr("{n} effects, {state}")
         return (more if len(self.chain) > 1 else one).format(n=len(self.chain), state=state)
 
     def _say(self, text: str, *, bad: bool = False) -> None:
@@ -400,7 +330,4 @@ class EffectsPanel(Panel):
 
 
 def _button(text: str, about: str) -> QPushButton:
-    button = QPushButton(text)
-    button.setToolTip(about)
-    button.setAccessibleName(about if len(text) == 1 else text)
-    return button
+    return named(QPushButton(text), about if len(text) == 1 else text, about)

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from rotemina.app.shell.language import translate
+from rotemina.plugins.effects import tr
 from rotemina.sim.effects.facts import Facts
 from rotemina.sim.effects.formulation import Parameter
 from rotemina.sim.quantities import parsed, rounded, scale_of
@@ -67,8 +67,8 @@ class Quantity:
     def range_text(self) -> str:
         """Bounds as a sentence has them."""
         if math.isinf(self.high):
-            return translate("effects", "at least {low}").format(low=self.text(self.low))
-        text = translate("effects", "between {low} and {high}")
+            return tr("at least {low}").format(low=self.text(self.low))
+        text = tr("between {low} and {high}")
         return text.format(low=self.number(self.low), high=self.text(self.high))
 
     def value(self, text: str) -> float:
@@ -81,16 +81,14 @@ class Quantity:
         """
         number = parsed(text)
         if number is None:
-            told = translate("effects", "{text} is not a number; enter one with a decimal point")
+            told = tr("{text} is not a number; enter one with a decimal point")
             if self.unit:
-                told = translate(
-                    "effects", "{text} is not a number; enter one in {unit} with a decimal point"
-                )
+                told = tr("{text} is not a number; enter one in {unit} with a decimal point")
             raise ValueRefusedError(told.format(text=repr(text), unit=self.unit))
         value = self._snapped(number / self.per_si)
         if not self.low <= value <= self.high or math.isinf(value):
             typed = f"{text.strip()} {self.unit}".rstrip()
-            told = translate("effects", "{value} must be {range}")
+            told = tr("{value} must be {range}")
             raise ValueRefusedError(told.format(value=typed, range=self.range_text))
         return value
 

@@ -1,21 +1,15 @@
 """One parameter of an effect: a field with unit, a slider, and a reset to the preset."""
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QLabel,
-    QLineEdit,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QLineEdit, QToolButton, QWidget
 
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.language import translate
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import named, plain_tip, set_property
+from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.wheel_safe import SteadySlider
+from rotemina.plugins.effects import tr
 from rotemina.plugins.effects.parameter_display import SLIDER_STEPS, Quantity, ValueRefusedError
-from rotemina.plugins.effects.parameter_meanings import meaning_of
-from rotemina.plugins.effects.words import spoken
+from rotemina.plugins.effects.words import meaning_of, spoken
 
 
 class ParameterField(QObject):
@@ -38,18 +32,15 @@ class ParameterField(QObject):
         preset = quantity.text(quantity.preset)
         about = plain_tip(
             f"{spoken(name)}: {meaning_of(quantity.meaning)}",
-            translate("effects", "Must be {range}").format(range=quantity.range_text),
-            translate("effects", "Preset {value}").format(value=preset),
+            tr("Must be {range}").format(range=quantity.range_text),
+            tr("Preset {value}").format(value=preset),
         )
-        self._title = QLabel(spoken(name))
-        self._title.setTextFormat(Qt.TextFormat.PlainText)
-        self.edit = QLineEdit()
+        self._title = plain_text(spoken(name), quiet=False)
+        self.edit = named(QLineEdit(), f"{name} {quantity.unit}".rstrip())
         self.edit.setFixedWidth(92)
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
-        self.edit.setAccessibleName(f"{name} {quantity.unit}".rstrip())
         self.edit.editingFinished.connect(self._commit)
-        self._unit = QLabel(quantity.unit)
-        self._unit.setTextFormat(Qt.TextFormat.PlainText)
+        self._unit = plain_text(quantity.unit, quiet=False)
         self.slider = SteadySlider(name, SLIDER_STEPS)
         self.slider.setPageStep(SLIDER_STEPS // 20)
         self.slider.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -57,12 +48,8 @@ class ParameterField(QObject):
         self.slider.setVisible(quantity.bounded)
         self.reset = QToolButton()
         self.reset.setText("↺")
-        self.reset.setAccessibleName(
-            translate("effects", "Reset {name} to its preset").format(name=name)
-        )
-        self.reset.setToolTip(
-            plain_tip(translate("effects", "Reset to the preset, {value}").format(value=preset))
-        )
+        self.reset.setAccessibleName(tr("Reset {name} to its preset").format(name=name))
+        self.reset.setToolTip(plain_tip(tr("Reset to the preset, {value}").format(value=preset)))
         self.reset.clicked.connect(lambda: self._take(quantity.preset))
         for widget in (self._title, self.edit, self._unit, self.slider):
             widget.setToolTip(about)

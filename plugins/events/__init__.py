@@ -2,3 +2,7 @@
 
 It also lists locks and runs.
 """
+
+from rotemina.app.shell.language import texts_of
+
+tr, _ = texts_of("events")

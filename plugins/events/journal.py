@@ -13,9 +13,9 @@ from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import Connection, SessionState
 from rotemina.app.motion.stop import LOCKED
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.events import tr
 from rotemina.sim.robot.model import Robot
 
 logger = logging.getLogger(__name__)
@@ -106,37 +106,35 @@ class Journal:
             self._tell_penetration(now.penetration)
         if now.recording != before.recording:
             text = (
-                translate("events", "Recording {name} started").format(name=now.recording)
+                tr("Recording {name} started").format(name=now.recording)
                 if now.recording
-                else translate("events", "Recording {name} ended").format(name=before.recording)
+                else tr("Recording {name} ended").format(name=before.recording)
             )
             self._note(Level.INFO, text)
         if now.model != before.model:
-            self.tell(
-                Level.INFO, translate("events", "Model in use: {name}").format(name=now.model)
-            )
+            self.tell(Level.INFO, tr("Model in use: {name}").format(name=now.model))
 
     def _look_at_session(self, before: Moment, now: Moment) -> None:
         old, new = before.state, now.state
         if new.connection is not old.connection and new.connection is Connection.CONNECTED:
-            self._note(Level.GOOD, translate("events", "Connected: {name}").format(name=now.driver))
+            self._note(Level.GOOD, tr("Connected: {name}").format(name=now.driver))
         if new.connection is not old.connection and new.connection is Connection.DISCONNECTED:
-            self._note(Level.WARNING, translate("events", "Disconnected"))
+            self._note(Level.WARNING, tr("Disconnected"))
         if new.stop is not None and new.stop != old.stop:
             self._tell_stop(new)
         if old.latched is not None and new.latched is None:
-            self._note(Level.INFO, translate("events", "Lock released"))
+            self._note(Level.INFO, tr("Lock released"))
 
     def _tell_stop(self, state: SessionState) -> None:
         request = state.stop
         assert request is not None
         by_operator = request.by == OPERATOR
         if request.why == LOCKED and by_operator:
-            text = translate("events", "Stopped and locked by the operator")
+            text = tr("Stopped and locked by the operator")
         elif by_operator:
-            text = translate("events", "Stopped by the operator")
+            text = tr("Stopped by the operator")
         else:
-            text = translate("events", "Stopped by the program")
+            text = tr("Stopped by the program")
         if request.why and request.why != LOCKED:
             text = f"{text}: {spoken(request.why)}"
         self.tell(Level.WARNING, text)
@@ -151,26 +149,26 @@ class Journal:
             return
         self._told_lock = why
         if why is not None:
-            text = translate("events", "Locked: {why}").format(why=spoken(why))
+            text = tr("Locked: {why}").format(why=spoken(why))
             self._note(Level.WARNING, text)
         elif not mine:
-            self._note(Level.GOOD, translate("events", "Motion is possible"))
+            self._note(Level.GOOD, tr("Motion is possible"))
 
     def _look_at_playback(self, old: PlaybackState, new: PlaybackState, plan: str) -> None:
         if new.phase is old.phase:
             return
-        name, row = plan or translate("events", "a trajectory"), max(new.row, 0) + 1
+        name, row = plan or tr("a trajectory"), max(new.row, 0) + 1
         text = {
-            PlaybackPhase.PLAYING: translate("events", "Playing {name}"),
-            PlaybackPhase.PAUSED: translate("events", "{name} is paused at row {row}"),
-            PlaybackPhase.IDLE: translate("events", "{name} ended"),
+            PlaybackPhase.PLAYING: tr("Playing {name}"),
+            PlaybackPhase.PAUSED: tr("{name} is paused at row {row}"),
+            PlaybackPhase.IDLE: tr("{name} ended"),
         }[new.phase]
         if (old.phase, new.phase) == (PlaybackPhase.PAUSED, PlaybackPhase.PLAYING):
-            text = translate("events", "{name} resumed at row {row}")
+            text = tr("{name} resumed at row {row}")
         self._note(Level.INFO, text.format(name=name, row=row))
 
     def _tell_penetration(self, status: PenetrationStatus) -> None:
-        text = translate("events", "Penetration: {phase}").format(phase=spoken(status.phase))
+        text = tr("Penetration: {phase}").format(phase=spoken(status.phase))
         if status.reason:
             text = f"{text}: {spoken(status.reason)}"
         grave = status.phase in (Phase.ABORTED, Phase.FAILED, Phase.HELD)
@@ -197,11 +195,7 @@ class Journal:
         return abs(new[axis] - old.get(axis, new[axis])) > _SAME * self._robot.axes[axis].span
 
     def _way(
-        self,
-        axes: list[str],
-        old: Mapping[str, float],
-        new: Mapping[str, float],
-        mover: str,
+        self, axes: list[str], old: Mapping[str, float], new: Mapping[str, float], mover: str
     ) -> str:
         parts = []
         for axis in axes:
@@ -209,5 +203,5 @@ class Journal:
             parts.append(f"{label(axis)} {scale.number(old[axis])} → {scale.text(new[axis])}")
         text = ", ".join(parts)
         if mover == HOMING:
-            return translate("events", "Homed: {moved}").format(moved=text)
+            return tr("Homed: {moved}").format(moved=text)
         return text if mover in ("", OPERATOR) else f"{spoken(mover)}: {text}"

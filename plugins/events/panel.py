@@ -4,22 +4,17 @@ import time
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QHBoxLayout,
-    QListWidget,
-    QListWidgetItem,
-    QPushButton,
-    QVBoxLayout,
-)
+from PySide6.QtWidgets import QAbstractItemView, QListWidget, QListWidgetItem, QPushButton
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.model_chip import model_name
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.controls import named, plain_tip
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.events import tr
 from rotemina.plugins.events.journal import Entry, Journal, Moment
 
 MOST_SHOWN = 100
@@ -41,16 +36,13 @@ class EventsPanel(Panel):
         super().__init__(workbench)
         self.journal = Journal(workbench.robot)
         self._shown = 0
-        self.list = QListWidget()
-        self.list.setAccessibleName(translate("events", "Events, newest first"))
+        self.list = named(QListWidget(), tr("Events, newest first"))
         self.list.setWordWrap(True)
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
-        self.show_log = QPushButton(translate("events", "Show log"))
-        self.show_log.setToolTip(
-            translate("events", "All messages of the program, with filter and copy (Ctrl+L)")
-        )
+        self.show_log = QPushButton(tr("Show log"))
+        self.show_log.setToolTip(tr("All messages of the program, with filter and copy (Ctrl+L)"))
         self.show_log.clicked.connect(lambda: self.main_window.show_log())
         self._lay_out()
         workbench.refreshed.connect(self._look)
@@ -58,14 +50,8 @@ class EventsPanel(Panel):
         workbench.theme_changed.connect(self._colour)
 
     def _lay_out(self) -> None:
-        foot = QHBoxLayout()
-        foot.addStretch(1)
-        foot.addWidget(self.show_log)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(8, 6, 8, 6)
-        column.setSpacing(4)
-        column.addWidget(self.list, 1)
-        column.addLayout(foot)
+        foot = in_row(1, self.show_log)
+        in_column((self.list, 1), foot, on=self, margins=(8, 6, 8, 6), spacing=4)
 
     def _look(self, state: SessionState) -> None:
         bench = self.workbench

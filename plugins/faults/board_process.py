@@ -8,7 +8,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QProcess, Signal
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.faults import mark
 from rotemina.sim.robot.model import Robot
 from rotemina.sim.robot.writing import write_robot
 
@@ -129,6 +129,4 @@ class BoardProcess(QObject):
         if self._asked_to_end:
             self.ended.emit("")
         else:
-            self.ended.emit(
-                self._complaint or marked("faults", "the virtual board ended by itself")
-            )
+            self.ended.emit(self._complaint or mark("the virtual board ended by itself"))

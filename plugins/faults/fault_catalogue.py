@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from rotemina.app.shell.language import translate
+from rotemina.plugins.faults import tr
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,103 +47,69 @@ class Fault:
 def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tuple[Fault, ...]:
     """Return the faults of a robot with these axes, behind so many lines; words as shown now."""
     every = (
-        (translate("faults", "all lines"), ""),
-        *((translate("faults", "line {n}").format(n=n), f"line {n}") for n in range(1, lines + 1)),
+        (tr("all lines"), ""),
+        *((tr("line {n}").format(n=n), f"line {n}") for n in range(1, lines + 1)),
     )
-    line = Pick(translate("faults", "Line"), every if lines > 1 else every[:1])
+    line = Pick(tr("Line"), every if lines > 1 else every[:1])
     boards = tuple(
-        (translate("faults", "board {n}").format(n=n), f"{n}")
-        for n in range(1, (len(axes) + 2) // 3 + 1)
+        (tr("board {n}").format(n=n), f"{n}") for n in range(1, (len(axes) + 2) // 3 + 1)
     )
     damage = (
-        (translate("faults", "lose"), "drop"),
-        (translate("faults", "double"), "double"),
-        (translate("faults", "corrupt"), "corrupt"),
-        (translate("faults", "add"), "garbage"),
+        (tr("lose"), "drop"),
+        (tr("double"), "double"),
+        (tr("corrupt"), "corrupt"),
+        (tr("add"), "garbage"),
     )
-    towards = Pick(
-        translate("faults", "Direction"),
-        ((translate("faults", "to board"), "board"), (translate("faults", "to program"), "host")),
-    )
+    towards = Pick(tr("Direction"), ((tr("to board"), "board"), (tr("to program"), "host")))
     made = [
         Fault(
-            translate("faults", "Bytes"),
-            translate(
-                "faults",
-                "The next bytes are lost, doubled or corrupted by one bit, or extra bytes arrive",
-            ),
+            tr("Bytes"),
+            tr("The next bytes are lost, doubled or corrupted by one bit, or extra bytes arrive"),
+            (Pick(tr("Fault"), damage), Number(tr("Bytes"), 3, 1, 10_000), towards, line),
+        ),
+        Fault(
+            tr("Delay"),
+            tr("Delay all bytes by this time; 0 ends the delay"),
             (
-                Pick(translate("faults", "Fault"), damage),
-                Number(translate("faults", "Bytes"), 3, 1, 10_000),
+                Pick(tr("Fault"), ((tr("delay"), "delay"),)),
+                Number(tr("Delay"), 5.0, 0.0, 1000.0, "ms", "ms", 1),
                 towards,
                 line,
             ),
         ),
         Fault(
-            translate("faults", "Delay"),
-            translate("faults", "Delay all bytes by this time; 0 ends the delay"),
-            (
-                Pick(translate("faults", "Fault"), ((translate("faults", "delay"), "delay"),)),
-                Number(translate("faults", "Delay"), 5.0, 0.0, 1000.0, "ms", "ms", 1),
-                towards,
-                line,
-            ),
-        ),
-        Fault(
-            translate("faults", "Cable"),
-            translate(
-                "faults",
+            tr("Cable"),
+            tr(
                 "The line transmits nothing in either direction; held at space, the boards "
-                "receive a stop first",
+                "receive a stop first"
             ),
             (
-                Pick(
-                    translate("faults", "Fault"),
-                    (
-                        (translate("faults", "silent"), "silence"),
-                        (translate("faults", "held at space"), "space"),
-                    ),
-                ),
-                Number(translate("faults", "Duration"), 2.0, 0.0, 3600.0, "s", "s", 1),
+                Pick(tr("Fault"), ((tr("silent"), "silence"), (tr("held at space"), "space"))),
+                Number(tr("Duration"), 2.0, 0.0, 3600.0, "s", "s", 1),
                 line,
             ),
         ),
         Fault(
-            translate("faults", "Board"),
-            translate("faults", "A board restarts and loses the positions of its steppers"),
+            tr("Board"),
+            tr("A board restarts and loses the positions of its steppers"),
             (
-                Pick(
-                    translate("faults", "Fault"),
-                    (
-                        (translate("faults", "reset"), "reset"),
-                        (translate("faults", "brown-out"), "brown-out"),
-                    ),
-                ),
-                Pick(translate("faults", "Board"), boards),
+                Pick(tr("Fault"), ((tr("reset"), "reset"), (tr("brown-out"), "brown-out"))),
+                Pick(tr("Board"), boards),
             ),
         ),
         Fault(
-            translate("faults", "Sensor"),
-            translate("faults", "A sensor repeats one reading until released"),
-            (
-                Pick(
-                    translate("faults", "Fault"),
-                    (
-                        (translate("faults", "freeze"), "freeze"),
-                        (translate("faults", "release"), "thaw"),
-                    ),
-                ),
-                _axes(axes),
-            ),
+            tr("Sensor"),
+            tr("A sensor repeats one reading until released"),
+            (Pick(tr("Fault"), ((tr("freeze"), "freeze"), (tr("release"), "thaw"))), _axes(axes)),
         ),
     ]
     if steppers:
-        lost = Number(translate("faults", "Microsteps"), 40, 1, 1_000_000)
-        what = Pick(translate("faults", "Fault"), ((translate("faults", "lose steps"), "lose"),))
+        lost = Number(tr("Microsteps"), 40, 1, 1_000_000)
+        what = Pick(tr("Fault"), ((tr("lose steps"), "lose"),))
         made.append(
             Fault(
-                translate("faults", "Stepper"),
-                translate("faults", "The stepper falls behind its command"),
+                tr("Stepper"),
+                tr("The stepper falls behind its command"),
                 (what, _axes(steppers), lost),
             )
         )
@@ -151,4 +117,4 @@ def faults(axes: tuple[str, ...], steppers: tuple[str, ...], lines: int) -> tupl
 
 
 def _axes(names: tuple[str, ...]) -> Pick:
-    return Pick(translate("faults", "Axis"), tuple((name, name) for name in names))
+    return Pick(tr("Axis"), tuple((name, name) for name in names))

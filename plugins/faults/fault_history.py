@@ -19,7 +19,7 @@ from rotemina.app.motion.state import (
     StateChanged,
 )
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.faults import mark, tr
 
 MOST = 500  # entries; the oldest give way
 _TURNS = 2  # a link that is lost and found again and again takes no more than two rows
@@ -28,14 +28,14 @@ _TURNS = 2  # a link that is lost and found again and again takes no more than t
 class Kind(StrEnum):
     """The kind of an entry, as stored in files."""
 
-    FAULT = marked("faults", "fault")
-    LOST = marked("faults", "lost")
-    FAILED = marked("faults", "not connected")
-    REFUSED = marked("faults", "refused")
-    RECOVERED = marked("faults", "recovered")
-    STOP = marked("faults", "stop and lock")
-    INJECTED = marked("faults", "injected")
-    NOTE = marked("faults", "note")
+    FAULT = mark("fault")
+    LOST = mark("lost")
+    FAILED = mark("not connected")
+    REFUSED = mark("refused")
+    RECOVERED = mark("recovered")
+    STOP = mark("stop and lock")
+    INJECTED = mark("injected")
+    NOTE = mark("note")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ class Entry:
         text = _filled(_said(self.text), _said(self.about))
         if self.count == 1:
             return text
-        return translate("faults", "{text} ({n} times)").format(text=text, n=self.count)
+        return tr("{text} ({n} times)").format(text=text, n=self.count)
 
     def __str__(self) -> str:
         return f"{self.time}{self.at:%z}\t{self.kind}\t{' '.join(self.told.split())}"
@@ -126,9 +126,9 @@ class History:
         """Add that the emergency stop was latched or released, if it was."""
         if latched != self._latched:
             self._latched = latched
-            text = marked("faults", "released")
+            text = mark("released")
             if latched is not None:
-                text = marked("faults", "{about} locked")
+                text = mark("{about} locked")
             self.add(at, Kind.STOP, text, latched or "")
 
     def _note_state(self, at: datetime, state: SessionState) -> None:
@@ -136,9 +136,9 @@ class History:
         connected = state.connection is Connection.CONNECTED
         was = before.connection is Connection.CONNECTED
         if connected and not was:
-            self.add(at, Kind.RECOVERED, marked("faults", "connected"))
+            self.add(at, Kind.RECOVERED, mark("connected"))
         elif was and state.connection is Connection.DISCONNECTED:
-            self.add(at, Kind.NOTE, marked("faults", "disconnected"))
+            self.add(at, Kind.NOTE, mark("disconnected"))
         elif connected:
             self._note_soundness(at, before, state)
         self._was_connected = was
@@ -146,16 +146,16 @@ class History:
     def _note_soundness(self, at: datetime, before: SessionState, state: SessionState) -> None:
         lost, was_lost = state.phase is Phase.SHORT_LOSS, before.phase is Phase.SHORT_LOSS
         if lost and not was_lost:
-            self.add(at, Kind.LOST, marked("faults", "the device is silent for a short time"))
+            self.add(at, Kind.LOST, mark("the device is silent for a short time"))
         elif was_lost and not lost:
-            self.add(at, Kind.RECOVERED, marked("faults", "the device answers again"))
+            self.add(at, Kind.RECOVERED, mark("the device answers again"))
         if before.fault is not None and state.fault is None:
-            self.add(at, Kind.RECOVERED, marked("faults", "cleared: {about}"), before.fault)
+            self.add(at, Kind.RECOVERED, mark("cleared: {about}"), before.fault)
 
 
 def _said(text: str) -> str:
     """Return what is kept, or the engine says, in the language of the window."""
-    told = translate("faults", text) if text else ""
+    told = tr(text) if text else ""
     return told if told != text else spoken(text)
 
 

@@ -3,34 +3,26 @@
 from collections.abc import Callable
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QLabel, QPushButton, QWidget
 
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.controls import allow, named, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice, SteadyNumber
+from rotemina.plugins.faults import mark, tr
 from rotemina.plugins.faults.board_process import TAKES_COMMANDS, BoardProcess
 from rotemina.plugins.faults.fault_catalogue import Fault, Number, Pick, faults
 from rotemina.sim.robot.model import StepperAxis
 
-_ABOUT = marked(
-    "faults",
+_ABOUT = mark(
     "For training: start a virtual board, connect to its ports, and inject "
     "faults. The virtual board is a process of its own. The built-in simulator "
     "has neither lines nor boards that could fail; the panel Effects sets the "
-    "effects of its machine.",
+    "effects of its machine."
 )
-_NOT_RUNNING = marked("faults", "no virtual board is running; start it first")
-_NO_COMMANDS = marked("faults", "on this system a virtual board accepts no commands")
+_NOT_RUNNING = mark("no virtual board is running; start it first")
+_NO_COMMANDS = mark("on this system a virtual board accepts no commands")
 _BOARD_AXES = 3
 
 
@@ -77,10 +69,8 @@ class FaultRow:
         for field, parameter in zip(self.fields, fault.parameters, strict=True):
             field.setAccessibleName(f"{fault.title}: {parameter.name}")
             field.setToolTip(plain_tip(f"{parameter.name}. {fault.meaning}", _bounds(parameter)))
-        self.button = QPushButton(translate("faults", "Inject"))
-        self.button.setAccessibleName(
-            translate("faults", "Inject {fault}").format(fault=fault.title)
-        )
+        self.button = QPushButton(tr("Inject"))
+        self.button.setAccessibleName(tr("Inject {fault}").format(fault=fault.title))
         self.button.clicked.connect(lambda _: inject(self.command()))
 
     def command(self) -> str:
@@ -92,18 +82,14 @@ class FaultRow:
         title = QLabel(self.fault.title)
         title.setToolTip(plain_tip(self.fault.meaning))
         grid.addWidget(title, row, 0)
-        fields = QHBoxLayout()
-        fields.setSpacing(6)
-        for field in self.fields:
-            fields.addWidget(field, 1)
-        grid.addLayout(fields, row, 1)
+        grid.addLayout(in_row(*((field, 1) for field in self.fields), spacing=6), row, 1)
         grid.addWidget(self.button, row, 2)
 
 
 def _bounds(parameter: Pick | Number) -> str:
     if isinstance(parameter, Pick):
         return ""
-    text = translate("faults", "{low:g} to {high:.7g} {unit}")
+    text = tr("{low:g} to {high:.7g} {unit}")
     return text.format(low=parameter.low, high=parameter.high, unit=parameter.unit).rstrip()
 
 
@@ -123,28 +109,19 @@ class Injection(QWidget):
         self._workbench = workbench
         self.board = BoardProcess(workbench.robot, self)
         self.lines = SteadyChoice(
-            translate("faults", "Lines of the virtual board"),
-            translate("faults", "Whether the virtual boards share one serial line"),
+            tr("Lines of the virtual board"), tr("Whether the virtual boards share one serial line")
         )
         most = 2 if len(workbench.robot.axes) > _BOARD_AXES else 1
         self._lines = most
         if most > 1:
-            self.lines.addItem(translate("faults", "a line for each board"), 2)
-        self.lines.addItem(
-            translate("faults", "one line")
-            if most == 1
-            else translate("faults", "one shared line"),
-            1,
-        )
-        self.homed = QCheckBox(translate("faults", "Position known"))
-        self.homed.setToolTip(
-            translate("faults", "Start homed and without a fault, unlike a real board")
-        )
-        self.start = QPushButton(translate("faults", "Start virtual board"))
+            self.lines.addItem(tr("a line for each board"), 2)
+        self.lines.addItem(tr("one line") if most == 1 else tr("one shared line"), 1)
+        self.homed = QCheckBox(tr("Position known"))
+        self.homed.setToolTip(tr("Start homed and without a fault, unlike a real board"))
+        self.start = QPushButton(tr("Start virtual board"))
         self.start.setProperty("primary", True)
         self.start.clicked.connect(lambda _: self._start())
-        self.end = QPushButton(translate("faults", "End"))
-        self.end.setAccessibleName(translate("faults", "End the virtual board"))
+        self.end = named(QPushButton(tr("End")), tr("End the virtual board"))
         self.end.clicked.connect(lambda _: self.board.end())
         self.state = ElidedLabel()
         self.rows: list[FaultRow] = []
@@ -153,33 +130,18 @@ class Injection(QWidget):
         self._show()
 
     def _lay_out(self) -> None:
-        about = plain_text(translate("faults", _ABOUT), wrap=True)
+        about = plain_text(tr(_ABOUT), wrap=True)
         self.state.setProperty("quiet", True)
-        buttons, options = QHBoxLayout(), QHBoxLayout()
-        for widget in (self.start, self.end):
-            buttons.addWidget(widget)
-        buttons.addWidget(self.state, 1)
-        for widget in (self.lines, self.homed):
-            options.addWidget(widget)
-        options.addStretch(1)
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(5)
-        grid.setColumnStretch(1, 1)
+        buttons = in_row(self.start, self.end, (self.state, 1))
+        options = in_row(self.lines, self.homed, 1)
+        grid = in_grid(spacing=(8, 5), stretched=1)
         axes = self._workbench.robot.axes
         steppers = tuple(name for name, axis in axes.items() if isinstance(axis, StepperAxis))
         for row, fault in enumerate(faults(tuple(axes), steppers, self._lines)):
             made = FaultRow(fault, self._inject)
             made.place(grid, row)
             self.rows.append(made)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(2, 0, 8, 4)
-        column.setSpacing(6)
-        column.addLayout(buttons)
-        column.addLayout(options)
-        column.addLayout(grid)
-        column.addWidget(about)
-        column.addStretch(1)
+        in_column(buttons, options, grid, about, 1, on=self, margins=(2, 0, 8, 4), spacing=6)
 
     def _connect(self) -> None:
         self.board.listening.connect(self._offer)
@@ -198,10 +160,10 @@ class Injection(QWidget):
 
     def _offer(self, ports: tuple[tuple[str, str], ...]) -> None:
         self._workbench.offer_ports(
-            (port, translate("faults", "virtual {board}").format(board=who)) for port, who in ports
+            (port, tr("virtual {board}").format(board=who)) for port, who in ports
         )
         where = ", ".join(port for port, _ in ports)
-        self.told.emit(marked("faults", "virtual board on {about}"), where, False)
+        self.told.emit(mark("virtual board on {about}"), where, False)
         self._show()
 
     def _note(self, line: str) -> None:
@@ -211,10 +173,8 @@ class Injection(QWidget):
 
     def _ended(self, why: str) -> None:
         self._workbench.offer_ports(())
-        ended = marked("faults", "virtual board ended")
-        self.told.emit(
-            marked("faults", "virtual board ended: {about}") if why else ended, why, bool(why)
-        )
+        ended = mark("virtual board ended")
+        self.told.emit(mark("virtual board ended: {about}") if why else ended, why, bool(why))
         self._show()
 
     def _show(self) -> None:
@@ -222,25 +182,21 @@ class Injection(QWidget):
         running, ports = self.board.running, self.board.ports
         if ports:
             where = ", ".join(port for port, _ in ports)
-            text = translate("faults", "Listening on {ports}; connect to it.").format(ports=where)
+            text = tr("Listening on {ports}; connect to it.").format(ports=where)
         else:
-            text = (
-                translate("faults", "Starting …")
-                if running
-                else translate("faults", "No virtual board is running.")
-            )
+            text = tr("Starting …") if running else tr("No virtual board is running.")
         self.state.show_text(text)
         allow(
             self.start,
-            translate("faults", "it is already running") if running else None,
-            translate("faults", "Start boards of this robot"),
+            tr("it is already running") if running else None,
+            tr("Start boards of this robot"),
         )
-        none = None if running else translate("faults", _NOT_RUNNING)
-        allow(self.end, none, translate("faults", "End the virtual board; its lines fall silent"))
+        none = None if running else tr(_NOT_RUNNING)
+        allow(self.end, none, tr("End the virtual board; its lines fall silent"))
         for widget in (self.lines, self.homed):
             widget.setEnabled(not running)
-        why = None if ports else translate("faults", _NOT_RUNNING)
+        why = None if ports else tr(_NOT_RUNNING)
         if not TAKES_COMMANDS:
-            why = translate("faults", _NO_COMMANDS)
+            why = tr(_NO_COMMANDS)
         for row in self.rows:
             allow(row.button, why, row.fault.meaning)

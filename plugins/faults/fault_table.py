@@ -6,13 +6,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QHeaderView, QTableWidgetItem
 
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.faults import mark, tr
 from rotemina.plugins.faults.fault_history import Entry, Kind, as_text
 
-COLUMNS = (marked("faults", "Time"), marked("faults", "Fault"), marked("faults", "Reason"))
+COLUMNS = (mark("Time"), mark("Fault"), mark("Reason"))
 _CLOCK = 11  # where the time of day begins in the text of a time
 
 
@@ -21,9 +21,7 @@ class HistoryTable(Table):
 
     def __init__(self) -> None:
         super().__init__(
-            translate("faults", "Faults, newest first"),
-            [translate("faults", column) for column in COLUMNS],
-            row_height=24,
+            tr("Faults, newest first"), [tr(column) for column in COLUMNS], row_height=24
         )
         self._shown: list[Entry] = []  # by row
         self.setSelectionMode(self.SelectionMode.ExtendedSelection)
@@ -77,7 +75,7 @@ class HistoryTable(Table):
             Kind.RECOVERED: theme.good,
             Kind.INJECTED: theme.accent,
         }
-        texts = (entry.time[_CLOCK:], translate("faults", entry.kind), entry.shown)
+        texts = (entry.time[_CLOCK:], tr(entry.kind), entry.shown)
         for column, text in enumerate(texts):
             item = QTableWidgetItem(text)
             item.setToolTip(plain_tip(entry.time if column == 0 else entry.shown))

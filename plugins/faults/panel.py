@@ -5,21 +5,18 @@ from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QSplitter,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QSplitter, QWidget
 
 from rotemina.app.files import write_text
 from rotemina.app.motion.state import Connection, Event, SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.file_dialog import ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.plugins.faults import tr
 from rotemina.plugins.faults.fault_history import Entry, History, Kind, as_text
 from rotemina.plugins.faults.fault_injection import Injection
 from rotemina.plugins.faults.fault_table import HistoryTable
@@ -41,10 +38,10 @@ class FaultsPanel(Panel):
         self.history, self.table = History(), HistoryTable()
         self.injection = Injection(workbench)
         self._shown: tuple[Entry, ...] = ()
-        self.clear_fault = button(translate("faults", "Clear fault"), workbench.clear_fault)
-        self.copy = button(translate("faults", "Copy"), self.copy_all)
-        self.save = button(translate("faults", "Save …"), self._ask_save)
-        self.empty = button(translate("faults", "Clear"), self._empty)
+        self.clear_fault = button(tr("Clear fault"), workbench.clear_fault)
+        self.copy = button(tr("Copy"), self.copy_all)
+        self.save = button(tr("Save …"), self._ask_save)
+        self.empty = button(tr("Clear"), self._empty)
         self._lay_out()
         # Told on the session's thread: the time is taken there, not when this window has time.
         self._unsubscribe = workbench.session.subscribe(
@@ -66,27 +63,12 @@ class FaultsPanel(Panel):
     def save_to(self, path: Path) -> None:
         """Write the whole history into a text file."""
         text = as_text(self.history.entries)
-        self.workbench.work(
-            "faults",
-            translate("faults", "Writing {name} …").format(name=path.name),
-            lambda: write_text(path, text),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("faults", "Saved {path}").format(path=path)
-            ),
-        )
+        self.workbench.write_file("faults", path, lambda: write_text(path, text))
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.setSpacing(6)
-        buttons.addWidget(self.clear_fault)
-        buttons.addStretch(1)
-        for widget in (self.copy, self.save, self.empty):
-            buttons.addWidget(widget)
+        buttons = in_row(self.clear_fault, 1, self.copy, self.save, self.empty, spacing=6)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 4, 0)
-        column.addLayout(buttons)
-        column.addWidget(self.table, 1)
+        in_column(buttons, (self.table, 1), on=left, margins=(0, 0, 4, 0))
         scroll = scrolled(self.injection)
         scroll.setMinimumWidth(least_width(scroll))
         split = QSplitter(Qt.Orientation.Horizontal)
@@ -94,9 +76,7 @@ class FaultsPanel(Panel):
         split.addWidget(scroll)
         split.setSizes([400, 520])
         split.setChildrenCollapsible(False)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(10, 8, 10, 8)
-        outer.addWidget(split)
+        in_column(split, on=self, margins=(10, 8, 10, 8))
 
     def _refresh(self, state: SessionState) -> None:
         self.history.note_latch(now(), state.latched)
@@ -105,19 +85,11 @@ class FaultsPanel(Panel):
             self._shown = entries
             with QSignalBlocker(self.table):
                 self.table.show_entries(entries, self.workbench.theme)
-        allow(
-            self.clear_fault,
-            against_clearing(state),
-            translate("faults", "Acknowledge the device's fault"),
-        )
-        none = None if entries else translate("faults", "the list is empty")
-        allow(
-            self.copy,
-            none,
-            translate("faults", "Copy the selected rows, or all rows, as text (Ctrl+C)"),
-        )
-        allow(self.save, none, translate("faults", "Write all rows into a text file"))
-        allow(self.empty, none, translate("faults", "Clear all rows"))
+        allow(self.clear_fault, against_clearing(state), tr("Acknowledge the device's fault"))
+        none = None if entries else tr("the list is empty")
+        allow(self.copy, none, tr("Copy the selected rows, or all rows, as text (Ctrl+C)"))
+        allow(self.save, none, tr("Write all rows into a text file"))
+        allow(self.empty, none, tr("Clear all rows"))
 
     def _note(self, at: datetime, event: Event) -> None:
         self.history.note_event(at, event)
@@ -127,22 +99,22 @@ class FaultsPanel(Panel):
         kind = Kind.NOTE if injected == text else Kind.INJECTED
         self.history.add(now(), Kind.REFUSED if complaint else kind, injected, about)
         if complaint:
-            shown = translate("faults", text).replace("{about}", about)
+            shown = tr(text).replace("{about}", about)
             self.workbench.notify(Level.WARNING, shown, about=self)
 
     def _empty(self) -> None:
         self.history.clear()
 
     def _ask_save(self) -> None:
-        title, kinds = translate("faults", "Save faults"), translate("faults", "Text (*.txt)")
+        title, kinds = tr("Save faults"), tr("Text (*.txt)")
         ask_where(self.main_window, self.workbench, title, kinds, "faults.txt", self.save_to)
 
 
 def against_clearing(state: SessionState) -> str | None:
     """Why no fault can be acknowledged."""
     if state.connection is not Connection.CONNECTED:
-        return translate("faults", "not connected; reconnect in the panel Connection")
-    return None if state.fault is not None else translate("faults", "there is no fault")
+        return tr("not connected; reconnect in the panel Connection")
+    return None if state.fault is not None else tr("there is no fault")
 
 
 def now() -> datetime:

@@ -14,7 +14,8 @@ from rotemina.app.shell.file_dialog import ask_where
 from rotemina.app.shell.gap_words import run_lines
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.report_files import PAGES, save_report
-from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.sim.gap.diagnosis import Diagnosis
 from rotemina.sim.gap.digital_twin import twin_text
@@ -44,16 +45,16 @@ class Actions(QObject):
     def ask_twin(self, answer: Answer, source: str | Path | None) -> None:
         """Ask where to, and write the twin of an answer about the robot of ``source``."""
         self._ask(
-            translate("gap", "Add to twin"),
+            tr("Add to twin"),
             "twin.toml",
-            translate("gap", "Robot files (*.toml)"),
+            tr("Robot files (*.toml)"),
             lambda path: self.save_twin(answer, source, path),
         )
 
     def ask_report(self, answer: Answer) -> None:
         """Ask where to, write the report and open it."""
         self._ask(
-            translate("gap", "Report"),
+            tr("Report"),
             "gap-report.html",
             translate("shell", PAGES),
             lambda path: self.save_report(answer, path),
@@ -62,9 +63,9 @@ class Actions(QObject):
     def ask_json(self, answer: Answer) -> None:
         """Ask where to, and write the diagnosis as JSON."""
         self._ask(
-            translate("gap", "Save the diagnosis"),
+            tr("Save the diagnosis"),
             "gap.json",
-            translate("gap", "JSON (*.json)"),
+            tr("JSON (*.json)"),
             lambda path: self.save_json(answer, path),
         )
 
@@ -77,16 +78,10 @@ class Actions(QObject):
         """Write a robot file of the corrected model."""
         robot, effects = answer.diagnosis.robot, answer.diagnosis.fitted
 
-        def done(_: None) -> None:
-            self._workbench.notify(Level.GOOD, translate("gap", "Saved {path}").format(path=path))
-            self.twin_saved.emit(path)
+        def write() -> None:
+            write_text(path, twin_text(robot, effects, source))
 
-        self._workbench.work(
-            "gap twin",
-            translate("gap", "Writing {name} …").format(name=path.name),
-            lambda: write_text(path, twin_text(robot, effects, source)),
-            done,
-        )
+        self._workbench.write_file("gap twin", path, write, lambda: self.twin_saved.emit(path))
 
     def save_report(self, answer: Answer, path: Path) -> None:
         """Write the report and open it."""
@@ -100,13 +95,8 @@ class Actions(QObject):
 
     def save_json(self, answer: Answer, path: Path) -> None:
         """Write the diagnosis as JSON."""
-        self._workbench.work(
-            "gap document",
-            translate("gap", "Writing {name} …").format(name=path.name),
-            lambda: write_text(path, json_text(as_json(answer.diagnosis))),
-            lambda _: self._workbench.notify(
-                Level.GOOD, translate("gap", "Saved {path}").format(path=path)
-            ),
+        self._workbench.write_file(
+            "gap document", path, lambda: write_text(path, json_text(as_json(answer.diagnosis)))
         )
 
 

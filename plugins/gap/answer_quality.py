@@ -2,7 +2,7 @@
 
 from enum import StrEnum
 
-from rotemina.app.shell.language import translate
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.unseen_motion_reduction import Shrunk
 from rotemina.sim.gap.diagnosis import Verdict
@@ -34,30 +34,27 @@ TONES = {
 def change(times: float) -> str:
     """Return how a gap has changed that is so many times smaller."""
     if times >= 1.0:
-        return translate("gap", "{times:.3g} × smaller").format(times=times)
-    return translate("gap", "{times:.3g} × larger").format(times=1.0 / max(times, 1e-300))
+        return tr("{times:.3g} × smaller").format(times=times)
+    return tr("{times:.3g} × larger").format(times=1.0 / max(times, 1e-300))
 
 
 def why_worse(one: Shrunk, answer: Answer) -> str:
     """Return why a model may be worse on a motion, and what to do."""
     trace, figure = one.trace, one.figure
     if figure.without_offset < _CONSTANT * figure.rms:
-        return translate(
-            "gap",
+        return tr(
             "The model is off by a constant, because the axis has a different history "
             "than in the records. Sweep its whole range once, and play the motion "
-            "again.",
+            "again."
         )
     ways = [own.signal(trace.axis, Tap.CMD) for own in answer.records if trace.axis in own.axes]
     low, high = min(float(way.min()) for way in ways), max(float(way.max()) for way in ways)
     slack = _BEYOND * (high - low)
     if trace.command.min() < low - slack or trace.command.max() > high + slack:
-        return translate(
-            "gap",
+        return tr(
             "The motion leaves the region of the records: choose this record too, and "
-            "diagnose them together.",
+            "diagnose them together."
         )
-    return translate(
-        "gap",
-        "The motion differs from all records: choose this record too, and diagnose them together.",
+    return tr(
+        "The motion differs from all records: choose this record too, and diagnose them together."
     )

@@ -4,12 +4,13 @@ from math import ceil
 
 from PySide6.QtCore import QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QResizeEvent
-from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QGridLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.layouts import in_grid
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.words import AXIS_VERDICTS
 from rotemina.sim.comparison.gap import gap_text
@@ -47,9 +48,9 @@ class AxisCell(QAbstractButton):
         self.setFixedHeight(HEIGHT)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self.setText(label(one.axis))
-        verdict = translate("gap", AXIS_VERDICTS[one.verdict])
+        verdict = tr(AXIS_VERDICTS[one.verdict])
         self.setAccessibleName(f"{self.text()}: {verdict}. {self.figures}")
-        floor = self.told and translate("gap", "Noise floor {floor}").format(
+        floor = self.told and tr("Noise floor {floor}").format(
             floor=gap_text(self.told.floor, unit)
         )
         self.setToolTip(
@@ -115,7 +116,7 @@ class AxisCell(QAbstractButton):
 
     def _figures(self, unit: str) -> str:
         if self.told is None:
-            return translate("gap", AXIS_VERDICTS[self._verdict])
+            return tr(AXIS_VERDICTS[self._verdict])
         before, after = (gap_text(size, unit) for size in (self.told.raw, self.told.corrected))
         return f"{before} → {after}"
 
@@ -136,10 +137,9 @@ class AxisCells(QWidget):
         self.cells: tuple[AxisCell, ...] = ()
         self._columns = 0
         self._group = QButtonGroup(self)
-        self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid = in_grid(on=self, margins=0)
         self._grid.setSpacing(SPACING)
-        self.setAccessibleName(translate("gap", "Axis"))
+        self.setAccessibleName(tr("Axis"))
         self._group.buttonToggled.connect(
             lambda cell, on: self.chosen.emit(cell.axis) if on else None
         )
@@ -216,4 +216,4 @@ def _tap(one: AxisDiagnosis) -> Tap:
 def _unseen(told: Shrinkage | None) -> str:
     if told is None:
         return ""
-    return translate("gap", "Nominal → corrected, on validation data")
+    return tr("Nominal → corrected, on validation data")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.gap import mark, tr
 from rotemina.sim.blind.figures_table import ROWS, shown
 from rotemina.sim.blind.intervals import Figure
 from rotemina.sim.errors import InputError
@@ -16,12 +16,7 @@ _MOST_BYTES = 64_000_000
 
 _LEVEL = re.compile(r"([≥≤]?)\s*([\d.]+)\s*(%?)")
 _STEP = re.compile(r"^(\S+): done \((\d+) of (\d+)\)")
-HEAD = (
-    marked("gap", "figure"),
-    marked("gap", "level"),
-    marked("gap", "reached, 95 %"),
-    marked("gap", "cases"),
-)
+HEAD = (mark("figure"), mark("level"), mark("reached, 95 %"), mark("cases"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,9 +53,8 @@ class BlindResult:
             return cls._of(parse_json(text, str(path), InputError))
         except (ValueError, KeyError, TypeError) as error:
             raise InputError(
-                translate(
-                    "gap",
-                    "{path}: the result of the blind test cannot be read ({reason}); run it again",
+                tr(
+                    "{path}: the result of the blind test cannot be read ({reason}); run it again"
                 ).format(path=path, reason=error)
             ) from error
 

@@ -6,22 +6,21 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QIntValidator
 from PySide6.QtWidgets import (
     QDialog,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QProgressBar,
     QPushButton,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
 from rotemina.app.files import write_text
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, plain_tip
-from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.controls import allow, named, plain_tip
+from rotemina.app.widgets.labels import hint, plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.blind_figures import HEAD, BlindResult
 from rotemina.plugins.gap.blind_run import BlindRun
 from rotemina.plugins.gap.robot_choice import RobotChoice
@@ -30,28 +29,26 @@ from rotemina.sim.quantities import percent
 from rotemina.sim.robot.file import load_robot, shipped_robots
 from rotemina.sim.robot.writing import robot_text
 
-ABOUT = marked(
-    "gap",
+ABOUT = mark(
     "The test draws machines with hidden effects, by equations that the "
     "diagnosis does not know. The names of the effects are sealed until the "
     "diagnosis has answered; then they are opened and compared. A case takes "
     "about half a minute. The test runs in the background; you can stop and "
-    "resume it without losing finished cases.",
+    "resume it without losing finished cases."
 )
-NOTHING = marked(
-    "gap",
+NOTHING = mark(
     "No case is scored yet.\nPress Start; figures and confusion matrix appear "
     "when all cases are done. To score earlier, press Stop, then “Score "
-    "finished cases”.",
+    "finished cases”."
 )
 _MOST_CASES, _MOST_SEED = 9999, 999_999_999
 _STRENGTH = 170  # of the strongest colour, of 255
 _VERDICTS = {
-    "none": marked("gap", "no gap"),
-    "unknown": marked("gap", "unknown"),
-    "insufficient_excitation": marked("gap", "undecided"),
-    "failed": marked("gap", "failed"),
-    "explained": marked("gap", "explained"),
+    "none": mark("no gap"),
+    "unknown": mark("unknown"),
+    "insufficient_excitation": mark("undecided"),
+    "failed": mark("failed"),
+    "explained": mark("explained"),
 }
 
 
@@ -60,68 +57,49 @@ class BlindPage(QDialog):
 
     def __init__(self, workbench: Workbench, robots: RobotChoice, parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle(translate("gap", "Blind test of the diagnosis"))
+        self.setWindowTitle(tr("Blind test of the diagnosis"))
         self._workbench, self._robots = workbench, robots
         self.run = BlindRun(self)
-        self.cases = _field("12", _MOST_CASES, 1, translate("gap", "Number of machines, 1 to 9999"))
+        self.cases = _field("12", _MOST_CASES, 1, tr("Number of machines, 1 to 9999"))
         self.seed = _field(
-            "1",
-            _MOST_SEED,
-            0,
-            translate("gap", "Seed of the machines: the same seed draws the same machines"),
+            "1", _MOST_SEED, 0, tr("Seed of the machines: the same seed draws the same machines")
         )
-        self.start, self.stop = (
-            QPushButton(translate("gap", "Start")),
-            QPushButton(translate("gap", "Stop")),
-        )
+        self.start, self.stop = QPushButton(tr("Start")), QPushButton(tr("Stop"))
         self.start.setProperty("primary", True)
-        self.score = QPushButton(translate("gap", "Score finished cases"))
+        self.score = QPushButton(tr("Score finished cases"))
         self.progress = QProgressBar()
-        self.progress.setFormat(translate("gap", "%v of %m"))
-        self.doing = QLabel()
-        self.doing.setTextFormat(Qt.TextFormat.PlainText)
-        self.figures = Table(
-            translate("gap", "Figures beside their target levels"),
-            [translate("gap", text) for text in HEAD],
-        )
-        self.matrix = Table(translate("gap", "True cause and cause named first"), choose=False)
+        self.progress.setFormat(tr("%v of %m"))
+        self.doing = plain_text(quiet=False)
+        self.figures = Table(tr("Figures beside their target levels"), [tr(text) for text in HEAD])
+        self.matrix = Table(tr("True cause and cause named first"), choose=False)
         self._lay_out()
         self._connect()
         self._show_state()
 
     def _lay_out(self) -> None:
-        about = QLabel(translate("gap", ABOUT))
+        about = QLabel(tr(ABOUT))
         about.setWordWrap(True)
-        row = QHBoxLayout()
-        for text, field in (
-            (translate("gap", "Cases"), self.cases),
-            (translate("gap", "Seed"), self.seed),
-        ):
-            row.addWidget(QLabel(text))
-            row.addWidget(field)
-        for widget in (self.start, self.stop, self.score, self.progress):
-            row.addWidget(widget)
-        row.addWidget(self.doing, 1)
-        split = self.shown = QSplitter(Qt.Orientation.Vertical)
-        split.addWidget(
-            _titled(translate("gap", "Figures, each with its 95 % interval"), self.figures)
+        row = in_row(
+            QLabel(tr("Cases")),
+            self.cases,
+            QLabel(tr("Seed")),
+            self.seed,
+            *(self.start, self.stop, self.score, self.progress),
+            (self.doing, 1),
         )
+        split = self.shown = QSplitter(Qt.Orientation.Vertical)
+        split.addWidget(_titled(tr("Figures, each with its 95 % interval"), self.figures))
         split.addWidget(
             _titled(
-                translate(
-                    "gap",
+                tr(
                     "Confusion matrix, cases with one effect at most: rows are true causes, "
-                    "columns are the causes named first",
+                    "columns are the causes named first"
                 ),
                 self.matrix,
             )
         )
-        column = QVBoxLayout(self)
-        column.addWidget(about)
-        column.addLayout(row)
-        self.nothing = hint(translate("gap", NOTHING))
-        column.addWidget(self.nothing, 1)
-        column.addWidget(split, 1)
+        self.nothing = hint(tr(NOTHING))
+        in_column(about, row, (self.nothing, 1), (split, 1), on=self)
         split.hide()
         self.resize(900, 640)
 
@@ -133,9 +111,7 @@ class BlindPage(QDialog):
             field.textChanged.connect(lambda _: self._show_state())
         self.run.progressed.connect(self._show_progress)
         self.run.finished.connect(self.show_result)
-        self.run.stopped.connect(
-            lambda: self._show_end(translate("gap", "stopped; finished cases are kept"))
-        )
+        self.run.stopped.connect(lambda: self._show_end(tr("stopped; finished cases are kept")))
         self.run.failed.connect(self._fail)
         self._workbench.closing.connect(self.run.close)
         self._workbench.theme_changed.connect(lambda _: self._show_colours())
@@ -150,14 +126,12 @@ class BlindPage(QDialog):
         try:
             robot = self._robot(folder)
         except OSError as error:
-            text = translate("gap", "{folder}: cannot be created ({reason})")
+            text = tr("{folder}: cannot be created ({reason})")
             self._fail(text.format(folder=folder, reason=error.strerror))
             return
         self.run.start(robot, int(self.cases.text()), seed, folder, score=score)
         self.progress.setRange(0, 0)
-        self.doing.setText(
-            translate("gap", "scoring") if score else translate("gap", "drawing the first machine")
-        )
+        self.doing.setText(tr("scoring") if score else tr("drawing the first machine"))
         self._show_state()
 
     def _name(self, seed: int) -> str:
@@ -176,42 +150,37 @@ class BlindPage(QDialog):
 
     def _end(self) -> None:
         self.run.stop()
-        self._show_end(translate("gap", "stopping"))
+        self._show_end(tr("stopping"))
 
     def _show_progress(self, done: int, count: int) -> None:
         self.progress.setRange(0, count)
         self.progress.setValue(done)
-        text = translate("gap", "{done} of {count} cases done")
-        self.doing.setText(text.format(done=done, count=count))
+        self.doing.setText(tr("{done} of {count} cases done").format(done=done, count=count))
 
     def _show_end(self, text: str) -> None:
         self.doing.setText(text)
         self._show_state()
 
     def _fail(self, message: str) -> None:
-        self._show_end(translate("gap", "failed"))
+        self._show_end(tr("failed"))
         self._workbench.notify(Level.ERROR, message, about=self)
 
     def _show_state(self) -> None:
         running = self.run.running
         whole = all(field.hasAcceptableInput() for field in (self.cases, self.seed))
         why = (
-            translate("gap", "it is already running")
+            tr("it is already running")
             if running
             else None
             if whole
-            else translate("gap", "enter cases and seed")
+            else tr("enter cases and seed")
         )
-        allow(
-            self.start,
-            why,
-            translate("gap", "Run the unfinished cases, then score all"),
-        )
-        allow(self.score, why, translate("gap", "Score the finished cases without running more"))
+        allow(self.start, why, tr("Run the unfinished cases, then score all"))
+        allow(self.score, why, tr("Score the finished cases without running more"))
         allow(
             self.stop,
-            None if running else translate("gap", "nothing is running"),
-            translate("gap", "Stop the test; finished cases are kept"),
+            None if running else tr("nothing is running"),
+            tr("Stop the test; finished cases are kept"),
         )
         self.progress.setVisible(running)
         for field in (self.cases, self.seed):
@@ -222,7 +191,7 @@ class BlindPage(QDialog):
     def show_result(self, result: BlindResult) -> None:
         """Show figures and confusion matrix."""
         self._result = result
-        text = translate("gap", "{done} of {count} cases scored")
+        text = tr("{done} of {count} cases scored")
         self._show_end(text.format(done=result.done, count=result.asked))
         self._show_colours()
 
@@ -234,11 +203,11 @@ class BlindPage(QDialog):
         self.shown.show()
         colours = {True: QColor(theme.good), False: QColor(theme.warning), None: None}
         self.figures.show_rows(
-            [(translate("gap", one.cells[0]), *one.cells[1:]) for one in result.rows],
+            [(tr(one.cells[0]), *one.cells[1:]) for one in result.rows],
             [colours[one.reached] for one in result.rows],
         )
         names = result.names
-        self.matrix.set_head((translate("gap", "true cause"), *map(title, names)))
+        self.matrix.set_head((tr("true cause"), *map(title, names)))
         self.matrix.show_rows(
             [
                 (title(there), *(str(result.counts.get((there, told), "")) for told in names))
@@ -252,14 +221,14 @@ class BlindPage(QDialog):
                 colour.setAlpha(round(_STRENGTH * share))
                 item = self.matrix.item(row, column)
                 item.setBackground(colour)
-                text = translate("gap", "{truth} named {told}: {share} of its cases")
+                text = tr("{truth} named {told}: {share} of its cases")
                 said = text.format(truth=title(there), told=_word(told), share=percent(share))
                 item.setToolTip(plain_tip(said))
 
 
 def title(name: str) -> str:
     """Return a verdict or an effect as people call it."""
-    return translate("gap", _VERDICTS[name]) if name in _VERDICTS else effect_title(name)
+    return tr(_VERDICTS[name]) if name in _VERDICTS else effect_title(name)
 
 
 def _word(name: str) -> str:
@@ -268,21 +237,14 @@ def _word(name: str) -> str:
 
 
 def _field(text: str, most: int, least: int, tooltip: str) -> QLineEdit:
-    field = QLineEdit(text)
+    field = named(QLineEdit(text), tooltip, tooltip)
     field.setValidator(QIntValidator(least, most, field))
     field.setMaximumWidth(90)
-    field.setToolTip(tooltip)
-    field.setAccessibleName(tooltip)
     return field
 
 
 def _titled(text: str, table: Table) -> QWidget:
-    box = QWidget()
-    column = QVBoxLayout(box)
-    column.setContentsMargins(0, 0, 0, 0)
-    column.setSpacing(2)
-    heading = QLabel(text)
+    box, heading = QWidget(), QLabel(text)
     heading.setProperty("quiet", True)
-    column.addWidget(heading)
-    column.addWidget(table, 1)
+    in_column(heading, (table, 1), on=box, margins=0, spacing=2)
     return box

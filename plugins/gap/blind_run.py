@@ -6,7 +6,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QProcess, QTimer, Signal
 
-from rotemina.app.shell.language import translate
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.blind_figures import BlindResult, step
 from rotemina.sim.errors import InputError
 
@@ -97,7 +97,7 @@ class BlindRun(QObject):
             self.stopped.emit()
         elif status != 0:
             self.failed.emit(
-                translate("gap", "The blind test has ended: {reason}").format(
+                tr("The blind test has ended: {reason}").format(
                     reason=self._said.strip() or f"status {status}"
                 )
             )
@@ -115,7 +115,5 @@ class BlindRun(QObject):
             self._process.deleteLater()
             self._process = None
             self.failed.emit(
-                translate("gap", "{program}: the blind test cannot be started").format(
-                    program=sys.executable
-                )
+                tr("{program}: the blind test cannot be started").format(program=sys.executable)
             )

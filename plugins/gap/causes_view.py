@@ -8,10 +8,10 @@ from PySide6.QtWidgets import QPlainTextEdit, QSplitter
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.engine_words import WindowWording
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.verdict_advice import advice
 from rotemina.plugins.gap.words import (
@@ -25,23 +25,12 @@ from rotemina.sim.gap.diagnosis import AxisDiagnosis, Cause, FittedParameter, Ra
 from rotemina.sim.gap.report.words import parameter_unit
 from rotemina.sim.quantities import amount, amounts, percent, percents
 
-HEAD = (
-    marked("gap", "candidate"),
-    marked("gap", "probability"),
-    marked("gap", "remainder (noise floors)"),
-    "95 %",
-)
+HEAD = (mark("candidate"), mark("probability"), mark("remainder (noise floors)"), "95 %")
 _TIPS = (
-    marked(
-        "gap",
-        "Alternatives to the leading cause, likeliest first; possible causes are highlighted",
-    ),
-    marked("gap", "Probability of being the cause, among the candidates and an unknown cause"),
-    marked(
-        "gap",
-        "Rms of the remaining gap on validation data, in noise floors; noise alone is 1",
-    ),
-    marked("gap", "95 % interval of the remainder, in noise floors"),
+    mark("Alternatives to the leading cause, likeliest first; possible causes are highlighted"),
+    mark("Probability of being the cause, among the candidates and an unknown cause"),
+    mark("Rms of the remaining gap on validation data, in noise floors; noise alone is 1"),
+    mark("95 % interval of the remainder, in noise floors"),
 )
 
 
@@ -53,16 +42,14 @@ class CausesView(QSplitter):
         self._theme = theme
         self._shown: tuple[Answer, str] | None = None
         self.ranking = Table(
-            translate("gap", "Candidates, likeliest first"),
-            [translate("gap", text) for text in HEAD],
-            choose=False,
+            tr("Candidates, likeliest first"), [tr(text) for text in HEAD], choose=False
         )
         for column, text in enumerate(_TIPS):
-            self.ranking.horizontalHeaderItem(column).setToolTip(plain_tip(translate("gap", text)))
+            self.ranking.horizontalHeaderItem(column).setToolTip(plain_tip(tr(text)))
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
-        self.text.setAccessibleName(translate("gap", "Result for the axis"))
-        self.text.setToolTip(translate("gap", "Result of the diagnosis for the axis"))
+        self.text.setAccessibleName(tr("Result for the axis"))
+        self.text.setToolTip(tr("Result of the diagnosis for the axis"))
         self.addWidget(self.ranking)
         self.addWidget(self.text)
         self.setSizes([480, 460])
@@ -90,8 +77,7 @@ class CausesView(QSplitter):
 def _row(ranked: Ranked) -> tuple[str, ...]:
     name = effect_title(ranked.effect)
     if ranked.from_axis is not None:
-        text = translate("gap", "{effect} from {axis}")
-        name = text.format(effect=name, axis=label(ranked.from_axis))
+        name = tr("{effect} from {axis}").format(effect=name, axis=label(ranked.from_axis))
     if ranked.formulation is not None:
         name += f" ({formulation_name(ranked.formulation)})"
     return (
@@ -103,7 +89,7 @@ def _row(ranked: Ranked) -> tuple[str, ...]:
 
 
 def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
-    verdict = translate("gap", AXIS_VERDICTS[one.verdict])
+    verdict = tr(AXIS_VERDICTS[one.verdict])
     yield f"{verdict}."
     experiments = [own for own in answer.diagnosis.experiments if own.axis == one.axis]
     yield from advice(one, has_experiment=bool(experiments))
@@ -111,21 +97,17 @@ def _lines(one: AxisDiagnosis, answer: Answer) -> Iterator[str]:
         yield from _cause(cause, answer)
     yield from map(WindowWording().of, one.remarks)
     for experiment in experiments:
-        yield translate("gap", "Next experiment: {why}").format(
-            why=WindowWording().of(experiment.why)
-        )
+        yield tr("Next experiment: {why}").format(why=WindowWording().of(experiment.why))
 
 
 def _cause(cause: Cause, answer: Answer) -> Iterator[str]:
     unit = answer.unit(cause.axis, cause.tap)
     name = effect_title(cause.effect)
     if cause.from_axis is not None:
-        source = translate("gap", "{effect} from {axis}")
-        name = source.format(effect=name, axis=label(cause.from_axis))
-    text = translate(
-        "gap",
+        name = tr("{effect} from {axis}").format(effect=name, axis=label(cause.from_axis))
+    text = tr(
         "{effect}: {share} likely; {before} rms without it, {after} with it at {tap}, on unseen "
-        "data; closes {closed} ({interval}).",
+        "data; closes {closed} ({interval})."
     )
     yield text.format(
         effect=name,
@@ -138,7 +120,7 @@ def _cause(cause: Cause, answer: Answer) -> Iterator[str]:
     )
     if cause.ambiguous_with:
         rivals = any_of([effect_word(effect) for effect in cause.ambiguous_with])
-        text = translate("gap", "    These records cannot distinguish it from {effects}.")
+        text = tr("    These records cannot distinguish it from {effects}.")
         yield text.format(effects=rivals)
     for one in cause.parameters:
         yield f"    {_parameter(one, parameter_unit(one, cause, answer.records))}"
@@ -150,6 +132,6 @@ def _parameter(one: FittedParameter, unit: str) -> str:
         text += f" ({amounts(one.interval, unit)})"
     if one.at_bound is None:
         return text
-    low = translate("gap", "{parameter}, at its low bound")
-    high = translate("gap", "{parameter}, at its high bound")
+    low = tr("{parameter}, at its low bound")
+    high = tr("{parameter}, at its high bound")
     return (low if one.at_bound == "low" else high).format(parameter=text)

@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.background import Background
-from rotemina.app.shell.language import translate
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.diagnosis_process import DiagnosisProcess
 from rotemina.plugins.gap.words import effect_word, stage_name
@@ -153,4 +153,4 @@ def said(progress: Progress, at_s: float, now_s: float) -> str:
     left_s = at_s / progress.share - now_s
     if left_s < 1.0:
         return text
-    return translate("gap", "{doing}, about {time:.0f} s left").format(doing=text, time=left_s)
+    return tr("{doing}, about {time:.0f} s left").format(doing=text, time=left_s)

@@ -16,17 +16,16 @@ from queue import Empty, SimpleQueue
 from types import MappingProxyType
 from typing import IO
 
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.diagnosis_progress import Listener, Progress
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 
-_ENDED = marked(
-    "gap",
+_ENDED = mark(
     "the process of the diagnosis ended (status {status}) without an answer, "
-    "perhaps for lack of memory; diagnose again with fewer or shorter records",
+    "perhaps for lack of memory; diagnose again with fewer or shorter records"
 )
 _WORKER = ("-m", "rotemina.plugins.gap.diagnosis_worker")
 _LOOKS_S = 0.05  # between two questions whether an answer is still wanted
@@ -71,11 +70,7 @@ class DiagnosisProcess:
         self._number = 0
 
     def answer(
-        self,
-        robot: Robot,
-        names: Sequence[str],
-        records: Sequence[Record],
-        listener: Listener,
+        self, robot: Robot, names: Sequence[str], records: Sequence[Record], listener: Listener
     ) -> Answer:
         """Diagnose records and work out what is drawn; from one thread at a time.
 
@@ -97,7 +92,7 @@ class DiagnosisProcess:
             write(request, stream)
             told = self._reply(listener)
         except (EOFError, OSError):
-            raise InputError(translate("gap", _ENDED).format(status=self.close())) from None
+            raise InputError(tr(_ENDED).format(status=self.close())) from None
         except BaseException:
             self._interrupt()
             raise

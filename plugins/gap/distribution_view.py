@@ -5,13 +5,15 @@ from itertools import pairwise
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSplitter, QStackedWidget, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.heat_cell import parts
 from rotemina.plugins.gap.heat_cell_view import HeatCellView
@@ -22,25 +24,22 @@ from rotemina.sim.gap.report.heat import Heat
 from rotemina.sim.quantities import NOTHING, amount, percent, percents, rounded
 
 HEAD = (
-    marked("gap", "axis, signal"),
-    marked("gap", "share"),
-    marked("gap", "gap rms"),
-    marked("gap", "floor"),
-    marked("gap", "worst at"),
-    marked("gap", "while"),
-    marked("gap", "95 % of the share"),
+    mark("axis, signal"),
+    mark("share"),
+    mark("gap rms"),
+    mark("floor"),
+    mark("worst at"),
+    mark("while"),
+    mark("95 % of the share"),
 )
 _TIPS = (
-    marked(
-        "gap",
-        "Signal: u is the voltage, ref the reference sensor, meas the machine's own sensor",
-    ),
-    marked("gap", "Share of the gap above the noise floors of all axes and channels"),
-    marked("gap", "Measured minus model, mean removed"),
-    marked("gap", "Rms of noise and rounding of the sensor, which no model explains"),
-    marked("gap", "Band with the largest share"),
-    marked("gap", "Motion of the axis where the gap is largest"),
-    marked("gap", "95 % interval of the share"),
+    mark("Signal: u is the voltage, ref the reference sensor, meas the machine's own sensor"),
+    mark("Share of the gap above the noise floors of all axes and channels"),
+    mark("Measured minus model, mean removed"),
+    mark("Rms of noise and rounding of the sensor, which no model explains"),
+    mark("Band with the largest share"),
+    mark("Motion of the axis where the gap is largest"),
+    mark("95 % interval of the share"),
 )
 _BANDS = 2  # columns before those of the bands
 _COLDEST = 0.3  # floors
@@ -56,26 +55,20 @@ class DistributionView(QSplitter):
         self._theme = theme
         self._answer: Answer | None = None
         self._places: list[LocatedGap] = []
-        self.places = Table(
-            translate("gap", "Where the gap lies"), [translate("gap", text) for text in HEAD]
-        )
+        self.places = Table(tr("Where the gap lies"), [tr(text) for text in HEAD])
         for column, text in enumerate(_TIPS):
-            self.places.horizontalHeaderItem(column).setToolTip(plain_tip(translate("gap", text)))
-        self.heat_title = QLabel()
-        self.heat_title.setTextFormat(Qt.TextFormat.PlainText)
-        self.heat_title.setWordWrap(True)
-        self.heat = Table(translate("gap", "Gap by band and regime"), choose=False)
+            self.places.horizontalHeaderItem(column).setToolTip(plain_tip(tr(text)))
+        self.heat_title = plain_text(quiet=False, wrap=True)
+        self.heat = Table(tr("Gap by band and regime"), choose=False)
         self.heat.setCursor(Qt.CursorShape.PointingHandCursor)
         self.heat.cellClicked.connect(self.open_cell)
         self.heat.cellActivated.connect(self.open_cell)
         self.cell = HeatCellView(theme)
         self.cell.closed.connect(lambda: self.right.setCurrentIndex(0))
         whole = QWidget()
-        column = QVBoxLayout(whole)
-        column.setContentsMargins(4, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.heat_title)
-        column.addWidget(self.heat, 1)
+        column = in_column(
+            self.heat_title, (self.heat, 1), on=whole, margins=(4, 0, 0, 0), spacing=2
+        )
         self.right = QStackedWidget()
         self.right.addWidget(whole)
         self.right.addWidget(self.cell)
@@ -112,7 +105,7 @@ class DistributionView(QSplitter):
         heat = self._answer.heats[place.axis, place.tap]
         own = [one for one in self._answer.traces[place.axis] if one.tap is place.tap]
         low, high = heat.edges_hz[band], heat.edges_hz[band + 1]
-        title = translate("gap", "{axis} {tap}, {regime}, {low:g} to {high:g} Hz").format(
+        title = tr("{axis} {tap}, {regime}, {low:g} to {high:g} Hz").format(
             axis=label(place.axis),
             tap=place.tap,
             regime=regime_name(heat.regimes[row]),
@@ -143,16 +136,13 @@ class DistributionView(QSplitter):
         name = f"{label(place.axis)} {place.tap}"
         heat = self._answer.heats.get((place.axis, place.tap))
         if heat is None:
-            text = translate(
-                "gap", "{place}: no record is long enough and evenly sampled for a map"
-            )
+            text = tr("{place}: no record is long enough and evenly sampled for a map")
             self._clear(text.format(place=name))
             return
         self.heat_title.setText(
-            translate(
-                "gap",
+            tr(
                 "{place}: gap rms [noise floors] by motion and frequency, from … Hz on. "
-                "Click a cell to see its traces.",
+                "Click a cell to see its traces."
             ).format(place=name)
         )
         self._draw(heat)
@@ -164,8 +154,8 @@ class DistributionView(QSplitter):
 
     def _draw(self, heat: Heat) -> None:
         edges = [rounded(edge, 6) for edge in heat.edges_hz]
-        self.heat.set_head((translate("gap", "while"), translate("gap", "share"), *edges[:-1]))
-        between = translate("gap", "{low} to {high} Hz")
+        self.heat.set_head((tr("while"), tr("share"), *edges[:-1]))
+        between = tr("{low} to {high} Hz")
         for column, (low, high) in enumerate(pairwise(edges), start=_BANDS):
             self.heat.horizontalHeaderItem(column).setToolTip(between.format(low=low, high=high))
         self.heat.show_rows(
@@ -174,8 +164,8 @@ class DistributionView(QSplitter):
                 for regime, floors, share in zip(heat.regimes, heat.floors, heat.share, strict=True)
             ]
         )
-        here = translate("gap", "{regime}, {low} to {high} Hz: {floors} noise floors rms")
-        whole = translate("gap", "{share} of the gap of the channel")
+        here = tr("{regime}, {low} to {high} Hz: {floors} noise floors rms")
+        whole = tr("{share} of the gap of the channel")
         for row, floors in enumerate(heat.floors):
             for column, value in enumerate(floors, start=_BANDS):
                 colour = QColor(self._theme.real)
@@ -193,7 +183,7 @@ class DistributionView(QSplitter):
                             floors=_few(value),
                         ),
                         whole.format(share=share),
-                        translate("gap", "Click to see the traces"),
+                        tr("Click to see the traces"),
                     )
                 )
 
@@ -214,7 +204,7 @@ def _row(
     band = place.worst_band_hz
     return (
         f"{label(place.axis)} {place.tap}",
-        percent(share[0]) if share is not None else translate("gap", "noise"),
+        percent(share[0]) if share is not None else tr("noise"),
         amount(place.gap_rms, unit),
         amount(place.noise_floor, unit),
         NOTHING if band is None else f"{rounded(band[0], 3)}…{rounded(band[1], 3)} Hz",

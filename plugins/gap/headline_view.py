@@ -2,13 +2,14 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.engine_words import WindowWording
-from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.answer_quality import TONES, Tone, change, why_worse
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.unseen_motion_reduction import Proof
@@ -27,34 +28,17 @@ class Headline(QFrame):
     def __init__(self, first: Sequence[QWidget], more: Sequence[QWidget]) -> None:
         super().__init__()
         self.setObjectName("headline")
-        self.sentence, self.remainder = QLabel(), QLabel()
-        for text in (self.sentence, self.remainder):
-            text.setTextFormat(Qt.TextFormat.PlainText)
-            text.setWordWrap(True)
+        self.sentence, self.remainder = (plain_text(quiet=False, wrap=True) for _ in range(2))
         self.sentence.setProperty("sentence", True)
         self.remainder.setProperty("remainder", True)
-        words = QVBoxLayout()
-        words.setSpacing(0)
-        words.addWidget(self.sentence)
-        words.addWidget(self.remainder)
-        words.addStretch(1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(12, 6, 8, 6)
-        row.setSpacing(12)
-        row.addLayout(words, 1)
-        buttons = QVBoxLayout()
-        for widgets in (first, more):
-            line = QHBoxLayout()
-            line.addStretch(1)
-            for widget in widgets:
-                line.addWidget(widget)
-            buttons.addLayout(line)
-        row.addLayout(buttons)
+        words = in_column(self.sentence, self.remainder, 1, spacing=0)
+        buttons = in_column(in_row(1, *first), in_row(1, *more))
+        in_row((words, 1), buttons, on=self, margins=(12, 6, 8, 6), spacing=12)
 
     def show_answer(self, answer: Answer, proof: Proof | None) -> None:
         """Show a diagnosis, and what a motion that it has not seen says of it."""
         diagnosis, wording = answer.diagnosis, WindowWording()
-        verdict = f"{translate('gap', VERDICTS[diagnosis.verdict])}."
+        verdict = f"{tr(VERDICTS[diagnosis.verdict])}."
         found = [wording.of(message) for message in findings(diagnosis)]
         text = "   ".join(found) or verdict
         more = "  ".join(wording.of(message) for message in details(diagnosis, answer.records))
@@ -62,8 +46,7 @@ class Headline(QFrame):
         tone = Tone.WORSE if worse else TONES[diagnosis.verdict]
         if proof is not None and worse:
             listed = ", ".join(f"{label(one.trace.axis)} {change(one.times)}" for one in worse)
-            worse_on = translate("gap", "Worse on {motion}: {axes}.   ")
-            text = worse_on.format(motion=proof.name, axes=listed) + text
+            text = tr("Worse on {motion}: {axes}.   ").format(motion=proof.name, axes=listed) + text
             more = why_worse(worse[0], answer)
         elif proof is not None and proof.shrunk:
             better = ", ".join(

@@ -4,12 +4,14 @@ from collections.abc import Sequence
 from html import escape
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QWidget
 
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.heat_cell import Part
 from rotemina.sim.quantities import amount, scale_of
 
@@ -29,16 +31,13 @@ class HeatCellView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self.back = QPushButton(translate("gap", "◂ Map"))
-        self.back.setToolTip(translate("gap", "Back to the map of the gap by band and regime"))
+        self.back = QPushButton(tr("◂ Map"))
+        self.back.setToolTip(tr("Back to the map of the gap by band and regime"))
         self.back.clicked.connect(self.closed)
-        self.title = QLabel()
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.title = plain_text(quiet=False)
         self.choice = QComboBox()
-        self.choice.setAccessibleName(translate("gap", "Record"))
-        self.choice.setToolTip(
-            translate("gap", "Records by their share of this place, largest first")
-        )
+        self.choice.setAccessibleName(tr("Record"))
+        self.choice.setToolTip(tr("Records by their share of this place, largest first"))
         policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(policy)
         self.choice.setMinimumContentsLength(10)
@@ -48,16 +47,8 @@ class HeatCellView(QWidget):
         for name, role in CURVES:
             self.plot.add_curve(name, Line(role))
         self.plot.show_times(True)
-        head = QHBoxLayout()
-        head.addWidget(self.back)
-        head.addWidget(self.title, 1)
-        head.addWidget(self.choice)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(4, 0, 0, 0)
-        column.setSpacing(2)
-        column.addLayout(head)
-        column.addWidget(self.legend)
-        column.addWidget(self.plot, 1)
+        head = in_row(self.back, (self.title, 1), self.choice)
+        in_column(head, self.legend, (self.plot, 1), on=self, margins=(4, 0, 0, 0), spacing=2)
 
     def show_parts(self, title: str, names: Sequence[str], parts: Sequence[Part]) -> None:
         """Show what records hold of a cell."""
@@ -78,14 +69,13 @@ class HeatCellView(QWidget):
         for name, _ in CURVES:
             self.plot.clear_signal(name)
         if part is None:
-            self.legend.setText(translate("gap", "No record has rows at this place."))
+            self.legend.setText(tr("No record has rows at this place."))
             return
         trace, theme = part.trace, self._theme
         scale = scale_of(trace.unit, float(np.abs(trace.before).max()))
-        text = translate(
-            "gap",
+        text = tr(
             'gap [{unit}]: <span style="color:{command}">total</span>, <span '
-            'style="color:{real}">in this band</span>: {rms} rms in {time:.3g} s',
+            'style="color:{real}">in this band</span>: {rms} rms in {time:.3g} s'
         )
         self.legend.setText(
             text.format(

@@ -8,9 +8,9 @@ from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rotemina.app.blind.hidden_machine import Cause, HiddenMachine, Secret, draw_secret, is_right
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.drivers.simulator.driver import Simulator
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.words import effect_word
 
@@ -33,7 +33,7 @@ class HiddenMachineTrial(QObject):
         drawn = secrets.randbelow(_SEEDS) if seed is None else seed
         self._workbench.work(
             "hidden machine",
-            translate("gap", "Drawing a machine …"),
+            tr("Drawing a machine …"),
             lambda: draw_secret(robot, drawn),
             self._connect,
         )
@@ -57,10 +57,9 @@ class HiddenMachineTrial(QObject):
         machine = HiddenMachine(self._workbench.robot, secret)
         if self._workbench.ask(lambda: self._workbench.session.use(machine)):
             self.secret = secret
-            told = translate(
-                "gap",
+            told = tr(
                 "A hidden machine is connected. It has one or two effects, or none. Play a "
-                "motion, diagnose it, then choose More → Reveal.",
+                "motion, diagnose it, then choose More → Reveal."
             )
             self._workbench.notify(Level.INFO, told, about=self._parent)
 
@@ -68,17 +67,17 @@ class HiddenMachineTrial(QObject):
         settings = self._workbench.settings
         box = QMessageBox(self._parent.window())
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        box.setWindowTitle(translate("gap", "Hidden machine"))
+        box.setWindowTitle(tr("Hidden machine"))
         box.setTextFormat(Qt.TextFormat.PlainText)
         box.setText(
-            translate("gap", "Correct: the diagnosis named exactly the effects of the machine.")
+            tr("Correct: the diagnosis named exactly the effects of the machine.")
             if right
-            else translate("gap", "Not correct.")
+            else tr("Not correct.")
         )
         lines = (
-            translate("gap", "The machine has: {causes}").format(causes=_listed(secret.causes)),
-            translate("gap", "The diagnosis names: {causes}").format(causes=_listed(named)),
-            translate("gap", "Score: {right} of {played}").format(
+            tr("The machine has: {causes}").format(causes=_listed(secret.causes)),
+            tr("The diagnosis names: {causes}").format(causes=_listed(named)),
+            tr("Score: {right} of {played}").format(
                 right=settings.get(RIGHT, 0), played=settings.get(PLAYED, 0)
             ),
         )
@@ -97,4 +96,4 @@ def named_by(answer: Answer | None, secret: Secret) -> Iterator[Cause]:
 
 def _listed(causes: Collection[Cause]) -> str:
     names = [f"{label(axis)} {effect_word(effect)}" for axis, effect in sorted(causes)]
-    return ", ".join(names) or translate("gap", "nothing")
+    return ", ".join(names) or tr("nothing")

@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.model_in_use import CONTACT_LIKE, NOTED, ModelInUse
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.words import all_of, effect_word
@@ -43,19 +43,16 @@ class ModelSwitch(QObject):
     def _ask(self, answer: Answer, noted: Sequence[str], reasons: Sequence[str]) -> None:
         question = QMessageBox(self._parent.window())
         question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        question.setWindowTitle(translate("gap", "Use corrected model"))
+        question.setWindowTitle(tr("Use corrected model"))
         question.setTextFormat(Qt.TextFormat.PlainText)
-        question.setText(translate("gap", "Use this model for predictions anyway?"))
-        safe = translate(
-            "gap",
-            "Predictions only: commands to the machine do not change, and no bound widens.",
-        )
+        question.setText(tr("Use this model for predictions anyway?"))
+        safe = tr("Predictions only: commands to the machine do not change, and no bound widens.")
         question.setInformativeText("\n\n".join([*reasons, safe]))
         yes, no = QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No
         question.setStandardButtons(yes | no)
         question.setDefaultButton(no)
-        question.button(yes).setText(translate("gap", "Use anyway"))
-        question.button(no).setText(translate("gap", "Not now"))
+        question.button(yes).setText(tr("Use anyway"))
+        question.button(no).setText(tr("Not now"))
         question.finished.connect(lambda said: self.use(answer, noted) if said == yes else None)
         self._workbench.stopped.connect(question.reject)
         question.setModal(False)
@@ -86,12 +83,10 @@ def against(answer: Answer, proof: Proof | None) -> str | None:
             for one in each.shrinkage
             if one.tap is Tap.MEAS and each.fitted and not one.corrected < one.raw
         ]
-        name = translate("gap", "validation data")
+        name = tr("validation data")
     if not worse:
         return None
-    text = translate(
-        "gap", "The corrected model is worse than the nominal one on {motion}: {axes}."
-    )
+    text = tr("The corrected model is worse than the nominal one on {motion}: {axes}.")
     return text.format(motion=name, axes=", ".join(dict.fromkeys(worse)))
 
 
@@ -99,14 +94,13 @@ def noted_in(answer: Answer) -> Iterator[str]:
     """Yield what was noted while the model was learned: faults, contacts, and causes like one."""
     for name, record in zip(answer.names, answer.records, strict=True):
         if NOTED in record.metadata:
-            text = translate("gap", "During {record}: {noted}.")
+            text = tr("During {record}: {noted}.")
             yield text.format(record=name, noted=record.metadata[NOTED])
     found = [one for one in answer.diagnosis.fitted if one.enabled and one.id in CONTACT_LIKE]
     if found:
-        text = translate(
-            "gap",
+        text = tr(
             "The model includes {causes}: the axis may have touched something. A "
             "penetration ignores this and also detects the contact with the nominal "
-            "model.",
+            "model."
         )
         yield text.format(causes=all_of([effect_word(one.id) for one in found]))

@@ -4,18 +4,17 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import (
-    QBoxLayout,
-)
+from PySide6.QtWidgets import QBoxLayout
 
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Run, Workbench
 from rotemina.app.widgets.controls import allow
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.answer_exports import Actions
 from rotemina.plugins.gap.blind_page import BlindPage
 from rotemina.plugins.gap.diagnosing import Diagnosing
@@ -32,7 +31,7 @@ from rotemina.plugins.gap.words import stage_name
 
 _HEIGHT = 240
 _UPRIGHT_FROM = (1400, 420)  # px of width and height, from which the rail stands at the side
-_NOT_FORETOLD = marked("gap", "commands cannot predict any of the causes")
+_NOT_FORETOLD = mark("commands cannot predict any of the causes")
 
 
 class GapPanel(Panel):
@@ -147,14 +146,12 @@ class GapPanel(Panel):
         chosen = self.records.chosen
         if not chosen:
             self.workbench.notify(
-                Level.WARNING,
-                translate("gap", "There are no records to diagnose: choose some."),
-                about=self,
+                Level.WARNING, tr("There are no records to diagnose: choose some."), about=self
             )
             return
         names = [each.full for each in chosen]
         doing = (
-            translate("gap", "waiting for the stopped work to end")
+            tr("waiting for the stopped work to end")
             if self.diagnosing.busy
             else stage_name("reading")
         )
@@ -166,7 +163,7 @@ class GapPanel(Panel):
     def end(self) -> None:
         """Stop the diagnosis that runs."""
         self.diagnosing.stop()
-        self.doing.setText(translate("gap", "The diagnosis was stopped."))
+        self.doing.setText(tr("The diagnosis was stopped."))
         self._show_state()
 
     def take_answer(self, answer: Answer) -> None:
@@ -179,9 +176,7 @@ class GapPanel(Panel):
         self._show_state()
 
     def _fail(self, message: str) -> None:
-        self.doing.setText(
-            translate("gap", "The diagnosis failed; the notice above gives the reason.")
-        )
+        self.doing.setText(tr("The diagnosis failed; the notice above gives the reason."))
         self.workbench.notify(Level.ERROR, message, about=self)
         self._show_state()
 
@@ -190,23 +185,17 @@ class GapPanel(Panel):
     def _show_state(self) -> None:
         running, answer = self.diagnosing.running, self.answer
         chosen = len(self.records.chosen)
-        self.start.setText(
-            translate("gap", "Diagnose") if chosen else translate("gap", "Diagnose …")
-        )
+        self.start.setText(tr("Diagnose") if chosen else tr("Diagnose …"))
         tip_of_start = (
-            translate("gap", "Find the effects that the model lacks")
+            tr("Find the effects that the model lacks")
             if chosen
-            else translate("gap", "Choose records and diagnose them")
+            else tr("Choose records and diagnose them")
         )
-        allow(
-            self.start,
-            translate("gap", "a diagnosis is running") if running else None,
-            tip_of_start,
-        )
+        allow(self.start, tr("a diagnosis is running") if running else None, tip_of_start)
         allow(
             self.stop,
-            None if running else translate("gap", "nothing is running"),
-            translate("gap", "Stop the diagnosis; motion continues"),
+            None if running else tr("nothing is running"),
+            tr("Stop the diagnosis; motion continues"),
         )
         self.robots.setEnabled(not running)
         self.rail.menu.setEnabled(not running)
@@ -220,10 +209,10 @@ class GapPanel(Panel):
     def _show_use(self) -> None:
         """Offer the corrected model: by itself where it is better, else after a question."""
         answer = self.answer
-        why_not = unfound(answer) or (None if self._candidate else translate("gap", _NOT_FORETOLD))
+        why_not = unfound(answer) or (None if self._candidate else tr(_NOT_FORETOLD))
         doubt = against(answer, self.result.proof.proof) if answer and not why_not else None
         if why_not is None and not self._resting:
-            why_not = translate("gap", "the machine is still moving")
+            why_not = tr("the machine is still moving")
         self.result.offer_use(why_not, doubt)
 
     def _follow_motion(self, state: SessionState) -> None:
@@ -235,8 +224,7 @@ class GapPanel(Panel):
 
     def _show_progress(self, doing: str, share: float) -> None:
         self.progress.setValue(round(1000 * share))
-        text = translate("gap", "{share:.0f} % done")
-        self.progress.setToolTip(text.format(share=100.0 * share))
+        self.progress.setToolTip(tr("{share:.0f} % done").format(share=100.0 * share))
         self.doing.setText(doing)
 
     # --- what is played ---------------------------------------------------------------------------

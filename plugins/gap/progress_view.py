@@ -1,21 +1,23 @@
 """While a diagnosis is under way: what is done now, and how the candidates of each axis stand."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QWidget
+from PySide6.QtWidgets import QSplitter, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_row
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.ranking_view import RankingView
 from rotemina.sim.gap.diagnosis_progress import Progress
 
 STAGES = {
-    "reading": marked("gap", "Reading the records."),
-    "where": marked("gap", "Locating the gap by axis, channel and frequency."),
-    "screening": marked("gap", "Screening all effects that the axis may have."),
-    "fitting": marked("gap", "Fitting the likeliest candidates to the records, in parallel."),
-    "deciding": marked("gap", "Deciding between the candidates on validation data."),
-    "drawing": marked("gap", "Drawing the result."),
+    "reading": mark("Reading the records."),
+    "where": mark("Locating the gap by axis, channel and frequency."),
+    "screening": mark("Screening all effects that the axis may have."),
+    "fitting": mark("Fitting the likeliest candidates to the records, in parallel."),
+    "deciding": mark("Deciding between the candidates on validation data."),
+    "drawing": mark("Drawing the result."),
 }
 
 
@@ -26,14 +28,10 @@ class ProgressView(QSplitter):
         super().__init__(Qt.Orientation.Horizontal)
         self._theme = theme
         self.rankings: dict[str, RankingView] = {}
-        self._row = QHBoxLayout()
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(12)
+        self._row = in_row(margins=0, spacing=12)
         rankings = QWidget()
         rankings.setLayout(self._row)
-        self.text = QLabel()
-        self.text.setTextFormat(Qt.TextFormat.PlainText)
-        self.text.setWordWrap(True)
+        self.text = plain_text(quiet=False, wrap=True)
         self.text.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.text.setContentsMargins(10, 4, 4, 4)
         self.addWidget(rankings)
@@ -56,7 +54,7 @@ class ProgressView(QSplitter):
                 self._row.addWidget(view)
             self.rankings[step.axis].show_ranking(step.ranking, _being_fitted(step))
         lines = [_of_axis(step.axis)] if step.axis is not None else []
-        lines.append(translate("gap", STAGES[step.stage]) if step.stage in STAGES else step.stage)
+        lines.append(tr(STAGES[step.stage]) if step.stage in STAGES else step.stage)
         lines += ["", _meaning()] if self.rankings else []
         self.text.setText("\n".join(lines))
 
@@ -72,14 +70,13 @@ def _being_fitted(step: Progress) -> str | None:
 
 
 def _of_axis(axis: str) -> str:
-    return translate("gap", "Axis {axis}.").format(axis=label(axis))
+    return tr("Axis {axis}.").format(axis=label(axis))
 
 
 def _meaning() -> str:
-    return translate(
-        "gap",
+    return tr(
         "A bar is the share of the gap that a candidate closes: outlined after "
         "screening, light after the fit, solid after the decision on validation "
         "data. The answer also considers which causes are needed together, and may "
-        "differ.",
+        "differ."
     )

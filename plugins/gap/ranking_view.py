@@ -5,9 +5,9 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.words import effect_title
 from rotemina.sim.gap.ranking import Grade, Ranking, Standing
 from rotemina.sim.quantities import percent
@@ -49,8 +49,8 @@ class RankingView(QWidget):
             return ""
         axis, tried = label(self.ranking.axis), self.ranking.tried
         if tried == 1:
-            return translate("gap", "{axis}: 1 candidate tried").format(axis=axis)
-        return translate("gap", "{axis}: {n} candidates tried").format(axis=axis, n=tried)
+            return tr("{axis}: 1 candidate tried").format(axis=axis)
+        return tr("{axis}: {n} candidates tried").format(axis=axis, n=tried)
 
     def set_theme(self, theme: Theme) -> None:
         """Change all colours."""
@@ -106,7 +106,7 @@ class RankingView(QWidget):
 def name_of(one: Standing) -> str:
     """Return what a set of causes is called."""
     if not one.causes:
-        return translate("gap", "Model re-tuned")
+        return tr("Model re-tuned")
     return " + ".join(_name(*cause) for cause in one.causes)
 
 
@@ -114,4 +114,4 @@ def _name(effect: str, source: str | None) -> str:
     title = effect_title(effect)
     if source is None:
         return title
-    return translate("gap", "{effect} from {axis}").format(effect=title, axis=label(source))
+    return tr("{effect} from {axis}").format(effect=title, axis=label(source))

@@ -12,14 +12,14 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.shell.file_dialog import ask_files
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.record_chooser import ask_records
 from rotemina.app.shell.record_words import moment_text, tip_lines
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.records import Listed, Records
 
-FILES = marked("gap", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
+FILES = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
 _ENOUGH = 3  # each then serves as data that a fit has not seen
 _GAP_WIDTH = 116  # px, of "Z nano 88.8 µm"
 
@@ -41,37 +41,34 @@ class RecordMenu(QToolButton):
 
     def ask(self) -> None:
         """Ask for records of the library, where it has any, else for files; and add them."""
-        title, add = translate("gap", "Records of the real machine"), self._records.add_entries
+        title, add = tr("Records of the real machine"), self._records.add_entries
         ask_records(self.window(), self._workbench, title, add, self.ask_files, multiple=True)
 
     def ask_files(self) -> None:
         """Ask for files, and add them."""
-        title = translate("gap", "Records of the real machine")
-        filters = translate("gap", FILES)
-        ask_files(self.window(), self._workbench, title, filters, self._records.add_files)
+        title = tr("Records of the real machine")
+        ask_files(self.window(), self._workbench, title, tr(FILES), self._records.add_files)
 
     def _show(self) -> None:
         names = [each.full for each in self._records.chosen]
         count = len(names)
-        text = translate("gap", "{n} records").format(n=count)
+        text = tr("{n} records").format(n=count)
         if count < 2:
-            text = translate("gap", "1 record") if count else translate("gap", "Records …")
+            text = tr("1 record") if count else tr("Records …")
         self.setText(text)
         few = (
-            translate("gap", "Three or more records of different motions give the best diagnosis.")
+            tr("Three or more records of different motions give the best diagnosis.")
             if count < _ENOUGH
             else ""
         )
-        said = names or [translate("gap", "Choose the records of the real machine")]
-        self.setToolTip(
-            plain_tip(translate("gap", "Records to diagnose:") if names else "", *said, few)
-        )
+        said = names or [tr("Choose the records of the real machine")]
+        self.setToolTip(plain_tip(tr("Records to diagnose:") if names else "", *said, few))
 
     def _fill(self) -> None:
         menu = self.menu()
         menu.clear()
-        menu.addAction(translate("gap", "Add records …")).triggered.connect(self.ask)
-        menu.addAction(translate("gap", "Add files …")).triggered.connect(self.ask_files)
+        menu.addAction(tr("Add records …")).triggered.connect(self.ask)
+        menu.addAction(tr("Add files …")).triggered.connect(self.ask_files)
         if self._records.listed:
             menu.addSeparator()
         for one in self._records.listed:
@@ -90,14 +87,14 @@ class RecordList(QTreeWidget):
         super().__init__()
         self._records = records
         self._shown: list[Listed] = []
-        self.setAccessibleName(translate("gap", "Records"))
+        self.setAccessibleName(tr("Records"))
         self.setRootIsDecorated(False)
         self.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self.setTextElideMode(Qt.TextElideMode.ElideMiddle)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setHeaderLabels([translate("gap", "Records"), translate("gap", "gap")])
+        self.setHeaderLabels([tr("Records"), tr("gap")])
         self.headerItem().setToolTip(
-            1, translate("gap", "Gap from the model in use, of the axis with the most noise floors")
+            1, tr("Gap from the model in use, of the axis with the most noise floors")
         )
         head = self.header()
         head.setStretchLastSection(False)

@@ -14,9 +14,9 @@ from rotemina.app.records.file_facts import moment
 from rotemina.app.records.library import read, worst_gap
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.column_mapping import ask_columns
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.record_words import moment_text, worst_text
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.plugins.gap import tr
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import NOTHING
 from rotemina.sim.records.preview import preview
@@ -281,20 +281,14 @@ class Records(QObject):
             else:
                 self._workbench.notify(
                     Level.WARNING,
-                    translate(
-                        "gap", "{name}: no header; add this file alone to name its columns"
-                    ).format(name=path.name),
+                    tr("{name}: no header; add this file alone to name its columns").format(
+                        name=path.name
+                    ),
                     about=self._parent,
                 )
             self._count_read()
 
-        self._workbench.work(
-            f"gap record {path}",
-            translate("gap", "Reading {name} …").format(name=path.name),
-            work,
-            done,
-            self._count_read,
-        )
+        self._workbench.read_file(f"gap record {path}", path.name, work, done, self._count_read)
 
     def _count_read(self) -> None:
         self._unread -= 1
@@ -303,9 +297,9 @@ class Records(QObject):
 
     def _read_named(self, path: Path, columns: str | None) -> None:
         robot = self._robot
-        self._workbench.work(
+        self._workbench.read_file(
             f"gap record {path}",
-            translate("gap", "Reading {name} …").format(name=path.name),
+            path.name,
             lambda: read_record(path, columns=columns, robot=robot),
             lambda record: self._tick_beside(self._add(Listed(path.name, record, path))),
         )
@@ -326,10 +320,6 @@ class Records(QObject):
             self.changed.emit()  # its tick is taken back
             self._count_read()
 
-        self._workbench.work(
-            f"gap record {entry.path}",
-            translate("gap", "Reading {name} …").format(name=entry.name),
-            lambda: read(entry, robot),
-            done,
-            failed,
+        self._workbench.read_file(
+            f"gap record {entry.path}", entry.name, lambda: read(entry, robot), done, failed
         )

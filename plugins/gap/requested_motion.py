@@ -4,10 +4,10 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QMessageBox, QWidget
 
 from rotemina.app.display_units import axis_scale, label
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Run, Workbench
+from rotemina.plugins.gap import tr
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 
@@ -37,13 +37,13 @@ class Playing(QObject):
         question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         question.setWindowTitle(title)
         question.setTextFormat(Qt.TextFormat.PlainText)
-        question.setText(translate("gap", "Play this motion on the machine now?"))
+        question.setText(tr("Play this motion on the machine now?"))
         question.setInformativeText(told(self._workbench.robot, trajectory))
         yes, no = QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No
         question.setStandardButtons(yes | no)
         question.setDefaultButton(no)
-        question.button(yes).setText(translate("gap", "Play"))
-        question.button(no).setText(translate("gap", "Not now"))
+        question.button(yes).setText(tr("Play"))
+        question.button(no).setText(tr("Not now"))
         question.finished.connect(lambda said: self.play(name, trajectory) if said == yes else None)
         self._workbench.stopped.connect(question.reject)
         question.setModal(False)
@@ -72,9 +72,9 @@ class Playing(QObject):
 
 def told(robot: Robot, trajectory: Record) -> str:
     """Return how long a motion lasts, and from where to where it leads each axis."""
-    lasts = translate("gap", "It takes {time:.3g} s after the move to its first row.")
+    lasts = tr("It takes {time:.3g} s after the move to its first row.")
     lines = [lasts.format(time=trajectory.duration_s)]
-    rests = translate("gap", "rests at {low} {unit}")
+    rests = tr("rests at {low} {unit}")
     for axis in trajectory.axes:
         way = trajectory.signal(axis, Tap.CMD)
         scale = axis_scale(robot.axes[axis])

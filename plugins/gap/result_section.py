@@ -1,21 +1,13 @@
 """The result of a diagnosis: its sentence and axes, the views, and what can be done about it."""
 
 from PySide6.QtCore import QSignalBlocker
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QMenu,
-    QPushButton,
-    QStackedWidget,
-    QTabBar,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QMenu, QPushButton, QStackedWidget, QTabBar, QToolButton, QWidget
 
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.controls import allow, named, plain_tip, set_property
 from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.axis_cards import AxisCells
 from rotemina.plugins.gap.causes_view import CausesView
 from rotemina.plugins.gap.diagnosis_answer import Answer
@@ -27,21 +19,16 @@ from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.unseen_motion_view import ProofView
 from rotemina.plugins.gap.verdict_advice import readiness
 
-VIEWS = (
-    marked("gap", "Where"),
-    marked("gap", "Which effect"),
-    marked("gap", "How far"),
-    marked("gap", "Unseen motion"),
-)
+VIEWS = (mark("Where"), mark("Which effect"), mark("How far"), mark("Unseen motion"))
 WHERE, WHICH, FAR, PROOF, RUNNING, HINT = range(6)
 TIPS = (
-    marked("gap", "Axis, channel, frequencies and kind of motion in which the gap lies"),
-    marked("gap", "Candidates with their probabilities, explanation and advice"),
-    marked("gap", "How far the gap shrinks with the causes, down to the noise floor"),
-    marked("gap", "How far it shrinks on a motion that the diagnosis has not seen"),
+    mark("Axis, channel, frequencies and kind of motion in which the gap lies"),
+    mark("Candidates with their probabilities, explanation and advice"),
+    mark("How far the gap shrinks with the causes, down to the noise floor"),
+    mark("How far it shrinks on a motion that the diagnosis has not seen"),
 )
 _WIDEST = 1400  # px: longer lines read worse
-_NO_ANSWER = marked("gap", "there is no diagnosis yet; diagnose records first")
+_NO_ANSWER = mark("there is no diagnosis yet; diagnose records first")
 
 
 class ResultSection(QWidget):
@@ -56,22 +43,22 @@ class ResultSection(QWidget):
         self.cells.chosen.connect(self._show_axis)
 
     def _make_buttons(self) -> None:
-        self.use = QPushButton(translate("gap", "Use corrected model"))
-        self.twin = QPushButton(translate("gap", "Add to twin …"))
-        self.motion = QPushButton(translate("gap", "New motion …"))
-        self.report = QPushButton(translate("gap", "Report …"))
+        self.use = QPushButton(tr("Use corrected model"))
+        self.twin = QPushButton(tr("Add to twin …"))
+        self.motion = QPushButton(tr("New motion …"))
+        self.report = QPushButton(tr("Report …"))
         self.more = QToolButton()
-        self.more.setText(translate("gap", "More"))
+        self.more.setText(tr("More"))
         self.more.setToolTip(
-            translate("gap", "Save the diagnosis as JSON; test how often the diagnosis is correct")
+            tr("Save the diagnosis as JSON; test how often the diagnosis is correct")
         )
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.menu = menu = QMenu(self)
-        self.save = menu.addAction(translate("gap", "Save JSON …"))
-        self.test = menu.addAction(translate("gap", "Blind test …"))
+        self.save = menu.addAction(tr("Save JSON …"))
+        self.test = menu.addAction(tr("Blind test …"))
         menu.addSeparator()
-        self.hide_machine = menu.addAction(translate("gap", "Hidden machine …"))
-        self.reveal = menu.addAction(translate("gap", "Reveal"))
+        self.hide_machine = menu.addAction(tr("Hidden machine …"))
+        self.reveal = menu.addAction(tr("Reveal"))
         self.more.setMenu(menu)
 
     def _make_views(self, theme: Theme) -> None:
@@ -92,41 +79,28 @@ class ResultSection(QWidget):
             self.hint,
         ):
             self.views.addWidget(view)
-        self.tabs = QTabBar()
-        self.tabs.setAccessibleName(translate("gap", "View"))
+        self.tabs = named(QTabBar(), tr("View"))
         self.tabs.setExpanding(False)
         self.tabs.setDrawBase(False)
         for number, name in enumerate(VIEWS):
-            self.tabs.addTab(translate("gap", name))
-            self.tabs.setTabToolTip(number, translate("gap", TIPS[number]))
+            self.tabs.addTab(tr(name))
+            self.tabs.setTabToolTip(number, tr(TIPS[number]))
         self.headline = Headline([self.use], [self.twin, self.report, self.more])
-        self.plan = QPushButton(translate("gap", "Play next experiment …"))
+        self.plan = QPushButton(tr("Play next experiment …"))
         self.plan.setToolTip(
             plain_tip(
-                translate(
-                    "gap",
+                tr(
                     "Play the motion that best distinguishes the candidates, and diagnose its "
-                    "record with the others",
+                    "record with the others"
                 )
             )
         )
         self.cells = AxisCells(theme)
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(8)
-        head.addWidget(self.tabs)
-        head.addStretch(1)
-        head.addWidget(self.plan)
-        head.addWidget(self.motion)
+        head = in_row(self.tabs, 1, self.plan, self.motion, spacing=8)
         self.setMaximumWidth(_WIDEST)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(6)
-        for widget in (self.headline, self.cells):
-            column.addWidget(widget)
-        column.addLayout(head)
-        column.addWidget(self.views, 1)
+        in_column(self.headline, self.cells, head, (self.views, 1), on=self, margins=0, spacing=6)
 
     # --- what is shown ----------------------------------------------------------------------------
 
@@ -150,23 +124,11 @@ class ResultSection(QWidget):
 
     def show_state(self, answer: Answer | None, chosen: int, *, running: bool) -> None:
         """Offer what can be done with an answer, while a diagnosis of ``chosen`` records runs."""
-        why = translate("gap", _NO_ANSWER) if answer is None else None
+        why = tr(_NO_ANSWER) if answer is None else None
         found = unfound(answer)
-        allow(
-            self.twin,
-            found,
-            translate("gap", "Write a robot file of the model with the causes found"),
-        )
-        allow(
-            self.motion,
-            found,
-            translate("gap", "Play a motion that no record contains, and measure its gap"),
-        )
-        allow(
-            self.report,
-            why,
-            translate("gap", "Write the report with all figures, and open it"),
-        )
+        allow(self.twin, found, tr("Write a robot file of the model with the causes found"))
+        allow(self.motion, found, tr("Play a motion that no record contains, and measure its gap"))
+        allow(self.report, why, tr("Write the report with all figures, and open it"))
         self.save.setEnabled(why is None)
         done = answer is not None and not running
         self.plan.setVisible(done and bool(answer and answer.diagnosis.experiments))
@@ -179,14 +141,11 @@ class ResultSection(QWidget):
 
     def offer_use(self, why_not: str | None, doubt: str | None) -> None:
         """Offer the corrected model: after a question where there is a doubt about it."""
-        said = translate(
-            "gap",
+        said = tr(
             "Predictions only: commands to the machine do not change. The panel "
-            "Compensation changes them.",
+            "Compensation changes them."
         )
-        self.use.setText(
-            translate("gap", "Use anyway …") if doubt else translate("gap", "Use corrected model")
-        )
+        self.use.setText(tr("Use anyway …") if doubt else tr("Use corrected model"))
         set_property(self.use, "primary", doubt is None)
         allow(self.use, why_not, "\n".join(filter(None, (doubt, said))))
 
@@ -211,5 +170,5 @@ class ResultSection(QWidget):
 def unfound(answer: Answer | None) -> str | None:
     """Return why there is no cause to do anything about; None: there is one."""
     if answer is None:
-        return translate("gap", _NO_ANSWER)
-    return None if answer.diagnosis.fitted else translate("gap", "no effect was found")
+        return tr(_NO_ANSWER)
+    return None if answer.diagnosis.fitted else tr("no effect was found")

@@ -8,8 +8,8 @@ from PySide6.QtWidgets import QComboBox
 
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.shell.file_dialog import ask_file
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.plugins.gap import tr
 from rotemina.sim.robot.file import load_robot, shipped_robots
 from rotemina.sim.robot.model import Robot
 
@@ -32,17 +32,17 @@ class RobotChoice(QComboBox):
         self.robot: Robot = workbench.robot
         self.source: str | Path | None = None  # of the robot's text, None for the one in use
         self._place = 0
-        self.setAccessibleName(translate("gap", "Model"))
-        self.setToolTip(translate("gap", "Model to be diagnosed; initially the nominal one"))
+        self.setAccessibleName(tr("Model"))
+        self.setToolTip(tr("Model to be diagnosed; initially the nominal one"))
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(17)
         self.setMinimumWidth(80)  # where the window is narrow, a name is cut rather than the row
-        nominal = translate("gap", "{robot}, nominal").format(robot=workbench.robot.name)
+        nominal = tr("{robot}, nominal").format(robot=workbench.robot.name)
         self.addItem(nominal, None)
-        self.addItem(translate("gap", "Remainder of the model in use"), _BEYOND)
+        self.addItem(tr("Remainder of the model in use"), _BEYOND)
         for name in shipped_robots():
             self.addItem(name, name)
-        self.addItem(translate("gap", "Robot file …"), _FILE)
+        self.addItem(tr("Robot file …"), _FILE)
         self.activated.connect(self._choose)
         workbench.model_changed.connect(self._follow_model)
 
@@ -51,11 +51,8 @@ class RobotChoice(QComboBox):
         if source is None:
             self._take(None, self._workbench.robot)
             return
-        self._workbench.work(
-            "gap robot",
-            translate("gap", "Reading {name} …").format(name=source),
-            lambda: load_robot(source),
-            lambda robot: self._take(source, robot),
+        self._workbench.read_file(
+            "gap robot", source, lambda: load_robot(source), lambda robot: self._take(source, robot)
         )
 
     def _choose(self, place: int) -> None:
@@ -87,5 +84,5 @@ class RobotChoice(QComboBox):
             self.load(None)
 
     def _ask(self) -> None:
-        title, kinds = translate("gap", "Robot file"), translate("gap", "Robot files (*.toml)")
+        title, kinds = tr("Robot file"), tr("Robot files (*.toml)")
         ask_file(self.window(), self._workbench, title, kinds, self.load)

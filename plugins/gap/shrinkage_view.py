@@ -6,12 +6,14 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QLabel, QSizePolicy, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSizePolicy, QSplitter, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.answer_quality import change
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.trace_view import TraceView
@@ -19,12 +21,11 @@ from rotemina.plugins.gap.words import effect_title
 from rotemina.sim.gap.diagnosis import Shrinkage
 from rotemina.sim.quantities import amount, percent, percents
 
-TIP = marked(
-    "gap",
+TIP = mark(
     "Rms of the gap on validation data: with the original model, with its own "
     "parameters re-tuned, then with one effect after the other. No model gets "
     "below the noise floor; the black-box model shows about how far any "
-    "explanation can get.",
+    "explanation can get."
 )
 
 _SHORT = 0.1  # of the nominal gap's bar
@@ -62,7 +63,7 @@ class Bars(QWidget):
         """Draw bars and lines in place of the last."""
         self.bars, self.lines = tuple(bars), tuple(lines)
         told = [f"{bar.name} {bar.text}" for bar in (*bars, *lines)]
-        self.setAccessibleName(translate("gap", "Gap: {bars}").format(bars=", ".join(told)))
+        self.setAccessibleName(tr("Gap: {bars}").format(bars=", ".join(told)))
         self.setToolTip(plain_tip(*told))
         self.update()
 
@@ -111,17 +112,12 @@ class ShrinkageView(QSplitter):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(Qt.Orientation.Horizontal)
-        self.title = QLabel()
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
-        self.title.setToolTip(translate("gap", TIP))
+        self.title = plain_text(quiet=False)
+        self.title.setToolTip(tr(TIP))
         self.bars = Bars(theme)
         self.traces = TraceView(theme)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(4, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.title)
-        column.addWidget(self.bars, 1)
+        in_column(self.title, (self.bars, 1), on=left, margins=(4, 0, 0, 0), spacing=2)
         self.addWidget(left)
         self.addWidget(self.traces)
         self.setSizes([470, 470])
@@ -144,23 +140,18 @@ class ShrinkageView(QSplitter):
 
     def _show_bars(self, told: Shrinkage | None, answer: Answer) -> None:
         if told is None:
-            self.title.setText(translate("gap", "This axis has no gap to close."))
+            self.title.setText(tr("This axis has no gap to close."))
             self.bars.show_bars((), ())
             return
         unit = answer.unit(told.axis, told.tap)
-        sizes = [
-            (translate("gap", "nominal"), told.raw, "command"),
-            (translate("gap", "re-tuned"), told.retuned, "command"),
-        ]
+        sizes = [(tr("nominal"), told.raw, "command"), (tr("re-tuned"), told.retuned, "command")]
         sizes += [(f"+ {effect_title(step.effect)}", step.rms, "model") for step in told.steps]
-        sizes.append((translate("gap", "corrected"), told.corrected, "model"))
-        lines = [(translate("gap", "floor"), told.floor, "good")]
+        sizes.append((tr("corrected"), told.corrected, "model"))
+        lines = [(tr("floor"), told.floor, "good")]
         if told.ceiling is not None:
-            lines.append((translate("gap", "black box"), told.ceiling, "warning"))
+            lines.append((tr("black box"), told.ceiling, "warning"))
         self.title.setText(
-            translate(
-                "gap", "{axis} {tap}, rms on unseen data: closed {share} ({interval})"
-            ).format(
+            tr("{axis} {tap}, rms on unseen data: closed {share} ({interval})").format(
                 axis=label(told.axis),
                 tap=told.tap,
                 share=percent(told.closed),

@@ -1,18 +1,11 @@
 """What a diagnosis is made of: records, model, its start, and how far it is."""
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QBoxLayout,
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QProgressBar,
-    QPushButton,
-    QSizePolicy,
-)
+from PySide6.QtWidgets import QBoxLayout, QFrame, QLabel, QProgressBar, QPushButton, QSizePolicy
 
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_row
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.record_views import RecordList, RecordMenu
 from rotemina.plugins.gap.records import Records
 from rotemina.plugins.gap.robot_choice import RobotChoice
@@ -31,25 +24,20 @@ class StartSection(QFrame):
         self.list = RecordList(records)
         self.list.setMaximumHeight(_HIGH)
         self.robots = RobotChoice(workbench)
-        self.start = QPushButton(translate("gap", "Diagnose"))
+        self.start = QPushButton(tr("Diagnose"))
         self.start.setProperty("primary", True)
-        self.stop = QPushButton(translate("gap", "Stop"))
+        self.stop = QPushButton(tr("Stop"))
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
-        self.doing = QLabel()
-        self.doing.setTextFormat(Qt.TextFormat.PlainText)
-        self.doing.setWordWrap(True)
-        self._model = QLabel(translate("gap", "Model"))
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.start)
-        buttons.addWidget(self.stop)
+        self.doing = plain_text(quiet=False, wrap=True)
+        self._model = QLabel(tr("Model"))
         self._line = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._line.setContentsMargins(0, 0, 0, 0)
         self._line.setSpacing(6)
         for widget in (self.menu, self.list, self._model, self.robots):
             self._line.addWidget(widget)
-        self._line.addLayout(buttons)
+        self._line.addLayout(in_row(self.start, self.stop))
         self._line.addWidget(self.progress)
         self._line.addWidget(self.doing, 1)
         self._line.addStretch(0)

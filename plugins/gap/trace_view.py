@@ -4,11 +4,13 @@ from collections.abc import Sequence
 from html import escape
 
 import numpy as np
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
+from rotemina.app.widgets.controls import named
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.gap import tr
 from rotemina.sim.gap.report.traces import Trace
 from rotemina.sim.quantities import scale_of
 
@@ -21,9 +23,7 @@ class TraceView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self.choice = QComboBox()
-        self.choice.setAccessibleName(translate("gap", "Record and signal"))
-        self.choice.setToolTip(translate("gap", "Record and channel"))
+        self.choice = named(QComboBox(), tr("Record and signal"), tr("Record and channel"))
         policy = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(policy)
         self.choice.setMinimumContentsLength(14)
@@ -33,14 +33,8 @@ class TraceView(QWidget):
         for name, role in (*FLOOR, ("before", "command"), ("after", "model")):
             self.plot.add_curve(name, Line(role))
         self.plot.show_times(True)
-        head = QHBoxLayout()
-        head.addWidget(self.choice)
-        head.addWidget(self.title, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(4, 0, 0, 0)
-        column.setSpacing(2)
-        column.addLayout(head)
-        column.addWidget(self.plot, 1)
+        head = in_row(self.choice, (self.title, 1))
+        in_column(head, (self.plot, 1), on=self, margins=(4, 0, 0, 0), spacing=2)
 
     def show_traces(self, named: Sequence[tuple[str, Trace]], chosen: int = 0) -> None:
         """Offer traces by their names, and draw one of them."""
@@ -70,24 +64,19 @@ class TraceView(QWidget):
             return
         scale = scale_of(trace.unit, float(np.abs(trace.before).max()))
         theme = self._theme
-        text = translate(
-            "gap",
+        text = tr(
             'gap [{unit}]: <span style="color:{command}">before</span>, '
-            '<span style="color:{good}">noise floor</span>',
+            '<span style="color:{good}">noise floor</span>'
         )
         if trace.changed:
-            text = translate(
-                "gap",
+            text = tr(
                 'gap [{unit}]: <span style="color:{command}">before</span>, '
                 '<span style="color:{model}">after</span>, '
-                '<span style="color:{good}">noise floor</span>',
+                '<span style="color:{good}">noise floor</span>'
             )
         self.title.setText(
             text.format(
-                unit=escape(scale.symbol),
-                command=theme.command,
-                model=theme.model,
-                good=theme.good,
+                unit=escape(scale.symbol), command=theme.command, model=theme.model, good=theme.good
             )
         )
         time_s = trace.time_s

@@ -4,8 +4,8 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.motion.model_in_use import ModelInUse
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Run, Workbench
+from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.requested_motion import Playing
 from rotemina.plugins.gap.unseen_motion_reduction import Proof, new_motion, prove
@@ -46,8 +46,7 @@ class UnseenMotion(QObject):
         made = suggestion(experiments[number], number + 1, "gap", answer.units)
         self._experiment = made.names.commands
         trajectory = made.records[self._experiment]
-        title = translate("gap", "Next experiment")
-        self._playing.ask(window, title, self._experiment, trajectory)
+        self._playing.ask(window, tr("Next experiment"), self._experiment, trajectory)
 
     def ask_check(self, answer: Answer, window: QWidget) -> None:
         """Ask whether to play a motion of the diagnosed axes that no record holds."""
@@ -55,9 +54,9 @@ class UnseenMotion(QObject):
         name = self._check = check_title(axes)
         self._workbench.work(
             "gap motion",
-            translate("gap", "Computing a motion …"),
+            tr("Computing a motion …"),
             lambda: new_motion(answer.diagnosis, answer.records, axes),
-            lambda motion: self._playing.ask(window, translate("gap", "New motion"), name, motion),
+            lambda motion: self._playing.ask(window, tr("New motion"), name, motion),
         )
 
     def prove(self, run: Run) -> None:
@@ -67,7 +66,7 @@ class UnseenMotion(QObject):
             return
         self._workbench.work(
             "gap proof",
-            translate("gap", "Comparing with the twin …"),
+            tr("Comparing with the twin …"),
             lambda: prove(answer.diagnosis, model, run, self._workbench.session.memory),
             lambda proof: self._take_proof(answer, proof),
         )

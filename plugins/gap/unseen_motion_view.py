@@ -2,14 +2,16 @@
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSplitter, QStackedWidget, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.shell.gap_words import RUN
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.labels import hint
+from rotemina.app.widgets.labels import hint, plain_text
+from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.answer_quality import change
 from rotemina.plugins.gap.trace_view import TraceView
 from rotemina.plugins.gap.unseen_motion_reduction import SAME, Proof, Shrunk
@@ -18,13 +20,13 @@ from rotemina.sim.comparison.gap import gap_text
 from rotemina.sim.quantities import rounded
 
 HEAD = (
-    marked("gap", "record"),
-    marked("gap", "axis, signal"),
-    marked("gap", "nominal"),
-    marked("gap", "corrected"),
-    marked("gap", "unseen motion"),
+    mark("record"),
+    mark("axis, signal"),
+    mark("nominal"),
+    mark("corrected"),
+    mark("unseen motion"),
     "95 %",
-    marked("gap", "floor"),
+    mark("floor"),
 )
 
 _MOST = 20  # records that are shown
@@ -38,32 +40,25 @@ class ProofView(QStackedWidget):
         self.proof: Proof | None = None
         self.proofs: list[Proof] = []  # of the answer in sight, the newest first
         self._theme = theme
-        self.title = QLabel()
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
+        self.title = plain_text(quiet=False)
         self.title.setToolTip(
-            translate(
-                "gap",
+            tr(
                 "Rms of measurement minus model, including offset, during motion and 0.5 s "
-                "after it; intervals by block bootstrap",
+                "after it; intervals by block bootstrap"
             )
         )
         self.table = Table(
-            translate("gap", "How far the gap shrinks on the new motion"),
-            [translate("gap", text) for text in HEAD],
+            tr("How far the gap shrinks on the new motion"), [tr(text) for text in HEAD]
         )
         self.table.currentCellChanged.connect(lambda row, *_: self._choose(row))
         self.traces = TraceView(theme)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.title)
-        column.addWidget(self.table, 1)
+        in_column(self.title, (self.table, 1), on=left, margins=0, spacing=2)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(left)
         split.addWidget(self.traces)
         split.setSizes([580, 400])
-        self.addWidget(hint(translate("gap", NO_PROOF)))
+        self.addWidget(hint(tr(NO_PROOF)))
         self.addWidget(split)
 
     def show_proof(self, proof: Proof | None) -> None:
@@ -116,7 +111,7 @@ def _row(name: str, one: Shrunk) -> tuple[str, ...]:
 
 def _better_or_worse(one: Shrunk) -> str:
     if one.worse:
-        return translate("gap", "worse: {change}").format(change=change(one.times))
+        return tr("worse: {change}").format(change=change(one.times))
     if one.trace.changed and one.times > 1.0 / SAME:
-        return translate("gap", "better: {change}").format(change=change(one.times))
-    return translate("gap", "about the same")
+        return tr("better: {change}").format(change=change(one.times))
+    return tr("about the same")

@@ -3,84 +3,66 @@
 from collections.abc import Iterator
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.words import any_of, effect_word
 from rotemina.sim.gap.diagnosis import CORRECTING, AxisDiagnosis, Verdict
 from rotemina.sim.messages import listed
 
-FIRST_STEPS = marked(
-    "gap",
+FIRST_STEPS = mark(
     "1  Choose records of the real machine: choose files, or play a trajectory "
     "and use its record.\n2  Diagnose: find where and why the model differs from"
     " the records.\n3  Use the answer: add the causes to the model, check it "
-    "with a new motion, keep the report.",
+    "with a new motion, keep the report."
 )
-READY_ONE = marked("gap", "One record is chosen.")
-READY_MORE = marked("gap", "{n} records are chosen.")
-READY = marked(
-    "gap",
+READY_ONE = mark("One record is chosen.")
+READY_MORE = mark("{n} records are chosen.")
+READY = mark(
     "Press Diagnose to find where the model differs from the measurements, "
     "which effect it lacks, and how far the gap shrinks with that effect. This "
     "takes about half a minute for each axis with a gap; you can stop it at any"
-    " time.",
+    " time."
 )
-NO_PROOF = marked(
-    "gap",
+NO_PROOF = mark(
     "This page shows how far the gap shrinks on a motion that the diagnosis has not seen.\n"
-    "Press “New motion …”, or play any trajectory of the diagnosed axes.",
+    "Press “New motion …”, or play any trajectory of the diagnosed axes."
 )
 
 _MEANS = {
     Verdict.NONE: (
-        marked("gap", "The model matches the machine in these motions."),
-        marked(
-            "gap",
-            "Use the model as it is. Effects that these motions do not excite are not ruled out.",
-        ),
+        mark("The model matches the machine in these motions."),
+        mark("Use the model as it is. Effects that these motions do not excite are not ruled out."),
     ),
     Verdict.EXPLAINED: (
-        marked(
-            "gap", "The model lacks the effects named below; with them, it follows the machine."
-        ),
-        marked(
-            "gap", "Press “Use corrected model”; then “New motion …” shows how far the gap shrinks."
-        ),
+        mark("The model lacks the effects named below; with them, it follows the machine."),
+        mark("Press “Use corrected model”; then “New motion …” shows how far the gap shrinks."),
     ),
     Verdict.PARTLY: (
-        marked(
-            "gap",
+        mark(
             "The effects named below are present; no effect of the catalogue explains "
-            "the rest of the gap.",
+            "the rest of the gap."
         ),
-        marked(
-            "gap",
+        mark(
             "Press “Use corrected model”: it follows the machine better. The page Where"
-            " shows what the rest depends on.",
+            " shows what the rest depends on."
         ),
     ),
     Verdict.UNKNOWN: (
-        marked(
-            "gap",
-            "The gap is real, but no effect of the catalogue explains it.",
-        ),
-        marked(
-            "gap",
+        mark("The gap is real, but no effect of the catalogue explains it."),
+        mark(
             "The page Where shows what it depends on. Check cables, clamps and sensor; "
             "record again, slower and faster. Keep the report for the maintainer of the"
-            " model.",
+            " model."
         ),
     ),
     Verdict.INSUFFICIENT: (
-        marked(
-            "gap",
+        mark(
             "These motions cannot distinguish the effects: they are too short, too "
-            "small or too similar.",
+            "small or too similar."
         ),
-        marked(
-            "gap",
+        mark(
             "Press “Play next experiment …”, or add records of other motions (multisine, "
             "staircase, "
-            "swings), and diagnose them together.",
+            "swings), and diagnose them together."
         ),
     ),
 }
@@ -88,28 +70,27 @@ _MEANS = {
 
 def advice(one: AxisDiagnosis, *, has_experiment: bool) -> Iterator[str]:
     """Yield what is known of an axis, what it means, and what to do."""
-    means, do = (translate("gap", text) for text in _MEANS[one.verdict])
+    means, do = (tr(text) for text in _MEANS[one.verdict])
     rivals = {other for cause in one.causes for other in cause.ambiguous_with}
-    yield translate("gap", "What it means: {meaning}").format(meaning=means)
+    yield tr("What it means: {meaning}").format(meaning=means)
     if rivals and one.verdict in CORRECTING:
-        open_ = translate(
-            "gap",
+        open_ = tr(
             "Undecided: {effects} would explain these records equally well. Take the "
-            "whole set as the answer.",
+            "whole set as the answer."
         )
         yield open_.format(effects=any_of([effect_word(effect) for effect in sorted(rivals)]))
         if has_experiment:
-            parts = translate("gap", "Press “Play next experiment …” to distinguish them.")
+            parts = tr("Press “Play next experiment …” to distinguish them.")
             do = f"{parts} {do}"
-    yield translate("gap", "What to do: {advice}").format(advice=do)
+    yield tr("What to do: {advice}").format(advice=do)
 
 
 def readiness(count: int) -> str:
     """Return what to do first, or next, before there is an answer."""
     if not count:
-        return translate("gap", FIRST_STEPS)
-    chosen = translate("gap", READY_ONE if count == 1 else READY_MORE).format(n=count)
-    ready = translate("gap", READY)
+        return tr(FIRST_STEPS)
+    chosen = tr(READY_ONE if count == 1 else READY_MORE).format(n=count)
+    ready = tr(READY)
     return f"{chosen}\n{ready}"
 
 

@@ -7,59 +7,52 @@ where they are switched, in the context of the effects panel.
 
 from collections.abc import Sequence
 
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import translate
+from rotemina.plugins.gap import mark, tr
 from rotemina.sim.gap.diagnosis import UNKNOWN
 from rotemina.sim.gap.regimes import Regime
-from rotemina.sim.gap.report.words import (
-    AXIS_VERDICTS as AXIS_VERDICTS,
-)
-from rotemina.sim.gap.report.words import (
-    REGIMES,
-    UNKNOWN_EFFECT,
-    english_title,
-)
-from rotemina.sim.gap.report.words import (
-    VERDICTS as VERDICTS,
-)
+from rotemina.sim.gap.report.words import AXIS_VERDICTS as AXIS_VERDICTS
+from rotemina.sim.gap.report.words import REGIMES, UNKNOWN_EFFECT, english_title
+from rotemina.sim.gap.report.words import VERDICTS as VERDICTS
 from rotemina.sim.messages import listed
 
 # What is done now, as the line beside the bar of progress says it.
 STAGES = {
-    "reading": marked("gap", "reading"),
-    "where": marked("gap", "where"),
-    "screening": marked("gap", "screening"),
-    "fitting": marked("gap", "fitting"),
-    "deciding": marked("gap", "deciding"),
-    "drawing": marked("gap", "drawing"),
+    "reading": mark("reading"),
+    "where": mark("where"),
+    "screening": mark("screening"),
+    "fitting": mark("fitting"),
+    "deciding": mark("deciding"),
+    "drawing": mark("drawing"),
 }
 # The figures of a blind test.
 FIGURES = (
-    marked("gap", "first cause correct, one effect"),
-    marked("gap", "… where the gap is ≥ 5 floors"),
-    marked("gap", "… where it is smaller"),
-    marked("gap", "exactly one effect and no other"),
-    marked("gap", "truth in the reported set"),
-    marked("gap", "mean size of the set"),
-    marked("gap", "exactly two effects"),
-    marked("gap", "exactly three effects"),
-    marked("gap", "false cause named"),
-    marked("gap", "verdict: explained or partly"),
-    marked("gap", "healthy machines blamed"),
-    marked("gap", "unknown effects recognised"),
-    marked("gap", "poor excitation recognised"),
-    marked("gap", "gap closed on unseen data, median"),
-    marked("gap", "gap closed, 10th percentile"),
-    marked("gap", "expected calibration error"),
-    marked("gap", "seconds per case, median"),
-    marked("gap", "seconds per case, maximum"),
-    marked("gap", "seconds per healthy case, median"),
+    mark("first cause correct, one effect"),
+    mark("… where the gap is ≥ 5 floors"),
+    mark("… where it is smaller"),
+    mark("exactly one effect and no other"),
+    mark("truth in the reported set"),
+    mark("mean size of the set"),
+    mark("exactly two effects"),
+    mark("exactly three effects"),
+    mark("false cause named"),
+    mark("verdict: explained or partly"),
+    mark("healthy machines blamed"),
+    mark("unknown effects recognised"),
+    mark("poor excitation recognised"),
+    mark("gap closed on unseen data, median"),
+    mark("gap closed, 10th percentile"),
+    mark("expected calibration error"),
+    mark("seconds per case, median"),
+    mark("seconds per case, maximum"),
+    mark("seconds per healthy case, median"),
 )
 
 
 def effect_title(effect_id: str) -> str:
     """Return an effect's name for people; its id where it is not installed."""
     if effect_id == UNKNOWN:
-        return translate("gap", UNKNOWN_EFFECT)
+        return tr(UNKNOWN_EFFECT)
     return translate("effects", english_title(effect_id))
 
 
@@ -80,19 +73,19 @@ def formulation_name(name: str) -> str:
 
 def regime_name(regime: Regime) -> str:
     """Return what an axis does in a regime."""
-    return translate("gap", REGIMES[regime]) if regime in REGIMES else str(regime)
+    return tr(REGIMES[regime]) if regime in REGIMES else str(regime)
 
 
 def stage_name(stage: str) -> str:
     """Return what is done now."""
-    return translate("gap", STAGES[stage]) if stage in STAGES else stage
+    return tr(STAGES[stage]) if stage in STAGES else stage
 
 
 def any_of(names: Sequence[str]) -> str:
     """Return names as a sentence lists them, of which one holds."""
-    return listed(names, translate("gap", "or"))
+    return listed(names, tr("or"))
 
 
 def all_of(names: Sequence[str]) -> str:
     """Return names as a sentence lists them."""
-    return listed(names, translate("gap", "and"))
+    return listed(names, tr("and"))

@@ -5,12 +5,13 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from rotemina.app.shell.plot import Line, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.layouts import in_column
 from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.findings import Picture
 from rotemina.sim.arrays import FloatArray
@@ -100,11 +101,7 @@ class Chart(QWidget):
         # A long title is cut; it must not make the chart wider than its share.
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.plot = PicturePlot(theme)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(4, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.title)
-        column.addWidget(self.plot, 1)
+        in_column(self.title, (self.plot, 1), on=self, margins=(4, 0, 0, 0), spacing=2)
 
     def show_picture(self, picture: Picture) -> None:
         """Draw a picture in place of the last."""

@@ -3,10 +3,12 @@
 from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QWidget
+from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.controls import named
+from rotemina.app.widgets.layouts import in_row
+from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.filled_template import localized
 from rotemina.plugins.identification.record_query import Question, first_axis, taps_of
 from rotemina.plugins.identification.views import View
@@ -14,7 +16,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 
 AVERAGES = (4, 8, 16, 32, 64)
-METHODS = ((marked("identification", "output error"), "oe"), ("ARX", "arx"))
+METHODS = ((mark("output error"), "oe"), ("ARX", "arx"))
 POLES = (1, 2, 3, 4, 6)
 
 
@@ -32,58 +34,37 @@ class Controls(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.open = QPushButton(translate("identification", "Open …"))
-        self.open.setToolTip(translate("identification", "Open a record for this page only"))
-        self.excite = QPushButton(translate("identification", "Excite"))
+        self.open = QPushButton(tr("Open …"))
+        self.open.setToolTip(tr("Open a record for this page only"))
+        self.excite = QPushButton(tr("Excite"))
         self.excite.setCheckable(True)
         self.excite.setToolTip(
-            translate(
-                "identification",
-                "Choose a motion that excites an axis, play it and analyse the record",
-            )
+            tr("Choose a motion that excites an axis, play it and analyse the record")
         )
-        self.axis = _choice(translate("identification", "Axis"))
-        self.drive, self.answer = (
-            _choice(translate("identification", "Input")),
-            _choice(translate("identification", "Output")),
-        )
-        self.view = _choice(
-            translate("identification", "Analysis"),
-            [(localized(view.value), view) for view in View],
-        )
-        averages = translate("identification", "{n} averages")
-        self.averages = _choice(
-            translate("identification", "Averages"), [(averages.format(n=n), n) for n in AVERAGES]
-        )
+        self.axis = _choice(tr("Axis"))
+        self.drive, self.answer = _choice(tr("Input")), _choice(tr("Output"))
+        self.view = _choice(tr("Analysis"), [(localized(view.value), view) for view in View])
+        averages = tr("{n} averages")
+        self.averages = _choice(tr("Averages"), [(averages.format(n=n), n) for n in AVERAGES])
         self.averages.setCurrentIndex(AVERAGES.index(8))
         self.averages.setToolTip(
-            translate(
-                "identification",
+            tr(
                 "Segments of Welch's method: more segments smooth the curve, fewer resolve "
-                "narrower peaks. A periodic record is averaged over its periods instead.",
+                "narrower peaks. A periodic record is averaged over its periods instead."
             )
         )
-        self.method = _choice(
-            translate("identification", "Method"),
-            [(localized(name), method) for name, method in METHODS],
-        )
-        pole = translate("identification", "1 pole")
-        poles = translate("identification", "{n} poles")
+        self.method = _choice(tr("Method"), [(localized(name), method) for name, method in METHODS])
+        pole = tr("1 pole")
+        poles = tr("{n} poles")
         self.poles = _choice(
-            translate("identification", "Poles"),
-            [((poles if n > 1 else pole).format(n=n), n) for n in POLES],
+            tr("Poles"), [((poles if n > 1 else pole).format(n=n), n) for n in POLES]
         )
         self.poles.setCurrentIndex(POLES.index(2))
-        self.copy, self.save = (
-            QPushButton(translate("identification", "Copy")),
-            QPushButton(translate("identification", "Save …")),
-        )
-        self.copy.setToolTip(translate("identification", "Copy the figures as text"))
-        self.save.setToolTip(translate("identification", "Write the figures into a file"))
-        self.keep = QPushButton(translate("identification", "Store card"))
-        self.keep.setToolTip(
-            translate("identification", "Store this health card with the earlier ones of the axis")
-        )
+        self.copy, self.save = QPushButton(tr("Copy")), QPushButton(tr("Save …"))
+        self.copy.setToolTip(tr("Copy the figures as text"))
+        self.save.setToolTip(tr("Write the figures into a file"))
+        self.keep = QPushButton(tr("Store card"))
+        self.keep.setToolTip(tr("Store this health card with the earlier ones of the axis"))
         self._lay_out()
         self.axis.activated.connect(self._change_axis)
         for choice in (self.drive, self.answer, self.averages, self.method, self.poles):
@@ -134,17 +115,13 @@ class Controls(QWidget):
         )
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(6)
-        for widget in (self.excite, self.open, self.axis, self.drive, self.answer, self.view):
-            row.addWidget(widget)
-        for widget in (self.averages, self.method, self.poles):
-            row.addWidget(widget)
-        row.addStretch(1)
-        row.addWidget(self.keep)
-        row.addWidget(self.copy)
-        row.addWidget(self.save)
+        choices = self.axis, self.drive, self.answer, self.view
+        settings, results = (
+            (self.averages, self.method, self.poles),
+            (self.keep, self.copy, self.save),
+        )
+        parts = self.excite, self.open, *choices, *settings, 1, *results
+        in_row(*parts, on=self, margins=0, spacing=6)
 
     def _change_axis(self) -> None:
         self._offer_taps()
@@ -154,8 +131,8 @@ class Controls(QWidget):
         assert self._record is not None
         inputs, outputs = taps_of(self._record, self.axis.currentData())
         for choice, taps, word in (
-            (self.drive, inputs, translate("identification", "from {tap}")),
-            (self.answer, outputs, translate("identification", "to {tap}")),
+            (self.drive, inputs, tr("from {tap}")),
+            (self.answer, outputs, tr("to {tap}")),
         ):
             kept = choice.currentData()
             choice.clear()
@@ -175,9 +152,7 @@ class Controls(QWidget):
 
 
 def _choice(name: str, items: list[tuple[str, object]] | None = None) -> QComboBox:
-    choice = QComboBox()
-    choice.setAccessibleName(name)
-    choice.setToolTip(name)
+    choice = named(QComboBox(), name, name)
     choice.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
     choice.setMinimumWidth(64)  # where the window is narrow, a text is cut rather than the row
     for text, data in items or []:

@@ -8,7 +8,7 @@ import numpy as np
 
 from rotemina.app.display_units import duration_text, label
 from rotemina.app.shell.engine_words import error_text, spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.views import View
 from rotemina.sim.errors import InputError
 from rotemina.sim.excitation.generator import Excitation, Kind, excite
@@ -28,10 +28,10 @@ _SAME = 1e-9  # of the swing: commands that differ by less are the same
 class Wave(StrEnum):
     """The motions that are offered, as trajectories are named."""
 
-    MULTISINE = marked("identification", "Multisine")
-    SINE = marked("identification", "Sine")
-    TRIANGLE = marked("identification", "Triangle")
-    STAIRCASE = marked("identification", "Staircase")
+    MULTISINE = mark("Multisine")
+    SINE = mark("Sine")
+    TRIANGLE = mark("Triangle")
+    STAIRCASE = mark("Staircase")
 
 
 VIEWS: Mapping[Wave, View] = {
@@ -97,11 +97,9 @@ class Prepared:
         axis = self.dry_run.axes[self.request.axis]
         low, high = (exact(end, axis.unit, size=axis.highest) for end in _ends(self.dry_run))
         unit = f"{axis.unit}/s"
-        asks = translate("identification", "{low} to {high}, at most {speed}, {time}")
+        asks = tr("{low} to {high}, at most {speed}, {time}")
         if axis.bounds.max_speed is not None:
-            asks = translate(
-                "identification", "{low} to {high}, at most {speed} of {bound}, {time}"
-            )
+            asks = tr("{low} to {high}, at most {speed} of {bound}, {time}")
         asks = asks.format(
             low=low,
             high=high,
@@ -109,13 +107,11 @@ class Prepared:
             bound=exact(axis.bounds.max_speed or 0.0, unit),
             time=_lasting(self.dry_run.duration_s),
         )
-        change = translate("identification", "Reduced to the limits: {change}.")
+        change = tr("Reduced to the limits: {change}.")
         changed = (change.format(change=spoken(each.message)) for each in self.made.adjustments)
-        verdict = translate(
-            "identification", "Dry run: within all limits and the bounds of the tip."
-        )
+        verdict = tr("Dry run: within all limits and the bounds of the tip.")
         if self.objection:
-            verdict = translate("identification", "Not playable: {reason}")
+            verdict = tr("Not playable: {reason}")
         return "\n".join([asks, *changed, verdict.format(reason=self.objection)])
 
 
@@ -144,8 +140,8 @@ def prepared(
     unit = robot.unit(request.axis) or "m"
     size = amount_of(request.amplitude, request.axis, unit) if request.amplitude.strip() else None
     hz, time_s = (
-        _number(marked("identification", "frequency"), request.frequency, "Hz"),
-        _number(marked("identification", "time"), request.time, "s"),
+        _number(mark("frequency"), request.frequency, "Hz"),
+        _number(mark("time"), request.time, "s"),
     )
     made = excite(robot, {request.axis: _kind(request, size, hz, time_s)})
     tried = dry_run(robot, made.record, setpoint_period_s=setpoint_period_s)
@@ -211,11 +207,10 @@ def _number(name: str, text: str, unit: str) -> float | None:
     number = parsed(digits)
     if number is None:
         raise ExcitationError(
-            translate(
-                "identification",
+            tr(
                 "{name}: {text} is not a number in {unit}; enter a value such as 2.5 "
-                "{unit}, or leave the field empty",
-            ).format(name=translate("identification", name), text=repr(text[:40]), unit=unit)
+                "{unit}, or leave the field empty"
+            ).format(name=tr(name), text=repr(text[:40]), unit=unit)
         )
     return number
 

@@ -5,12 +5,9 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QGridLayout,
-    QHBoxLayout,
     QLineEdit,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -18,23 +15,23 @@ from rotemina.app.display_units import label
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import error_text, spoken
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.app.widgets.controls import allow, set_property
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.excitation import ExcitationRequest, Prepared, Wave, prepared
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import parsed
 from rotemina.sim.records.record import Record
 
-CHECKING = marked("identification", "Computing the motion and checking it on the model …")
-_AMPLITUDE = marked(
-    "identification",
+CHECKING = mark("Computing the motion and checking it on the model …")
+_AMPLITUDE = mark(
     "Amplitude each way from the middle, such as 5um, 200urad or 30% of the "
-    "range; a value beyond a limit is reduced, with a notice",
+    "range; a value beyond a limit is reduced, with a notice"
 )
 
 
@@ -61,37 +58,26 @@ class ExciteView(QWidget):
         for name in workbench.robot.axes:
             self.axis.addItem(label(name), name)
         for wave in Wave:
-            self.wave.addItem(translate("identification", wave.value), wave)
-        self.amplitude = _field(
-            translate("identification", "Amplitude of the excitation"),
-            translate("identification", _AMPLITUDE),
-        )
-        self.amplitude.setPlaceholderText(translate("identification", "amplitude"))
+            self.wave.addItem(tr(wave.value), wave)
+        self.amplitude = _field(tr("Amplitude of the excitation"), tr(_AMPLITUDE))
+        self.amplitude.setPlaceholderText(tr("amplitude"))
         self.frequency = _field(
-            translate("identification", "Frequency of the excitation"),
-            translate("identification", "Frequency, above 0 Hz; the highest one of a multisine"),
+            tr("Frequency of the excitation"),
+            tr("Frequency, above 0 Hz; the highest one of a multisine"),
         )
         self.time = _field(
-            translate("identification", "Time of the excitation"),
-            translate(
-                "identification", "Duration, above 0 s; the rest on each level of a staircase"
-            ),
+            tr("Time of the excitation"),
+            tr("Duration, above 0 s; the rest on each level of a staircase"),
         )
-        self.here = QCheckBox(translate("identification", "around here"))
+        self.here = QCheckBox(tr("around here"))
         self.here.setToolTip(
-            translate(
-                "identification",
-                "Move around the present position; off: around the middle of the range",
-            )
+            tr("Move around the present position; off: around the middle of the range")
         )
         self.told, self.owner = plain_text(quiet=False, wrap=True), plain_text(wrap=True)
-        self.play, self.stop = (
-            QPushButton(translate("identification", "Play")),
-            QPushButton(translate("identification", "Stop")),
-        )
+        self.play, self.stop = QPushButton(tr("Play")), QPushButton(tr("Stop"))
         self.play.setProperty("primary", True)
-        self.play.setToolTip(translate("identification", "Play the motion and analyse the record"))
-        self.stop.setToolTip(translate("identification", "Stop the machine and end the motion"))
+        self.play.setToolTip(tr("Play the motion and analyse the record"))
+        self.stop.setToolTip(tr("Stop the machine and end the motion"))
         self.progress = QProgressBar()
         self.progress.setRange(0, 1000)
         self.progress.setTextVisible(False)
@@ -117,7 +103,7 @@ class ExciteView(QWidget):
     def prepare(self) -> None:
         """Make the motion and try it, in the background."""
         self.motion = None
-        self.told.setText(translate("identification", CHECKING))
+        self.told.setText(tr(CHECKING))
         request, robot, session = self.request(), self._workbench.robot, self._workbench.session
         period_s, zone = session.setpoint_period_s, session.bounds.keep_out
         command = session.snapshot().command
@@ -128,7 +114,7 @@ class ExciteView(QWidget):
             except InputError as error:
                 return error_text(error)
 
-        self._workbench.work("excitation", translate("identification", CHECKING), work, self._take)
+        self._workbench.work("excitation", tr(CHECKING), work, self._take)
 
     def start(self) -> None:
         """Take the motion in hand as the window's trajectory, and play it."""
@@ -177,20 +163,18 @@ class ExciteView(QWidget):
         under_way = ours and state.phase is not PlaybackPhase.IDLE
         axis = str(self.axis.currentData())
         driver = session.owners.get(axis)
-        owner = translate("identification", "{axis}: free")
+        owner = tr("{axis}: free")
         if driver:
-            owner = translate("identification", "{axis}: controlled by {driver}")
+            owner = tr("{axis}: controlled by {driver}")
         self.owner.setText(owner.format(axis=label(axis), driver=spoken(driver or "")))
         allow(
-            self.play,
-            self._why_not(session, state),
-            translate("identification", "Play the motion and analyse the record"),
+            self.play, self._why_not(session, state), tr("Play the motion and analyse the record")
         )
         waits = under_way or self._awaited.what is not None
         allow(
             self.stop,
-            None if waits else translate("identification", "the motion is not playing"),
-            translate("identification", "Stop the machine and end the motion"),
+            None if waits else tr("the motion is not playing"),
+            tr("Stop the machine and end the motion"),
         )
         share = state.path_s / state.duration_s if under_way and state.duration_s else 0.0
         self.progress.setValue(round(1000 * share))
@@ -198,18 +182,14 @@ class ExciteView(QWidget):
     def _why_not(self, session: SessionState, state: PlaybackState) -> str | None:
         motion = self.motion
         if motion is None:
-            return translate("identification", "the motion is not ready")
+            return tr("the motion is not ready")
         if motion.digest is None:
             return motion.objection
         if self._awaited.what is not None or state.phase is PlaybackPhase.PLAYING:
-            return translate("identification", "a trajectory is playing")
+            return tr("a trajectory is playing")
         if session.locked is not None:
             return spoken(session.locked)
-        return (
-            None
-            if session.activity is DeviceState.IDLE
-            else translate("identification", "the axes are still moving")
-        )
+        return None if session.activity is DeviceState.IDLE else tr("the axes are still moving")
 
     def _take(self, answer: Prepared | str) -> None:
         if isinstance(answer, str):
@@ -228,16 +208,8 @@ class ExciteView(QWidget):
         stairs = wave is Wave.STAIRCASE
         self.frequency.setEnabled(not stairs)
         upper = wave is Wave.MULTISINE
-        self.frequency.setPlaceholderText(
-            translate("identification", "up to [Hz]")
-            if upper
-            else translate("identification", "frequency [Hz]")
-        )
-        self.time.setPlaceholderText(
-            translate("identification", "rest [s]")
-            if stairs
-            else translate("identification", "duration [s]")
-        )
+        self.frequency.setPlaceholderText(tr("up to [Hz]") if upper else tr("frequency [Hz]"))
+        self.time.setPlaceholderText(tr("rest [s]") if stairs else tr("duration [s]"))
 
     def _plan_changed(self, plan: Plan) -> None:
         if plan.trajectory is not self._awaited.what:
@@ -263,44 +235,25 @@ class ExciteView(QWidget):
             self.prepare()
 
     def _lay_out(self) -> None:
-        self.axis.setAccessibleName(translate("identification", "Axis to excite"))
-        self.axis.setToolTip(
-            translate("identification", "Axis to be excited; the others stay at rest")
-        )
-        self.wave.setAccessibleName(translate("identification", "Motion of the excitation"))
+        self.axis.setAccessibleName(tr("Axis to excite"))
+        self.axis.setToolTip(tr("Axis to be excited; the others stay at rest"))
+        self.wave.setAccessibleName(tr("Motion of the excitation"))
         self.wave.setToolTip(
-            translate(
-                "identification",
-                "Motion of the excitation; the help (F1) describes what each one shows",
-            )
+            tr("Motion of the excitation; the help (F1) describes what each one shows")
         )
-        grid = QGridLayout()
-        grid.setSpacing(4)
+        grid = in_grid(spacing=4)
         fields = (self.axis, self.wave, self.amplitude, self.frequency, self.time, self.here)
         for place, field in enumerate(fields):
             grid.addWidget(field, place // 2, place % 2)
             field.setMinimumWidth(0)
         for column in (0, 1):
             grid.setColumnStretch(column, 1)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(4)
-        buttons.addWidget(self.play)
-        buttons.addWidget(self.stop)
-        buttons.addWidget(self.progress, 1)
-        rows = QVBoxLayout(self)
-        rows.setContentsMargins(0, 0, 8, 0)
-        rows.setSpacing(4)
-        rows.addLayout(grid)
-        rows.addLayout(buttons)
-        rows.addWidget(self.owner)
-        rows.addWidget(self.told)
-        rows.addStretch(1)
+        buttons = in_row(self.play, self.stop, (self.progress, 1), spacing=4)
+        in_column(grid, buttons, self.owner, self.told, 1, on=self, margins=(0, 0, 8, 0), spacing=4)
 
 
 def _field(name: str, tip: str) -> QLineEdit:
     field = QLineEdit()
     field.setAccessibleName(name)
-    field.setToolTip(
-        translate("identification", "{tip}; empty: a value that suits the axis").format(tip=tip)
-    )
+    field.setToolTip(tr("{tip}; empty: a value that suits the axis").format(tip=tip))
     return field

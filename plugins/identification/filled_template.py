@@ -2,7 +2,7 @@
 
 from typing import Self
 
-from rotemina.app.shell.language import translate
+from rotemina.plugins.identification import tr
 
 
 class FilledTemplate(str):
@@ -26,5 +26,5 @@ def localized(text: str) -> str:
             name: localized(value) if isinstance(value, str) else value
             for name, value in text.values.items()
         }
-        return translate("identification", text.template).format(**filled)
-    return translate("identification", text) if text else text
+        return tr(text.template).format(**filled)
+    return tr(text) if text else text

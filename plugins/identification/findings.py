@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.identification import mark
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.record_query import Question
 from rotemina.sim.arrays import FloatArray
@@ -92,8 +92,6 @@ def answered(look: Callable[[Question], Findings], question: Question) -> Findin
     except Exception as error:  # a fault of the program must reach the operator, not vanish
         logger.exception("identification failed")
         reason = FilledTemplate(
-            marked("identification", "program error: {kind}: {error}"),
-            kind=type(error).__name__,
-            error=error,
+            mark("program error: {kind}: {error}"), kind=type(error).__name__, error=error
         )
         return Findings(question, notices=(reason,))

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import Column, Curve, Findings, Picture, ratio_scale
 from rotemina.plugins.identification.nominal_response import ABSENT, nominal_signals
@@ -20,7 +20,7 @@ from rotemina.sim.identification.welch import welch_response
 from rotemina.sim.quantities import Scale, fixed, rounded, uncertain
 
 INTERVAL = 0.95
-WELCH, MULTISINE = "Welch", marked("identification", "multisine")
+WELCH, MULTISINE = "Welch", mark("multisine")
 _COHERENT = 0.8
 _PEAK = 2.0  # over the lowest line, from which a resonance is looked for
 _BAND = (0.8, 1.25)  # about the peak, that the resonance is fitted to
@@ -67,7 +67,7 @@ def frequency_findings(question: Question) -> Findings:
     return Findings(
         question,
         _pictures(question, scale, measured, nominal),
-        (marked("identification", "figure"), marked("identification", "value")),
+        (mark("figure"), mark("value")),
         _rows(scale, signals, measured, resonance),
         _columns(scale, measured, nominal),
         (*notices, *_doubts(measured, resonance)),
@@ -84,25 +84,20 @@ def estimate(signals: Signals, averages: int) -> Estimate:
     period = signals.period_samples
     if period is not None and signals.count >= 2 * period:
         found = periodic_response(signals)
-        averages = FilledTemplate(
-            marked("identification", "{n} periods of {rows}"), n=found.periods, rows=period
-        )
+        averages = FilledTemplate(mark("{n} periods of {rows}"), n=found.periods, rows=period)
         return Estimate(MULTISINE, averages, signals.rate_hz / period, found.total)
     # Segments that overlap by half: 2n / (k + 1) samples make k of them.
     segment = 2 * signals.count // (averages + 1)
     if segment < _FEW_LINES:
         raise TooShortError(
-            translate(
-                "identification",
+            tr(
                 "frequency response: {averages} averages of {n} samples give segments of "
                 "{segment} samples; at least {least} are needed. Record longer or average "
-                "less.",
+                "less."
             ).format(n=signals.count, averages=averages, segment=segment, least=_FEW_LINES)
         )
     found = welch_response(signals, segment=segment)
-    name = FilledTemplate(
-        marked("identification", "{n} segments of {rows}"), n=averages, rows=segment
-    )
+    name = FilledTemplate(mark("{n} segments of {rows}"), n=averages, rows=segment)
     return Estimate(WELCH, name, signals.rate_hz / segment, found)
 
 
@@ -134,42 +129,23 @@ def _pictures(
     magnitude = [
         Curve("", "quiet", frequency_hz, scale.per_si * low),
         Curve(f"{fixed(100 * INTERVAL, 0)} %", "quiet", frequency_hz, scale.per_si * high),
-        Curve(marked("identification", "measured"), "real", frequency_hz, scale.per_si * size),
+        Curve(mark("measured"), "real", frequency_hz, scale.per_si * size),
     ]
-    phase = [
-        Curve(marked("identification", "measured"), "real", frequency_hz, _phase_deg(measured))
-    ]
+    phase = [Curve(mark("measured"), "real", frequency_hz, _phase_deg(measured))]
     if nominal is not None:
         at_hz = nominal.lines.frequency_hz
         beside = Curve(
-            marked("identification", "model"),
-            marked("identification", "model"),
-            at_hz,
-            scale.per_si * np.abs(nominal.values),
-            width=3,
+            mark("model"), mark("model"), at_hz, scale.per_si * np.abs(nominal.values), width=3
         )
         magnitude.insert(2, beside)
-        phase.insert(
-            0,
-            Curve(
-                marked("identification", "model"),
-                marked("identification", "model"),
-                at_hz,
-                _phase_deg(nominal),
-                width=3,
-            ),
-        )
-    coherence = Curve(
-        marked("identification", "measured"), "real", frequency_hz, measured.lines.coherence[:, 0]
-    )
+        phase.insert(0, Curve(mark("model"), mark("model"), at_hz, _phase_deg(nominal), width=3))
+    coherence = Curve(mark("measured"), "real", frequency_hz, measured.lines.coherence[:, 0])
     pair = f"{question.answer}/{question.drive}"
-    bottom = marked("identification", "frequency [Hz]")
+    bottom = mark("frequency [Hz]")
     return (
         Picture(f"|{pair}| [{scale.symbol or '1'}]", bottom, tuple(magnitude), True, True),
-        Picture(marked("identification", "phase [°]"), bottom, tuple(phase), True),
-        Picture(
-            marked("identification", "coherence"), bottom, (coherence,), True, span=(0.0, 1.05)
-        ),
+        Picture(mark("phase [°]"), bottom, tuple(phase), True),
+        Picture(mark("coherence"), bottom, (coherence,), True, span=(0.0, 1.05)),
     )
 
 
@@ -183,21 +159,18 @@ def _rows(
     frequency_hz, size = measured.lines.frequency_hz, np.abs(measured.values)
     peak = int(np.argmax(size))
     rows = [
-        (marked("identification", "gain, lowest line"), scale.text(size[0])),
-        (marked("identification", "largest gain"), scale.text(size[peak])),
-        (marked("identification", "at frequency"), f"{rounded(frequency_hz[peak], 5)} Hz"),
-        (
-            marked("identification", "median coherence"),
-            fixed(np.median(measured.lines.coherence), 4),
-        ),
-        (marked("identification", "estimator"), measured.method),
-        (marked("identification", "averages"), measured.averages),
-        (marked("identification", "lines"), str(len(size))),
-        (marked("identification", "lowest line"), f"{rounded(frequency_hz[0], 5)} Hz"),
-        (marked("identification", "highest line"), f"{rounded(frequency_hz[-1], 5)} Hz"),
-        (marked("identification", "resolution"), f"{rounded(measured.resolution_hz)} Hz"),
-        (marked("identification", "samples"), str(signals.count)),
-        (marked("identification", "sampling rate"), f"{rounded(signals.rate_hz, 6)} Hz"),
+        (mark("gain, lowest line"), scale.text(size[0])),
+        (mark("largest gain"), scale.text(size[peak])),
+        (mark("at frequency"), f"{rounded(frequency_hz[peak], 5)} Hz"),
+        (mark("median coherence"), fixed(np.median(measured.lines.coherence), 4)),
+        (mark("estimator"), measured.method),
+        (mark("averages"), measured.averages),
+        (mark("lines"), str(len(size))),
+        (mark("lowest line"), f"{rounded(frequency_hz[0], 5)} Hz"),
+        (mark("highest line"), f"{rounded(frequency_hz[-1], 5)} Hz"),
+        (mark("resolution"), f"{rounded(measured.resolution_hz)} Hz"),
+        (mark("samples"), str(signals.count)),
+        (mark("sampling rate"), f"{rounded(signals.rate_hz, 6)} Hz"),
     ]
     if resonance is None:
         return tuple(rows)
@@ -206,9 +179,9 @@ def _rows(
     ratio = " ± ".join(uncertain(resonance.damping_ratio, resonance.damping_deviation))
     misfit = f"{rounded(100.0 * resonance.misfit, 3)} %"
     mode = [
-        (marked("identification", "resonance"), frequency),
-        (marked("identification", "damping ratio"), ratio),
-        (marked("identification", "misfit of the mode"), misfit),
+        (mark("resonance"), frequency),
+        (mark("damping ratio"), ratio),
+        (mark("misfit of the mode"), misfit),
     ]
     return (*mode, *rows)
 
@@ -236,10 +209,9 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
     if len(frequency_hz) < _FEW_LINES:
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "The input excites only {n} lines, up to {highest:.4g} Hz ({wanted} lines "
-                    "are needed). Record a multisine or a chirp to see higher frequencies.",
+                    "are needed). Record a multisine or a chirp to see higher frequencies."
                 ),
                 n=len(frequency_hz),
                 highest=frequency_hz[-1],
@@ -250,10 +222,9 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
     if poor:
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "The coherence is below {bound:g} on {n} of {lines} lines: noise, "
-                    "distortion, another axis or leakage. The interval is wide there.",
+                    "distortion, another axis or leakage. The interval is wide there."
                 ),
                 bound=_COHERENT,
                 n=poor,
@@ -265,11 +236,10 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
         if measured.method == WELCH and width_hz < _NARROW * measured.resolution_hz:
             doubts.append(
                 FilledTemplate(
-                    marked(
-                        "identification",
+                    mark(
                         "The resonance is {width:.3g} Hz wide, less than {lines} lines of "
                         "{resolution:.3g} Hz: it appears flatter than it is. Average less or record"
-                        " longer.",
+                        " longer."
                     ),
                     width=width_hz,
                     lines=_NARROW,
@@ -279,10 +249,9 @@ def _doubts(measured: Estimate, resonance: Resonance | None) -> list[str]:
         if resonance.misfit > _MISFIT:
             doubts.append(
                 FilledTemplate(
-                    marked(
-                        "identification",
+                    mark(
                         "A single mode misses the peak by {misfit:.0f} % (bound {bound:.0f} %): "
-                        "there may be two modes, and the damping is inaccurate.",
+                        "there may be two modes, and the damping is inaccurate."
                     ),
                     misfit=100 * resonance.misfit,
                     bound=100 * _MISFIT,

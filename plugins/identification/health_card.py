@@ -5,31 +5,24 @@ from datetime import datetime
 from rotemina.app.calibration.health import Compared, card_of, compared_cards
 from rotemina.app.calibration.health_book import HealthBook
 from rotemina.app.calibration.words import figure_text
-from rotemina.app.shell.language import marked
+from rotemina.plugins.identification import mark
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import NONE, Column, Findings
 from rotemina.plugins.identification.record_query import Question
 from rotemina.sim.calibration.sensor_calibration import Figure
 from rotemina.sim.quantities import uncertain
 
-HEAD = (
-    marked("identification", "figure"),
-    marked("identification", "now"),
-    "± 95 %",
-    marked("identification", "last time"),
-    "± 95 %",
-    "",
-)
+HEAD = (mark("figure"), mark("now"), "± 95 %", mark("last time"), "± 95 %", "")
 
 # Figures of a card as it names them.
 FIGURES = (
-    marked("identification", "gain"),
-    marked("identification", "resonance"),
-    marked("identification", "damping"),
-    marked("identification", "hysteresis width"),
-    marked("identification", "settling"),
-    marked("identification", "noise rms"),
-    marked("identification", "repeatability"),
+    mark("gain"),
+    mark("resonance"),
+    mark("damping"),
+    mark("hysteresis width"),
+    mark("settling"),
+    mark("noise rms"),
+    mark("repeatability"),
 )
 
 
@@ -73,12 +66,7 @@ def keep_card(question: Question) -> None:
 
 def _row(row: Compared) -> tuple[str, ...]:
     before = _words(row.before) if row.before is not None else (NONE, NONE)
-    return (
-        row.now.name,
-        *_words(row.now),
-        *before,
-        marked("identification", "changed") if row.changed else "",
-    )
+    return (row.now.name, *_words(row.now), *before, mark("changed") if row.changed else "")
 
 
 def _words(figure: Figure) -> tuple[str, str]:
@@ -94,20 +82,11 @@ def _words(figure: Figure) -> tuple[str, str]:
 
 def _notices(rows: tuple[Compared, ...], date: str | None, kept: int) -> list[str]:
     if date is None:
-        return [
-            marked(
-                "identification",
-                "There is no card of this axis yet. Store this one to compare with it later.",
-            )
-        ]
+        return [mark("There is no card of this axis yet. Store this one to compare with it later.")]
     changed = [row.now.name for row in rows if row.changed]
-    text = marked(
-        "identification",
-        "Last card: {date}, the latest of {n}. Changed beyond both intervals: {figures}.",
-    )
+    text = mark("Last card: {date}, the latest of {n}. Changed beyond both intervals: {figures}.")
     if not changed:
-        text = marked(
-            "identification",
-            "Last card: {date}, the latest of {n}. No figure has changed beyond both intervals.",
+        text = mark(
+            "Last card: {date}, the latest of {n}. No figure has changed beyond both intervals."
         )
     return [FilledTemplate(text, date=date, n=kept, figures=", ".join(changed))]

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.identification import mark
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import Column, Curve, Findings, Picture
 from rotemina.plugins.identification.nominal_response import ABSENT, nominal_signals
@@ -36,10 +36,9 @@ def loop_findings(question: Question) -> Findings:
     if rows < len(driven):
         notices.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "The figures use the first {n} of {rows} rows, with {turns} reversals: the "
-                    "input is noise, or very long.",
+                    "input is noise, or very long."
                 ),
                 n=rows,
                 rows=len(driven),
@@ -58,10 +57,7 @@ def loop_findings(question: Question) -> Findings:
     if len(x) > _MOST_DRAWN:
         notices.append(
             FilledTemplate(
-                marked(
-                    "identification",
-                    "The plot shows the first {n} of {rows} rows; the figures use all rows.",
-                ),
+                mark("The plot shows the first {n} of {rows} rows; the figures use all rows."),
                 n=_MOST_DRAWN,
                 rows=len(x),
             )
@@ -103,18 +99,11 @@ def _pictures(
 
     Each is off its own line, so that loops are compared and not gains.
     """
-    drawn = [(marked("identification", "measured"), "real", x, y, 1)]
+    drawn = [(mark("measured"), "real", x, y, 1)]
     if nominal is not None:
         driven, answer = nominal.single()
         drawn.insert(
-            0,
-            (
-                marked("identification", "model"),
-                marked("identification", "model"),
-                driven[: len(x)],
-                answer[len(answer) - len(x) :],
-                3,
-            ),
+            0, (mark("model"), mark("model"), driven[: len(x)], answer[len(answer) - len(x) :], 3)
         )
     drawn = [(name, role, u[:_MOST_DRAWN], v[:_MOST_DRAWN], w) for name, role, u, v, w in drawn]
     off = [(name, role, u, _off_line(u, v), w) for name, role, u, v, w in drawn]
@@ -122,15 +111,13 @@ def _pictures(
     pictures = []
     for title, curves in (
         (str(question.answer), drawn),
-        (marked("identification", "deviation from a straight line"), off),
+        (mark("deviation from a straight line"), off),
     ):
         size = max(float(np.abs(v).max(initial=0.0)) for _, _, _, v, _ in curves)
         up = scale_of(question.unit(question.answer), size)
         pictures.append(
             Picture(
-                FilledTemplate(
-                    marked("identification", "{title} [{unit}]"), title=title, unit=up.symbol
-                ),
+                FilledTemplate(mark("{title} [{unit}]"), title=title, unit=up.symbol),
                 f"{question.drive} [{across.symbol}]",
                 tuple(
                     Curve(name, role, across.per_si * u, up.per_si * v, width)
@@ -158,14 +145,10 @@ def _sheet(
         values = [read(each) for each in found]
         return Figure(name, scale_of(unit, largest(values)), values, [read(e) for e in beside])
 
-    span = figure(
-        marked("identification", "input span"), under, lambda each: each.input_high - each.input_low
-    )
-    stroke = figure(marked("identification", "stroke"), over, lambda each: each.stroke)
-    width = figure(marked("identification", "largest width"), over, lambda each: each.width_max)
-    middle = figure(
-        marked("identification", "width at mid-range"), over, lambda each: each.width_mid
-    )
+    span = figure(mark("input span"), under, lambda each: each.input_high - each.input_low)
+    stroke = figure(mark("stroke"), over, lambda each: each.stroke)
+    width = figure(mark("largest width"), over, lambda each: each.width_max)
+    middle = figure(mark("width at mid-range"), over, lambda each: each.width_mid)
     across, up = span.scale, stroke.scale
     both = f"{up.symbol}²" if across == up else f"{across.symbol}·{up.symbol}"
     area = Scale(both, across.per_si * up.per_si)
@@ -174,25 +157,18 @@ def _sheet(
         stroke,
         width,
         Figure(
-            marked("identification", "width over stroke"),
+            mark("width over stroke"),
             _PERCENT,
             [each.width_percent for each in found],
             [each.width_percent for each in beside],
         ),
         middle._replace(scale=width.scale),
-        figure(
-            marked("identification", "backlash width"), under, lambda each: each.input_width_mid
-        ),
-        Figure(
-            marked("identification", "area"),
-            area,
-            [each.area for each in found],
-            [each.area for each in beside],
-        ),
+        figure(mark("backlash width"), under, lambda each: each.input_width_mid),
+        Figure(mark("area"), area, [each.area for each in found], [each.area for each in beside]),
     )
-    exponent = (marked("identification", "width ∝ amplitude^p"), _exponent(found), "", "", "")
+    exponent = (mark("width ∝ amplitude^p"), _exponent(found), "", "", "")
     rows = (
-        (marked("identification", "cycles"), str(len(found)), "", "", ""),
+        (mark("cycles"), str(len(found)), "", "", ""),
         *(each.row() for each in figures),
         exponent,
     )
@@ -204,7 +180,7 @@ def _exponent(found: tuple[Loop, ...]) -> str:
     try:
         return f"p = {rounded(amplitude_exponent(found), 3)}"
     except ExcitationError:
-        return marked("identification", "too similar")
+        return mark("too similar")
 
 
 def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
@@ -215,10 +191,9 @@ def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
     if rows < _SLOW:
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "A cycle has {rows:.0f} rows, fewer than {least}: lag and resonance cause "
-                    "the loop. Drive slower cycles.",
+                    "the loop. Drive slower cycles."
                 ),
                 rows=rows,
                 least=_SLOW,
@@ -228,14 +203,13 @@ def _doubts(question: Question, found: tuple[Loop, ...]) -> list[str]:
         lag = question.lag_samples
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "The width is negative: the output leads, or the axis lags less than the "
-                    "{lag} sample subtracted for a stepwise command. Drive slower cycles.",
+                    "{lag} sample subtracted for a stepwise command. Drive slower cycles."
                 ),
                 lag=lag,
             )
             if lag
-            else marked("identification", "The width is negative: the output leads the input.")
+            else mark("The width is negative: the output leads the input.")
         )
     return doubts

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.identification import mark
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import (
     NONE,
@@ -29,12 +29,7 @@ METHODS = {"oe": identify_oe, "arx": identify_arx}
 _GOOD_FIT = 80.0
 _WORSE = 10.0  # per cent of fit, lost from prediction to simulation, that tell of noise
 _ROUGH = 0.1  # relative deviation from which a figure is rough
-_HEAD = (
-    marked("identification", "figure"),
-    marked("identification", "value"),
-    marked("identification", "± deviation"),
-    marked("identification", "model"),
-)
+_HEAD = (mark("figure"), mark("value"), mark("± deviation"), mark("model"))
 
 
 def model_findings(question: Question) -> Findings:
@@ -49,10 +44,7 @@ def model_findings(question: Question) -> Findings:
     if whole.count > signals.count:
         notices.append(
             FilledTemplate(
-                marked(
-                    "identification",
-                    "The fit uses the first {n} of {rows} rows, to save time.",
-                ),
+                mark("The fit uses the first {n} of {rows} rows, to save time."),
                 n=signals.count,
                 rows=whole.count,
             )
@@ -105,25 +97,15 @@ def _pictures(question: Question, model: IdentifiedModel, signals: Signals) -> t
     return (
         Picture(
             f"{question.answer} [{scale.symbol}]",
-            marked("identification", "time [s]"),
+            mark("time [s]"),
             (
-                Curve(
-                    marked("identification", "fitted"),
-                    "good",
-                    time_s,
-                    scale.per_si * output,
-                    width=3,
-                ),
-                Curve(
-                    marked("identification", "measured"), "real", time_s, scale.per_si * measured
-                ),
+                Curve(mark("fitted"), "good", time_s, scale.per_si * output, width=3),
+                Curve(mark("measured"), "real", time_s, scale.per_si * measured),
             ),
         ),
         Picture(
-            FilledTemplate(
-                marked("identification", "measured − fitted [{unit}]"), unit=fine.symbol
-            ),
-            marked("identification", "time [s]"),
+            FilledTemplate(mark("measured − fitted [{unit}]"), unit=fine.symbol),
+            mark("time [s]"),
             (Curve("", "text", time_s, fine.per_si * gap),),
         ),
     )
@@ -134,32 +116,16 @@ def _rows(
 ) -> tuple[tuple[str, ...], ...]:
     gain = model.transfer_function.static_gain
     scale = ratio_scale(question, abs(gain))
-    rows: list[tuple[str, ...]] = [
-        (marked("identification", "fit"), f"{fixed(model.fit_percent, 2)} %", "")
-    ]
+    rows: list[tuple[str, ...]] = [(mark("fit"), f"{fixed(model.fit_percent, 2)} %", "")]
     if model.prediction_percent is not None:
-        rows.append(
-            (
-                marked("identification", "fit one step ahead"),
-                f"{fixed(model.prediction_percent, 2)} %",
-                "",
-            )
-        )
+        rows.append((mark("fit one step ahead"), f"{fixed(model.prediction_percent, 2)} %", ""))
     for mode in modes:
         rows += _mode_rows(mode)
-    rows.append(
-        (
-            marked("identification", "static gain"),
-            scale.text(gain),
-            scale.text(model.static_gain_deviation),
-        )
-    )
+    rows.append((mark("static gain"), scale.text(gain), scale.text(model.static_gain_deviation)))
     unit = question.unit(question.answer)
     residual = scale_of(unit, model.residual_rms).text(model.residual_rms)
-    rows.append((marked("identification", "residual rms"), residual, ""))
-    rows.append(
-        (marked("identification", "delay in samples"), str(model.transfer_function.delay), "")
-    )
+    rows.append((mark("residual rms"), residual, ""))
+    rows.append((mark("delay in samples"), str(model.transfer_function.delay), ""))
     return tuple(rows)
 
 
@@ -168,14 +134,11 @@ def _mode_rows(mode: NaturalMode) -> list[tuple[str, ...]]:
     found = (f"{frequency} Hz", f"{doubt} Hz")
     if mode.oscillates:
         ratio = uncertain(mode.damping_ratio, mode.damping_deviation)
-        return [
-            (marked("identification", "natural frequency"), *found),
-            (marked("identification", "damping ratio"), *ratio),
-        ]
+        return [(mark("natural frequency"), *found), (mark("damping ratio"), *ratio)]
     lag_s = 1.0 / (2.0 * np.pi * mode.frequency_hz) if mode.frequency_hz else np.inf
     return [
-        (marked("identification", "corner frequency"), *found),
-        (marked("identification", "time constant"), Scale("ms", 1e3).text(lag_s), NONE),
+        (mark("corner frequency"), *found),
+        (mark("time constant"), Scale("ms", 1e3).text(lag_s), NONE),
     ]
 
 
@@ -202,19 +165,17 @@ def _doubts(model: IdentifiedModel, modes: tuple[NaturalMode, ...]) -> list[str]
     transfer = model.transfer_function
     if not transfer.stable:
         doubts.append(
-            marked(
-                "identification",
+            mark(
                 "The fitted model is unstable: it describes noise or drift. Choose the "
-                "method output error.",
+                "method output error."
             )
         )
     elif model.fit_percent < _GOOD_FIT:
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "The fit of {fit:.1f} % is below {bound:g} %: noise, distortion, another "
-                    "axis or too few poles. Frequency and damping are not those of the machine.",
+                    "axis or too few poles. Frequency and damping are not those of the machine."
                 ),
                 fit=model.fit_percent,
                 bound=_GOOD_FIT,
@@ -224,10 +185,9 @@ def _doubts(model: IdentifiedModel, modes: tuple[NaturalMode, ...]) -> list[str]
     if predicted is not None and transfer.stable and predicted - model.fit_percent > _WORSE:
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "The model fits {ahead:.1f} % one step ahead but {fit:.1f} % in simulation:"
-                    " sensor noise biases ARX. Choose the method output error.",
+                    " sensor noise biases ARX. Choose the method output error."
                 ),
                 ahead=predicted,
                 fit=model.fit_percent,
@@ -242,18 +202,13 @@ def _mode_doubts(mode: NaturalMode, rate_hz: float) -> list[str]:
     doubts = []
     highest_hz = BAND_SHARE * rate_hz / 2.0
     if not mode.oscillates:
-        doubts.append(
-            marked(
-                "identification", "The leading pole is real: the record shows a lag, no resonance."
-            )
-        )
+        doubts.append(mark("The leading pole is real: the record shows a lag, no resonance."))
     if mode.frequency_hz > highest_hz:
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "{mode:.4g} Hz is above {highest:.4g} Hz, {share:g} of half the sampling "
-                    "rate: it is a delay or noise, not a mode of the machine.",
+                    "rate: it is a delay or noise, not a mode of the machine."
                 ),
                 mode=mode.frequency_hz,
                 highest=highest_hz,
@@ -263,10 +218,9 @@ def _mode_doubts(mode: NaturalMode, rate_hz: float) -> list[str]:
     elif mode.frequency_deviation > _ROUGH * mode.frequency_hz:
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "The frequency is uncertain by {deviation:.2g} Hz, more than {rough:.0f} %:"
-                    " the record hardly excites the mode. Use faster steps or a multisine.",
+                    " the record hardly excites the mode. Use faster steps or a multisine."
                 ),
                 deviation=mode.frequency_deviation,
                 rough=100 * _ROUGH,

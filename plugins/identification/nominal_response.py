@@ -1,12 +1,12 @@
 """The nominal model's answer to the same inputs, for the same analysis."""
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.identification import mark
 from rotemina.plugins.identification.record_query import Question
 from rotemina.sim.identification.experiment_signals import Signals, siso
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 
-ABSENT = marked("identification", "The nominal model is not shown: {reason}")
+ABSENT = mark("The nominal model is not shown: {reason}")
 
 
 def nominal_signals(question: Question) -> Signals:

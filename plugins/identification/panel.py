@@ -4,26 +4,22 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QResizeEvent
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QPlainTextEdit,
-    QScrollArea,
-    QSplitter,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QPlainTextEdit, QScrollArea, QSplitter, QWidget
 
 from rotemina.app.files import write_text
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.column_mapping import ask_columns
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Run, Workbench
+from rotemina.app.widgets.controls import named
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.chart import Chart
 from rotemina.plugins.identification.controls import Controls
 from rotemina.plugins.identification.excitation import VIEWS, steady
@@ -38,11 +34,8 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 
-EMPTY = marked(
-    "identification",
-    "Excite an axis, play a trajectory or open a record to identify the machine.",
-)
-RECORDS = marked("identification", "Records (*.csv *.txt *.dat *.gz);;All files (*)")
+EMPTY = mark("Excite an axis, play a trajectory or open a record to identify the machine.")
+RECORDS = mark("Records (*.csv *.txt *.dat *.gz);;All files (*)")
 CHARTS = 3
 # Shares of sheet and charts: an operator's own stay until another number of charts is shown.
 WIDTHS = ([920, 0, 0, 0], [420, 500, 0, 0], [420, 250, 250, 0], [280, 260, 190, 190])
@@ -64,12 +57,10 @@ class IdentificationPanel(Panel):
         super().__init__(workbench)
         self.controls = Controls()
         self.excite = ExciteView(workbench)
-        self.summary = QLabel(translate("identification", EMPTY))
-        self.summary.setTextFormat(Qt.TextFormat.PlainText)
-        self.summary.setWordWrap(True)
+        self.summary = plain_text(tr(EMPTY), quiet=False, wrap=True)
         self.notices = _notices()
         self.charts = tuple(Chart(workbench.theme) for _ in range(CHARTS))
-        self.sheet = Table(translate("identification", "Figures"), choose=False)
+        self.sheet = Table(tr("Figures"), choose=False)
         self.findings: Findings | None = None
         self._name = ""
         self._question: Question | None = None
@@ -83,29 +74,16 @@ class IdentificationPanel(Panel):
 
     def _lay_out(self) -> None:
         side = QWidget()
-        column = QVBoxLayout(side)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(self.summary)
-        column.addWidget(self.sheet, 1)
+        in_column(self.summary, (self.sheet, 1), on=side, margins=0, spacing=2)
         self._split = QSplitter(Qt.Orientation.Horizontal)
         self._split.addWidget(side)
         for chart in self.charts:
             self._split.addWidget(chart)
-        looks = QVBoxLayout()
-        looks.setSpacing(4)
-        looks.addWidget(self.notices)
-        looks.addWidget(self._split, 1)
+        looks = in_column(self.notices, (self._split, 1), spacing=4)
         self._exciting = _scrolled(self.excite)
         self._exciting.hide()
-        row = QHBoxLayout()
-        row.addWidget(self._exciting)
-        row.addLayout(looks, 1)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(10, 6, 10, 6)
-        outer.setSpacing(4)
-        outer.addWidget(self.controls)
-        outer.addLayout(row, 1)
+        row = in_row(self._exciting, (looks, 1))
+        in_column(self.controls, (row, 1), on=self, margins=(10, 6, 10, 6), spacing=4)
         self.setMinimumHeight(HEIGHT)
 
     def _connect(self) -> None:
@@ -143,12 +121,7 @@ class IdentificationPanel(Panel):
             else:
                 self.take_record(path.name, answer)
 
-        self.workbench.work(
-            "identification record",
-            translate("identification", "Reading {name} …").format(name=path.name),
-            work,
-            done,
-        )
+        self.workbench.read_file("identification record", path.name, work, done)
 
     def _take_run(self, run: Run) -> None:
         """Look at a run; at one of this page's own excitations from where it says most."""
@@ -168,8 +141,8 @@ class IdentificationPanel(Panel):
         self.main_window.bring_up("identification")
 
     def _ask_record(self) -> None:
-        title = translate("identification", "Open record")
-        kinds = translate("identification", RECORDS)
+        title = tr("Open record")
+        kinds = tr(RECORDS)
 
         def use(path: Path) -> None:
             ask_columns(path, self.workbench, self, self.open_record)
@@ -192,22 +165,17 @@ class IdentificationPanel(Panel):
             self._show(None)
             if self._name:
                 axis = self.controls.axis.currentText()
-                text = translate(
-                    "identification", "{record}: axis {axis} lacks an input or an output."
-                )
+                text = tr("{record}: axis {axis} lacks an input or an output.")
                 self._say([text.format(record=self._name, axis=axis)])
             return
         if view in self._known:
             self._show(self._known[view])
             return
         self._show(None)
-        computing = translate("identification", "{record}: computing …")
-        self.summary.setText(computing.format(record=question.name))
+        self.summary.setText(tr("{record}: computing …").format(record=question.name))
         self.workbench.work(
             "identification",
-            translate("identification", "Identification of {record} …").format(
-                record=question.name
-            ),
+            tr("Identification of {record} …").format(record=question.name),
             lambda: self._answer(question, view),
             lambda findings: self._receive(view, findings),
         )
@@ -245,7 +213,7 @@ class IdentificationPanel(Panel):
         self.controls.keep.setEnabled(findings is not None and bool(findings.columns))
         if findings is not None:
             record = findings.question.record
-            text = translate("identification", "{record}: {time:.3f} s, {n} samples")
+            text = tr("{record}: {time:.3f} s, {n} samples")
             self.summary.setText(
                 text.format(
                     record=findings.question.name, time=record.duration_s, n=len(record.time_s)
@@ -287,14 +255,14 @@ class IdentificationPanel(Panel):
             return
         self.workbench.work(
             "health card",
-            translate("identification", "Storing the health card …"),
+            tr("Storing the health card …"),
             lambda: keep_card(findings.question),
             lambda _: self._kept(findings.question),
         )
 
     def _kept(self, question: Question) -> None:
         """Look again: what was kept is the last card now."""
-        text = translate("identification", "Stored the health card of {axis}")
+        text = tr("Stored the health card of {axis}")
         self.workbench.notify(Level.GOOD, text.format(axis=question.axis))
         self._known.pop(View.HEALTH, None)
         if question is self._question and self.controls.shown is View.HEALTH:
@@ -303,10 +271,7 @@ class IdentificationPanel(Panel):
     def _ask_save(self) -> None:
         if self.findings is None:
             return
-        title, kinds = (
-            translate("identification", "Save results"),
-            translate("identification", "Tables (*.csv)"),
-        )
+        title, kinds = tr("Save results"), tr("Tables (*.csv)")
         # What is in sight now, whatever comes in while the dialog is open.
         text = as_csv(self.findings, self.controls.shown)
         ask_where(
@@ -320,14 +285,7 @@ class IdentificationPanel(Panel):
 
     def save_text(self, path: Path, text: str) -> None:
         """Write results to a file."""
-        self.workbench.work(
-            "identification results",
-            translate("identification", "Writing {name} …").format(name=path.name),
-            lambda: write_text(path, text),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("identification", "Saved {path}").format(path=path)
-            ),
-        )
+        self.workbench.write_file("identification results", path, lambda: write_text(path, text))
 
     def _use_theme(self, theme: Theme) -> None:
         self.notices.setStyleSheet(f"color: {theme.warning};")
@@ -342,7 +300,6 @@ def _scrolled(section: QWidget) -> QScrollArea:
 
 
 def _notices() -> QPlainTextEdit:
-    notices = QPlainTextEdit()
+    notices = named(QPlainTextEdit(), tr("Limits of this record"))
     notices.setReadOnly(True)
-    notices.setAccessibleName(translate("identification", "Limits of this record"))
     return notices

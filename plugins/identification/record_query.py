@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from rotemina.app.shell.language import translate
+from rotemina.plugins.identification import tr
 from rotemina.sim.identification.errors import IdentificationError
 from rotemina.sim.identification.experiment_signals import Signals, signals_of
 from rotemina.sim.records.record import VOLTAGE_TAPS, Record, Tap
@@ -77,17 +77,14 @@ class Question:
         """
         if self.drive == self.answer:
             raise IdentificationError(
-                translate(
-                    "identification",
-                    "{axis}: input and output are both {tap}; choose two different signals",
-                ).format(axis=self.axis, tap=self.drive)
+                tr("{axis}: input and output are both {tap}; choose two different signals").format(
+                    axis=self.axis, tap=self.drive
+                )
             )
         for tap in (self.drive, self.answer):
             if not self.record.has(self.axis, tap):
                 raise IdentificationError(
-                    translate(
-                        "identification", "{axis}: the record has no {axis}.{tap}; it has {columns}"
-                    ).format(
+                    tr("{axis}: the record has no {axis}.{tap}; it has {columns}").format(
                         axis=self.axis, tap=tap, columns=", ".join(map(str, self.record.columns))
                     )
                 )

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.identification import mark
 from rotemina.plugins.identification.filled_template import FilledTemplate
 from rotemina.plugins.identification.findings import Curve, Findings, Picture, ratio_scale
 from rotemina.plugins.identification.nominal_response import ABSENT, nominal_record
@@ -87,10 +87,7 @@ def step_findings(question: Question) -> Findings:
             _closest(question, found, answer, nominal),
         ),
         HEAD,
-        (
-            (marked("identification", "steps"), str(len(found)), "", "", ""),
-            *(figure.row() for figure in figures),
-        ),
+        ((mark("steps"), str(len(found)), "", "", ""), *(figure.row() for figure in figures)),
         tuple(figure.column() for figure in figures),
         (*absent, *_doubts(found, ramp_s)),
     )
@@ -126,46 +123,22 @@ def _figures(
         return scale_of(unit, size)
 
     figures = [
+        figure(mark("at frequency"), lambda _: Scale("s", 1.0), lambda each: each.start_s),
         figure(
-            marked("identification", "at frequency"),
-            lambda _: Scale("s", 1.0),
-            lambda each: each.start_s,
+            mark("size of the step"), output, lambda each: abs(each.output_to - each.output_from)
         ),
         figure(
-            marked("identification", "size of the step"),
-            output,
-            lambda each: abs(each.output_to - each.output_from),
+            mark("static gain"), lambda size: ratio_scale(question, size), lambda each: each.gain
         ),
-        figure(
-            marked("identification", "static gain"),
-            lambda size: ratio_scale(question, size),
-            lambda each: each.gain,
-        ),
-        figure(marked("identification", "rise 10–90 %"), lambda _: _MS, lambda each: each.rise_s),
-        figure(marked("identification", "delay to 50 %"), lambda _: _MS, lambda each: each.delay_s),
-        figure(
-            marked("identification", "overshoot"),
-            lambda _: _PERCENT,
-            lambda each: each.overshoot_percent,
-        ),
-        figure(
-            marked("identification", "settling to 5 %"),
-            lambda _: _MS,
-            lambda each: each.settling_5_s,
-        ),
-        figure(
-            marked("identification", "settling to 2 %"),
-            lambda _: _MS,
-            lambda each: each.settling_2_s,
-        ),
+        figure(mark("rise 10–90 %"), lambda _: _MS, lambda each: each.rise_s),
+        figure(mark("delay to 50 %"), lambda _: _MS, lambda each: each.delay_s),
+        figure(mark("overshoot"), lambda _: _PERCENT, lambda each: each.overshoot_percent),
+        figure(mark("settling to 5 %"), lambda _: _MS, lambda each: each.settling_5_s),
+        figure(mark("settling to 2 %"), lambda _: _MS, lambda each: each.settling_2_s),
     ]
     if unit == question.unit(question.drive):
-        figures.append(
-            figure(marked("identification", "final error"), output, lambda each: each.error)
-        )
-    figures.append(
-        figure(marked("identification", "noise rms"), output, lambda each: each.noise_rms)
-    )
+        figures.append(figure(mark("final error"), output, lambda each: each.error))
+    figures.append(figure(mark("noise rms"), output, lambda each: each.noise_rms))
     return tuple(figures)
 
 
@@ -178,36 +151,17 @@ def _response_picture(
 ) -> Picture:
     """Return the whole record; an input of another kind has no place on the output's scale."""
     scale = scale_of(question.unit(question.answer), float(np.abs(answer).max()))
-    curves = [Curve(marked("identification", "measured"), "real", time_s, scale.per_si * answer)]
+    curves = [Curve(mark("measured"), "real", time_s, scale.per_si * answer)]
     if nominal is not None:
         model = nominal.signal(question.axis, question.answer)
-        curves.insert(
-            0,
-            Curve(
-                marked("identification", "model"),
-                marked("identification", "model"),
-                time_s,
-                scale.per_si * model,
-                width=3,
-            ),
-        )
+        curves.insert(0, Curve(mark("model"), mark("model"), time_s, scale.per_si * model, width=3))
     if question.unit(question.drive) == question.unit(question.answer):
-        curves.insert(
-            0,
-            Curve(
-                marked("identification", "input"), "command", time_s, scale.per_si * driven, width=3
-            ),
-        )
-    return Picture(
-        f"{question.answer} [{scale.symbol}]", marked("identification", "time [s]"), tuple(curves)
-    )
+        curves.insert(0, Curve(mark("input"), "command", time_s, scale.per_si * driven, width=3))
+    return Picture(f"{question.answer} [{scale.symbol}]", mark("time [s]"), tuple(curves))
 
 
 def _closest(
-    question: Question,
-    found: tuple[StepMetrics, ...],
-    answer: FloatArray,
-    nominal: Record | None,
+    question: Question, found: tuple[StepMetrics, ...], answer: FloatArray, nominal: Record | None
 ) -> Picture:
     """Return the largest step until it has settled, from 0 at its old level to 1 at the new."""
     time_s = question.record.time_s
@@ -221,24 +175,15 @@ def _closest(
     rows = slice(begin, max(int(np.searchsorted(time_s, shown_s)), begin + 2))
     since_ms = 1e3 * (time_s[rows] - step.start_s)
     course = (answer[rows] - step.output_from) / (size or 1.0)
-    curves = [Curve(marked("identification", "measured"), "real", since_ms, course)]
+    curves = [Curve(mark("measured"), "real", since_ms, course)]
     if nominal is not None:  # from its own old level, which may be another
         model = nominal.signal(question.axis, question.answer)[rows]
         curves.insert(
-            0,
-            Curve(
-                marked("identification", "model"),
-                marked("identification", "model"),
-                since_ms,
-                (model - model[0]) / (size or 1.0),
-                3,
-            ),
+            0, Curve(mark("model"), mark("model"), since_ms, (model - model[0]) / (size or 1.0), 3)
         )
     return Picture(
-        FilledTemplate(
-            marked("identification", "largest step, at {time:.4g} s [1]"), time=step.start_s
-        ),
-        marked("identification", "time since the step [ms]"),
+        FilledTemplate(mark("largest step, at {time:.4g} s [1]"), time=step.start_s),
+        mark("time since the step [ms]"),
         tuple(curves),
     )
 
@@ -248,27 +193,25 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
     if ramp_s > 0.0:
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "The input takes up to {ramp:.3g} ms from level to level, as fast as its "
                     "limits allow. All times count from the start of that ramp, for the model "
-                    "too.",
+                    "too."
                 ),
                 ramp=1e3 * ramp_s,
             )
         )
     for name, values in (
-        (marked("identification", "settling to 2 %"), [each.settling_2_s for each in found]),
-        (marked("identification", "rise"), [each.rise_s for each in found]),
+        (mark("settling to 2 %"), [each.settling_2_s for each in found]),
+        (mark("rise"), [each.rise_s for each in found]),
     ):
         missing = sum(value is None for value in values)
         if missing:
             doubts.append(
                 FilledTemplate(
-                    marked(
-                        "identification",
+                    mark(
                         "{name}: {n} of {steps} steps give no value; at the end of the hold the "
-                        "axis still moves, or noise exceeds the band.",
+                        "axis still moves, or noise exceeds the band."
                     ),
                     name=name,
                     n=missing,
@@ -279,10 +222,9 @@ def _doubts(found: tuple[StepMetrics, ...], ramp_s: float) -> list[str]:
     if faint:
         doubts.append(
             FilledTemplate(
-                marked(
-                    "identification",
+                mark(
                     "{n} of {steps} steps are smaller than 10 times the noise, which determines"
-                    " overshoot and times. Record larger steps.",
+                    " overshoot and times. Record larger steps."
                 ),
                 n=faint,
                 steps=len(found),

@@ -5,17 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.identification import mark
 from rotemina.plugins.identification.findings import NONE, Column
 from rotemina.sim.quantities import Scale
 
-HEAD = (
-    marked("identification", "figure"),
-    marked("identification", "median"),
-    marked("identification", "model"),
-    marked("identification", "lowest"),
-    marked("identification", "highest"),
-)
+HEAD = (mark("figure"), mark("median"), mark("model"), mark("lowest"), mark("highest"))
 
 
 class Figure(NamedTuple):

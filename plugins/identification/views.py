@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from enum import StrEnum
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.identification import mark
 from rotemina.plugins.identification.findings import Findings
 from rotemina.plugins.identification.frequency import frequency_findings
 from rotemina.plugins.identification.health_card import health_findings
@@ -16,11 +16,11 @@ from rotemina.plugins.identification.staircase import step_findings
 class View(StrEnum):
     """A view, as named in files."""
 
-    FREQUENCY = marked("identification", "Frequency response")
-    LOOP = marked("identification", "Loop")
-    STEPS = marked("identification", "Steps")
-    MODEL = marked("identification", "Fitted model")
-    HEALTH = marked("identification", "Health card")
+    FREQUENCY = mark("Frequency response")
+    LOOP = mark("Loop")
+    STEPS = mark("Steps")
+    MODEL = mark("Fitted model")
+    HEALTH = mark("Health card")
 
 
 LOOKS: dict[View, Callable[[Question], Findings]] = {

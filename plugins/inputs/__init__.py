@@ -2,3 +2,7 @@
 
 Connected devices, their readings and their functions.
 """
+
+from rotemina.app.shell.language import texts_of
+
+tr, mark = texts_of("inputs")

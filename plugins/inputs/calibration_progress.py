@@ -13,8 +13,8 @@ from rotemina.app.motion.teleoperation.axis_calibration import (
 )
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.stick_calibration import CalibrationRun
-from rotemina.app.shell.language import translate
 from rotemina.drivers.inputs.device import InputReading
+from rotemina.plugins.inputs import tr
 
 REST_S = 1.0  # for which it must be left alone, so that its noise is seen
 _SWITCHES = ("hat",)  # axes of -1, 0, 1: there is nothing to measure
@@ -89,9 +89,7 @@ class Calibrating:
             If no axis is wanted.
         """
         if not wanted:
-            raise CalibrationError(
-                translate("inputs", "no axis is chosen: choose the axes to measure")
-            )
+            raise CalibrationError(tr("no axis is chosen: choose the axes to measure"))
         sides = [axis for axis in one_sided if axis in wanted]
         self._run = CalibrationRun(self.device.axes, wanted, sides, last)
         self.step, self._begun_s, self.problems = Step.REST, now_s, {}
@@ -164,25 +162,21 @@ def changed(axis: str, before: AxisCalibration, **changes: float | bool | None) 
         return AxisCalibration(**{**asdict(before), **changes})
     except ValidationError as error:
         detail = error.errors()[0]
-        where = ".".join(map(str, detail["loc"])) or translate("inputs", "its settings")
+        where = ".".join(map(str, detail["loc"])) or tr("its settings")
         reason = str(detail.get("ctx", {}).get("error", detail["msg"]))
         raise CalibrationError(
-            translate("inputs", "axis {axis}, {where}: {reason}").format(
-                axis=axis, where=where, reason=reason
-            )
+            tr("axis {axis}, {where}: {reason}").format(axis=axis, where=where, reason=reason)
         ) from error
 
 
 def summary(one: AxisCalibration) -> str:
     """Return where an axis ends and rests, in one line."""
     rest = (
-        translate("inputs", "rests at an end")
+        tr("rests at an end")
         if one.centre in (one.low, one.high)
-        else translate("inputs", "rests at {centre:+.2f}").format(centre=one.centre)
+        else tr("rests at {centre:+.2f}").format(centre=one.centre)
     )
-    return translate("inputs", "{low:+.2f} to {high:+.2f}, {rest}").format(
-        low=one.low, high=one.high, rest=rest
-    )
+    return tr("{low:+.2f} to {high:+.2f}, {rest}").format(low=one.low, high=one.high, rest=rest)
 
 
 def _begins(axis: str, names: tuple[str, ...]) -> bool:

@@ -5,12 +5,12 @@ from PySide6.QtWidgets import QCheckBox, QFormLayout, QWidget
 from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.calibration_progress import Calibrating, summary
 from rotemina.plugins.inputs.measuring_steps import Measuring
 from rotemina.plugins.inputs.number_field import NumberField
@@ -24,7 +24,7 @@ class CalibrationSection(Section):
     """Measuring, and the settings of each axis; used and kept when someone says so."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("inputs", "Calibration"))
+        super().__init__(tr("Calibration"))
         self._workbench = workbench
         self._all: dict[str, Calibrating] = {}
         self._now: Calibrating | None = None
@@ -32,48 +32,42 @@ class CalibrationSection(Section):
         self.measuring = Measuring(workbench)
         self.measuring.measured.connect(self._show_axis)
         self.column.addWidget(self.measuring)
-        self.axis = SteadyChoice(translate("inputs", "Axis"), letters=8)
+        self.axis = SteadyChoice(tr("Axis"), letters=8)
         self.axis.currentIndexChanged.connect(lambda _: self._show_axis())
         self.column.addWidget(self.axis)
         self.summary = self.add_text()
         self.curve = Curve(workbench.theme)
         self.column.addWidget(self.curve)
         self._make_fields()
-        self.keep = button(translate("inputs", "Apply"), self._keep)
+        self.keep = button(tr("Apply"), self._keep)
         self.keep.setProperty("primary", True)
-        self.discard = button(translate("inputs", "Discard"), self._discard)
-        self.defaults = button(translate("inputs", "Defaults"), self._forget)
-        self.defaults.setToolTip(translate("inputs", "Reset this axis to the uncalibrated state"))
+        self.discard = button(tr("Discard"), self._discard)
+        self.defaults = button(tr("Defaults"), self._forget)
+        self.defaults.setToolTip(tr("Reset this axis to the uncalibrated state"))
         self.add_row(self.keep, self.discard, self.defaults, equal=False)
 
     def _make_fields(self) -> None:
-        about = translate(
-            "inputs", "Half width of the range around the centre that counts as centred, raw value"
-        )
-        self.dead_zone = NumberField(translate("inputs", "Dead zone"), "", about, 0.001, 0.5)
+        about = tr("Half width of the range around the centre that counts as centred, raw value")
+        self.dead_zone = NumberField(tr("Dead zone"), "", about, 0.001, 0.5)
         self.expo = NumberField(
-            translate("inputs", "Expo"),
-            "",
-            translate("inputs", "Response curve: 0 linear, 1 finest near rest"),
-            0,
-            1,
+            tr("Expo"), "", tr("Response curve: 0 linear, 1 finest near rest"), 0, 1
         )
         self.travel = NumberField(
-            translate("inputs", "Travel"),
+            tr("Travel"),
             "mm",
-            translate("inputs", "Distance of the grip from rest to either end"),
+            tr("Distance of the grip from rest to either end"),
             0.1,
             1000.0,
             optional=True,
         )
-        self.inverted = QCheckBox(translate("inputs", "Inverted"))
-        self.inverted.setToolTip(translate("inputs", "Reverse the sign of the deflection"))
+        self.inverted = QCheckBox(tr("Inverted"))
+        self.inverted.setToolTip(tr("Reverse the sign of the deflection"))
         form = QFormLayout()
         form.setContentsMargins(0, 0, 0, 0)
         form.setVerticalSpacing(4)
-        form.addRow(translate("inputs", "Dead zone"), self.dead_zone)
-        form.addRow(translate("inputs", "Expo"), self.expo)
-        form.addRow(translate("inputs", "Travel, mm"), self.travel)
+        form.addRow(tr("Dead zone"), self.dead_zone)
+        form.addRow(tr("Expo"), self.expo)
+        form.addRow(tr("Travel, mm"), self.travel)
         form.addRow("", self.inverted)
         self.fields = QWidget()
         self.fields.setLayout(form)
@@ -99,22 +93,14 @@ class CalibrationSection(Section):
         if device is None or now is None:
             return
         self.heading.show_text(
-            translate("inputs", "Calibration of {name}").format(
-                name=device_name(device.device.identity)
-            )
+            tr("Calibration of {name}").format(name=device_name(device.device.identity))
         )
         self.measuring.refresh(now, device, now_s)
-        unchanged = None if now.changed else translate("inputs", "nothing was changed")
+        unchanged = None if now.changed else tr("nothing was changed")
         allow(
-            self.keep,
-            unchanged,
-            translate("inputs", "Use this calibration from now on and store it for the device"),
+            self.keep, unchanged, tr("Use this calibration from now on and store it for the device")
         )
-        allow(
-            self.discard,
-            unchanged,
-            translate("inputs", "Restore the calibration in use"),
-        )
+        allow(self.discard, unchanged, tr("Restore the calibration in use"))
         raw = next((a.raw for a in device.axes if a.control == self.axis.currentData()), None)
         self.curve.show_curve(self._shown, raw)
 
@@ -132,8 +118,8 @@ class CalibrationSection(Section):
         if lost:
             self._workbench.notify(
                 Level.WARNING,
-                translate("inputs", "The changed calibration of {names} was not stored.").format(
-                    names=translate("inputs", " and ").join(lost)
+                tr("The changed calibration of {names} was not stored.").format(
+                    names=tr(" and ").join(lost)
                 ),
                 about=self,
             )
@@ -168,14 +154,10 @@ class CalibrationSection(Section):
         for widget in (self.axis, self.curve, self.fields, self.defaults):
             widget.setVisible(not none)
         if none:
-            self.summary.setText(
-                translate("inputs", "The device has no axes: there is nothing to calibrate.")
-            )
+            self.summary.setText(tr("The device has no axes: there is nothing to calibrate."))
             return
         one = self._shown
-        self.summary.setText(
-            translate("inputs", "The device reports {one}.").format(one=summary(one))
-        )
+        self.summary.setText(tr("The device reports {one}.").format(one=summary(one)))
         self.dead_zone.reset(one.dead_zone)
         self.expo.reset(one.expo)
         self.travel.reset(None if one.travel_m is None else _MM * one.travel_m)
@@ -208,7 +190,5 @@ class CalibrationSection(Section):
             now.kept = now.draft
             self._workbench.notify(
                 Level.GOOD,
-                translate("inputs", "The calibration of {name} is stored.").format(
-                    name=device_name(identity)
-                ),
+                tr("The calibration of {name} is stored.").format(name=device_name(identity)),
             )

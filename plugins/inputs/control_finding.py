@@ -3,7 +3,7 @@
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.motion.teleoperation.moved_control import Detection, Findings, Kind
-from rotemina.app.shell.language import translate
+from rotemina.plugins.inputs import tr
 
 BUTTON_WAIT_S = 0.3  # a trigger tells its way first, and that it is pressed a moment later
 
@@ -62,7 +62,7 @@ class Finding:
         control = found.detected.control
         raw = self._newest.axes[self._view.device.axes.index(control)]
         at_rest = self._view.calibration.axis(control).deflection(raw) == 0.0
-        return Findings(None, translate("inputs", "move the axis now")) if at_rest else found
+        return Findings(None, tr("move the axis now")) if at_rest else found
 
 
 def _both(button: Findings, axis: Findings) -> Findings:
@@ -70,4 +70,4 @@ def _both(button: Findings, axis: Findings) -> Findings:
     for one in (button, axis):
         if "together" in one.message:
             return one
-    return Findings(None, translate("inputs", "press the button, or move the axis, now"))
+    return Findings(None, tr("press the button, or move the axis, now"))

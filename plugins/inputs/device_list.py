@@ -1,19 +1,13 @@
 """The connected devices, which one is in control, and their problems."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QFrame,
-    QLabel,
-    QListWidget,
-    QListWidgetItem,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFrame, QLabel, QListWidget, QListWidgetItem, QWidget
 
-from rotemina.app.shell.language import translate
-from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.controls import named, plain_tip
 from rotemina.app.widgets.labels import plain_text, show_text
+from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.section import Section, clear
+from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.words import Entry, Trouble
 
 _MOST_ROWS = 4
@@ -24,14 +18,10 @@ class DeviceList(Section):
     """The devices, one of which is examined."""
 
     def __init__(self) -> None:
-        super().__init__(translate("inputs", "Devices"))
+        super().__init__(tr("Devices"))
         self.none = self.add_text()
-        show_text(
-            self.none,
-            translate("inputs", "No device. A device that is plugged in appears within a second."),
-        )
-        self.list = QListWidget()
-        self.list.setAccessibleName(translate("inputs", "Connected input devices"))
+        show_text(self.none, tr("No device. A device that is plugged in appears within a second."))
+        self.list = named(QListWidget(), tr("Connected input devices"))
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.currentItemChanged.connect(lambda *_: self._pick())
@@ -82,9 +72,7 @@ class Troubles(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._column = QVBoxLayout(self)
-        self._column.setContentsMargins(0, 0, 0, 0)
-        self._column.setSpacing(4)
+        self._column = in_column(on=self, margins=0, spacing=4)
         self._shown: tuple[Trouble, ...] = ()
 
     def show_troubles(self, troubles: tuple[Trouble, ...]) -> None:
@@ -105,8 +93,7 @@ class Troubles(QWidget):
 def _frame(trouble: Trouble) -> QFrame:
     frame = QFrame()
     frame.setObjectName("question")
-    column = QVBoxLayout(frame)
-    column.setContentsMargins(8, 5, 8, 6)
+    column = in_column(on=frame, margins=(8, 5, 8, 6))
     for words in (trouble.text, trouble.remedy):
         if words:
             column.addWidget(_selectable(words))
@@ -114,8 +101,6 @@ def _frame(trouble: Trouble) -> QFrame:
 
 
 def _selectable(words: str) -> QLabel:
-    text = plain_text(wrap=True)
-    text.setProperty("quiet", False)
-    text.setText(words)
+    text = plain_text(words, quiet=False, wrap=True)
     text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return text

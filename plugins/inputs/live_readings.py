@@ -1,16 +1,17 @@
 """Live readings of a device: axis bars and button lamps."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QVBoxLayout
+from PySide6.QtWidgets import QFrame
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.labels import ElidedLabel, show_text
+from rotemina.app.widgets.labels import ElidedLabel, plain_text, show_text
+from rotemina.app.widgets.layouts import in_column, in_grid
 from rotemina.app.widgets.section import Section, clear
+from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.reading_bars import AxisBar, Lamps
 from rotemina.plugins.inputs.words import target_name
 from rotemina.sim.quantities import formatted
@@ -23,31 +24,22 @@ class AxisRow(QFrame):
 
     def __init__(self, theme: Theme, name: str) -> None:
         super().__init__()
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(6)
-        grid.setVerticalSpacing(0)
+        grid = in_grid(on=self, margins=0, spacing=(6, 0), stretched=1)
         title = ElidedLabel()
         title.show_text(name)
         title.setFixedWidth(_NAME_WIDTH)
         self.bar = AxisBar(theme, name)
-        self.numbers = QLabel("–")
-        self.numbers.setTextFormat(Qt.TextFormat.PlainText)
+        self.numbers = plain_text("–", quiet=False)
         self.numbers.setMinimumWidth(_NUMBER_WIDTH)
         self.numbers.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.numbers.setAccessibleName(
-            translate("inputs", "Axis {name}: raw, calibrated").format(name=name)
-        )
-        self.numbers.setToolTip(
-            translate("inputs", "Raw value of the device, −1 to 1, and calibrated deflection")
-        )
+        self.numbers.setAccessibleName(tr("Axis {name}: raw, calibrated").format(name=name))
+        self.numbers.setToolTip(tr("Raw value of the device, −1 to 1, and calibrated deflection"))
         self.about = ElidedLabel()
         self.about.setProperty("quiet", True)
         grid.addWidget(title, 0, 0)
         grid.addWidget(self.bar, 0, 1)
         grid.addWidget(self.numbers, 0, 2)
         grid.addWidget(self.about, 1, 0, 1, 3)
-        grid.setColumnStretch(1, 1)
 
     def show_axis(self, axis: AxisView, calibration: Calibration, stale: bool) -> None:
         """Show what the axis says; ``stale``: that is old."""
@@ -67,11 +59,10 @@ class LiveSection(Section):
     """Bars and lamps of one device."""
 
     def __init__(self, theme: Theme) -> None:
-        super().__init__(translate("inputs", "Live"))
+        super().__init__(tr("Live"))
         self._theme = theme
         self.said = self.add_text()
-        self._rows_column = QVBoxLayout()
-        self._rows_column.setSpacing(4)
+        self._rows_column = in_column(spacing=4)
         self.column.addLayout(self._rows_column)
         self.rows: dict[str, AxisRow] = {}
         self.lamps = Lamps(theme)
@@ -106,9 +97,8 @@ class LiveSection(Section):
 
 def _said(view: DeviceView, age_s: float | None) -> str:
     if age_s is not None:
-        return translate(
-            "inputs",
-            "Outdated: the devices were last read {age_s:.1f} s ago. They do not control any axis.",
+        return tr(
+            "Outdated: the devices were last read {age_s:.1f} s ago. They do not control any axis."
         ).format(age_s=age_s)
     if view.problem is not None:
         problem = spoken(view.problem)
@@ -116,5 +106,5 @@ def _said(view: DeviceView, age_s: float | None) -> str:
     return (
         ""
         if view.device.axes or view.device.buttons
-        else translate("inputs", "The device has neither axes nor buttons.")
+        else tr("The device has neither axes nor buttons.")
     )

@@ -5,9 +5,9 @@ from PySide6.QtWidgets import QGridLayout, QPushButton, QToolButton, QWidget
 
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.profile import ActionMapping
-from rotemina.app.shell.language import translate
-from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.controls import allow, named, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.number_field import NumberField
 from rotemina.plugins.inputs.profile_edits import Edited
 from rotemina.plugins.inputs.words import (
@@ -39,17 +39,14 @@ class Row(QObject):
     def __init__(self, name: str, tip: str, grid: QGridLayout) -> None:
         super().__init__()
         self.name = name
-        self._tip = tip
         self.title = ElidedLabel()
         self.title.show_text(name)
         self.title.setToolTip(plain_tip(name, tip))
-        self.control = QPushButton(NOBODY)
+        self.control = named(QPushButton(NOBODY), tr("Control of: {name}").format(name=name))
         self.control.setCheckable(True)
-        self.control.setAccessibleName(translate("inputs", "Control of: {name}").format(name=name))
         self.control.clicked.connect(lambda _: self.asked.emit())
-        self.clear = QToolButton()
+        self.clear = named(QToolButton(), tr("Clear: {name}").format(name=name))
         self.clear.setText("✕")
-        self.clear.setAccessibleName(translate("inputs", "Clear: {name}").format(name=name))
         self.clear.clicked.connect(lambda _: self.cleared.emit())
         row = grid.rowCount()
         grid.addWidget(self.title, row, 0)
@@ -60,17 +57,13 @@ class Row(QObject):
         """Show what does it; ``finding``: what to tell while its control is being found."""
         text = self._controls(edited)
         self.control.setChecked(finding is not None)
-        self.control.setText(
-            translate("inputs", "move it …") if finding is not None else text or NOBODY
-        )
-        tip = finding or translate(
-            "inputs", "Press this field, then move the control for this action"
-        )
+        self.control.setText(tr("move it …") if finding is not None else text or NOBODY)
+        tip = finding or tr("Press this field, then move the control for this action")
         self.control.setToolTip(plain_tip(self.name, text, tip))
         allow(
             self.clear,
-            None if text else translate("inputs", "not mapped"),
-            translate("inputs", "{name}: not mapped").format(name=self.name),
+            None if text else tr("not mapped"),
+            tr("{name}: not mapped").format(name=self.name),
         )
 
     def _controls(self, edited: Edited) -> str:
@@ -92,10 +85,8 @@ class TargetRow(Row):
         self.target = target
         self.inverted = QPushButton("±")
         self.inverted.setCheckable(True)
-        self.inverted.setAccessibleName(
-            translate("inputs", "Inverted: {name}").format(name=self.name)
-        )
-        self.inverted.setToolTip(translate("inputs", "Inverted: opposite to the calibration"))
+        self.inverted.setAccessibleName(tr("Inverted: {name}").format(name=self.name))
+        self.inverted.setToolTip(tr("Inverted: opposite to the calibration"))
         self.inverted.clicked.connect(lambda on: self.changed.emit(on))
         self._place_extra(grid, self.inverted)
 
@@ -111,14 +102,12 @@ class ActionRow(Row):
 
     def __init__(self, action: Action, grid: QGridLayout) -> None:
         name, tip = ACTIONS[action], ACTION_TIPS[action]
-        super().__init__(translate("inputs", name), translate("inputs", tip), grid)
+        super().__init__(tr(name), tr(tip), grid)
         self.action = action
         self.at = NumberField(
-            translate("inputs", "Threshold of: {name}").format(name=self.name),
+            tr("Threshold of: {name}").format(name=self.name),
             "%",
-            translate(
-                "inputs", "Deflection from which the axis counts as pressed, not between −10 and 10"
-            ),
+            tr("Deflection from which the axis counts as pressed, not between −10 and 10"),
             -100.0,
             100.0,
         )

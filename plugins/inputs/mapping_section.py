@@ -2,20 +2,19 @@
 
 from collections.abc import Callable
 
-from PySide6.QtWidgets import QGridLayout
-
 from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.motion.teleoperation.moved_control import Detected
 from rotemina.app.motion.teleoperation.profile import OperatorRole, Profile
 from rotemina.app.shell.engine_words import error_text, spoken
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.inputs import mark, tr
 from rotemina.plugins.inputs.control_finding import Finding
 from rotemina.plugins.inputs.mapping_rows import ActionRow, Row, TargetRow
 from rotemina.plugins.inputs.profile_edits import Edited, exchanged, threshold, turned
@@ -23,11 +22,11 @@ from rotemina.plugins.inputs.profiles import ProfileChoice
 from rotemina.plugins.inputs.words import ACTIONS, axis_targets, device_name, way_of
 from rotemina.sim.errors import InputError
 
-HINT = marked("inputs", "Press a field, then move the control for its action.")
+HINT = mark("Press a field, then move the control for its action.")
 _SEATS = {
-    marked("inputs", "Trainer"): OperatorRole.TRAINER,
-    marked("inputs", "Trainee"): OperatorRole.TRAINEE,
-    marked("inputs", "No action"): None,
+    mark("Trainer"): OperatorRole.TRAINER,
+    mark("Trainee"): OperatorRole.TRAINEE,
+    mark("No action"): None,
 }
 
 
@@ -38,7 +37,7 @@ class MappingSection(Section):
     """
 
     def __init__(self, workbench: Workbench, profiles: ProfileChoice) -> None:
-        super().__init__(translate("inputs", "Mapping"))
+        super().__init__(tr("Mapping"))
         self._workbench = workbench
         self._devices = workbench.operation.devices
         self._profiles = profiles
@@ -46,19 +45,15 @@ class MappingSection(Section):
         self._view = DevicesView()
         self._finding: Finding | None = None
         self._row: Row | None = None
-        self.seat = SteadyChoice(translate("inputs", "Seat of the device"), letters=8)
+        self.seat = SteadyChoice(tr("Seat of the device"), letters=8)
         for name, seat in _SEATS.items():
-            self.seat.addItem(translate("inputs", name), seat)
+            self.seat.addItem(tr(name), seat)
         self.seat.activated.connect(lambda _: self._choose_seat())
-        self.exchange = button(translate("inputs", "Exchange seats"), self._exchange)
+        self.exchange = button(tr("Exchange seats"), self._exchange)
         self.add_row(self.seat, self.exchange, equal=False)
         self.message = plain_text(wrap=True)  # placed where it stays in sight
-        self.message.setText(translate("inputs", HINT))
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(5)
-        grid.setVerticalSpacing(3)
-        grid.setColumnStretch(0, 1)
-        grid.setColumnStretch(1, 1)
+        self.message.setText(tr(HINT))
+        grid = in_grid(spacing=(5, 3), stretched=(0, 1))
         self.column.addLayout(grid)
         self.target_rows = {
             target: TargetRow(target, grid) for target in axis_targets(tuple(workbench.robot.axes))
@@ -93,25 +88,15 @@ class MappingSection(Section):
         if device is None:
             return
         self.heading.show_text(
-            translate("inputs", "Mapping of {device}").format(
-                device=device_name(device.device.identity)
-            )
+            tr("Mapping of {device}").format(device=device_name(device.device.identity))
         )
         self._look(now_s)
         edited = self._edited
         self.seat.select(None if edited.mapping is None else edited.mapping.seat)
         profile = self._devices.profile
         seats = {each.seat for each in profile.devices} if profile is not None else set()
-        alone = (
-            None
-            if len(seats) > 1
-            else translate("inputs", "all devices of the profile belong to one seat")
-        )
-        allow(
-            self.exchange,
-            alone,
-            translate("inputs", "Exchange the devices of trainer and trainee"),
-        )
+        alone = None if len(seats) > 1 else tr("all devices of the profile belong to one seat")
+        allow(self.exchange, alone, tr("Exchange the devices of trainer and trainee"))
         for row in self._rows:
             row.show_edited(edited, self.message.text() if row is self._row else None)
 
@@ -125,7 +110,7 @@ class MappingSection(Section):
     def cancel(self) -> None:
         """Cancel the search for a control."""
         self._finding = self._row = None
-        self._tell(translate("inputs", HINT))
+        self._tell(tr(HINT))
 
     def _ask(self, row: Row) -> None:
         again = row is self._row
@@ -146,13 +131,13 @@ class MappingSection(Section):
             self._take(row, found.detected)
         elif isinstance(row, TargetRow):
             self._tell(
-                translate("inputs", "{name}: {message}, {target}. Press again to cancel.").format(
+                tr("{name}: {message}, {target}. Press again to cancel.").format(
                     name=row.name, message=spoken(found.message), target=way_of(row.target)
                 )
             )
         else:
             self._tell(
-                translate("inputs", "{name}: {message}. Press again to cancel.").format(
+                tr("{name}: {message}. Press again to cancel.").format(
                     name=row.name, message=spoken(found.message)
                 )
             )
@@ -198,10 +183,10 @@ class MappingSection(Section):
         try:
             self._profiles.edit(change(self._edited))
         except InputError as error:
-            self._tell(translate("inputs", "Refused: {error}").format(error=error))
+            self._tell(tr("Refused: {error}").format(error=error))
             self._workbench.notify(Level.ERROR, error_text(error), about=error)
             return False
-        self._tell(translate("inputs", HINT))
+        self._tell(tr(HINT))
         return True
 
     def _tell(self, words: str) -> None:

@@ -1,25 +1,25 @@
 """The steps of measuring a device: choice of axes, rest, ends, outcome."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QWidget
 
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import plain_text, show_text
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.section import clear
+from rotemina.plugins.inputs import mark, tr
 from rotemina.plugins.inputs.calibration_progress import Calibrating, Step
 
 _TEXTS = {
-    Step.EDIT: marked(
-        "inputs",
+    Step.EDIT: mark(
         "Choose the axes to measure. Tick the ones that rest at an end, such as "
-        "triggers and pedals.",
+        "triggers and pedals."
     ),
-    Step.REST: marked("inputs", "1 of 2: release the device and do not touch it."),
-    Step.SWEEP: marked("inputs", "2 of 2: move each axis several times to both ends."),
+    Step.REST: mark("1 of 2: release the device and do not touch it."),
+    Step.SWEEP: mark("2 of 2: move each axis several times to both ends."),
 }
 
 
@@ -43,22 +43,12 @@ class Measuring(QWidget):
         self.wanted: dict[str, QCheckBox] = {}
         self.one_sided: dict[str, QCheckBox] = {}
         self.choice = QWidget()
-        self._grid = QGridLayout(self.choice)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setVerticalSpacing(2)
+        self._grid = in_grid(on=self.choice, margins=0, spacing=(-1, 2))
         self.problems = plain_text(wrap=True)
-        self.next = button(translate("inputs", "Measure …"), self._next)
-        self.cancel = button(translate("inputs", "Cancel"), self._cancel)
-        row = QHBoxLayout()
-        row.setSpacing(6)
-        row.addWidget(self.next, 1)
-        row.addWidget(self.cancel)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        for widget in (self.text, self.choice, self.problems):
-            column.addWidget(widget)
-        column.addLayout(row)
+        self.next = button(tr("Measure …"), self._next)
+        self.cancel = button(tr("Cancel"), self._cancel)
+        row = in_row((self.next, 1), self.cancel, spacing=6)
+        in_column(self.text, self.choice, self.problems, row, on=self, margins=0, spacing=4)
 
     def refresh(self, now: Calibrating, device: DeviceView, now_s: float) -> None:
         """Show where the measurement of a device is."""
@@ -67,7 +57,7 @@ class Measuring(QWidget):
             self._offer(now)
         self._device, self._now_s = device, now_s
         self.setVisible(bool(device.device.axes))
-        show_text(self.text, translate("inputs", _TEXTS[now.step]))
+        show_text(self.text, tr(_TEXTS[now.step]))
         self.choice.setVisible(now.step is Step.EDIT)
         self.cancel.setVisible(now.step is not Step.EDIT)
         self._show_problems(now)
@@ -75,7 +65,7 @@ class Measuring(QWidget):
 
     def _show_problems(self, now: Calibrating) -> None:
         problems = now.missing if now.step is Step.SWEEP else now.problems
-        lead = "" if now.step is Step.SWEEP or not problems else translate("inputs", "Unchanged:\n")
+        lead = "" if now.step is Step.SWEEP or not problems else tr("Unchanged:\n")
         show_text(
             self.problems, lead + "\n".join(map(spoken, problems.values())) if problems else ""
         )
@@ -85,28 +75,26 @@ class Measuring(QWidget):
             why = (
                 None
                 if any(box.isChecked() for box in self.wanted.values())
-                else translate("inputs", "no axis is ticked")
+                else tr("no axis is ticked")
             )
-            self.next.setText(translate("inputs", "Measure …"))
-            allow(self.next, why, translate("inputs", "Measure rest and ends of the ticked axes"))
+            self.next.setText(tr("Measure …"))
+            allow(self.next, why, tr("Measure rest and ends of the ticked axes"))
         elif now.step is Step.REST:
             left_s = now.rest_left_s(now_s)
             self.next.setText(
-                translate("inputs", "At rest: next")
+                tr("At rest: next")
                 if left_s == 0.0
-                else translate("inputs", "{left_s:.1f} s …").format(left_s=left_s)
+                else tr("{left_s:.1f} s …").format(left_s=left_s)
             )
             allow(
                 self.next,
-                None if left_s == 0.0 else translate("inputs", "measuring the noise"),
-                translate("inputs", "Continue with the ends"),
+                None if left_s == 0.0 else tr("measuring the noise"),
+                tr("Continue with the ends"),
             )
         else:
             good = len(now.ranges) and not now.missing
-            self.next.setText(
-                translate("inputs", "Done") if good else translate("inputs", "Done, without these")
-            )
-            allow(self.next, None, translate("inputs", "Use the successful measurements"))
+            self.next.setText(tr("Done") if good else tr("Done, without these"))
+            allow(self.next, None, tr("Use the successful measurements"))
 
     def _next(self) -> None:
         now, device = self._now, self._device
@@ -131,13 +119,11 @@ class Measuring(QWidget):
         clear(self._grid)
         self.wanted, self.one_sided = {}, {}
         for row, axis in enumerate(now.device.axes):
-            wanted, side = QCheckBox(axis), QCheckBox(translate("inputs", "rests at an end"))
+            wanted, side = QCheckBox(axis), QCheckBox(tr("rests at an end"))
             wanted.setChecked(axis in now.measurable)
-            wanted.setAccessibleName(translate("inputs", "Measure axis {axis}").format(axis=axis))
+            wanted.setAccessibleName(tr("Measure axis {axis}").format(axis=axis))
             side.setChecked(axis in now.one_sided)
-            side.setAccessibleName(
-                translate("inputs", "Axis {axis} rests at an end").format(axis=axis)
-            )
+            side.setAccessibleName(tr("Axis {axis} rests at an end").format(axis=axis))
             self._grid.addWidget(wanted, row, 0)
             self._grid.addWidget(side, row, 1, Qt.AlignmentFlag.AlignLeft)
             self.wanted[axis], self.one_sided[axis] = wanted, side

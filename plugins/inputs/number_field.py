@@ -3,8 +3,8 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLineEdit, QWidget
 
-from rotemina.app.shell.language import translate
 from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.plugins.inputs import tr
 from rotemina.sim.quantities import parsed, rounded
 
 
@@ -41,13 +41,9 @@ class NumberField(QLineEdit):
         super().__init__(parent)
         self._unit, self._low, self._high, self._optional = unit, low, high, optional
         self._bounds = (
-            translate("inputs", "{low:g} to {high:g} {unit}")
-            .format(low=low, high=high, unit=unit)
-            .rstrip()
+            tr("{low:g} to {high:g} {unit}").format(low=low, high=high, unit=unit).rstrip()
         )
-        self._about = f"{about}: {self._bounds}" + (
-            translate("inputs", ", or empty") if optional else ""
-        )
+        self._about = f"{about}: {self._bounds}" + (tr(", or empty") if optional else "")
         self._value: float | None = None
         self._wrong = ""
         self.setAccessibleName(f"{name}, {unit}" if unit else name)
@@ -80,13 +76,13 @@ class NumberField(QLineEdit):
             self._take(None)
         elif number is None:
             self._mark(
-                translate(
-                    "inputs", "{text!r} is not a number; enter one with a decimal point, {bounds}"
-                ).format(text=text, bounds=self._bounds)
+                tr("{text!r} is not a number; enter one with a decimal point, {bounds}").format(
+                    text=text, bounds=self._bounds
+                )
             )
         elif not self._low <= number <= self._high:
             self._mark(
-                translate("inputs", "{value} is outside {bounds}").format(
+                tr("{value} is outside {bounds}").format(
                     value=f"{text} {self._unit}".rstrip(), bounds=self._bounds
                 )
             )

@@ -6,25 +6,22 @@ from enum import StrEnum
 
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QHideEvent
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QPushButton,
-    QTabBar,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QPushButton, QTabBar, QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.panel import STALE_S, Area, Panel
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
+from rotemina.plugins.inputs import mark, tr
 from rotemina.plugins.inputs.calibration_section import CalibrationSection
 from rotemina.plugins.inputs.device_list import DeviceList, Troubles
 from rotemina.plugins.inputs.live_readings import LiveSection
@@ -39,9 +36,9 @@ _MOST_HEARD = 2000  # steps between two frames: some seconds
 class Page(StrEnum):
     """What is in sight while the devices are set up."""
 
-    DEVICES = marked("inputs", "Devices")
-    MAPPING = marked("inputs", "Mapping")
-    CALIBRATION = marked("inputs", "Calibration")
+    DEVICES = mark("Devices")
+    MAPPING = mark("Mapping")
+    CALIBRATION = mark("Calibration")
 
 
 class InputsPanel(Panel):
@@ -73,19 +70,16 @@ class InputsPanel(Panel):
         bench = self.workbench
         self.headline = plain_text(wrap=True)
         self.banner = plain_text(wrap=True)
-        self.banner.setText(translate("inputs", NOTHING_SENT))
+        self.banner.setText(tr(NOTHING_SENT))
         set_tone(self.banner, Tone.WARNING)
-        self.set_up = QPushButton(translate("inputs", "Set up …"))
+        self.set_up = QPushButton(tr("Set up …"))
         self.set_up.setCheckable(True)
-        self.set_up.setToolTip(
-            translate("inputs", "Map and calibrate; meanwhile only stops are sent")
-        )
+        self.set_up.setToolTip(tr("Map and calibrate; meanwhile only stops are sent"))
         self.set_up.toggled.connect(self._toggle)
-        self.tabs = QTabBar()
-        self.tabs.setAccessibleName(translate("inputs", "Section of the set-up"))
+        self.tabs = named(QTabBar(), tr("Section of the set-up"))
         self.tabs.setDrawBase(False)
         for page in Page:
-            self.tabs.addTab(translate("inputs", page))
+            self.tabs.addTab(tr(page))
         self.tabs.currentChanged.connect(lambda _: self._turn())
         self.troubles = Troubles()
         self.list = DeviceList()
@@ -96,29 +90,13 @@ class InputsPanel(Panel):
         self.calibration: CalibrationSection | None = None
 
     def _lay_out(self) -> None:
-        self._head = head = QVBoxLayout()
-        head.setContentsMargins(10, 8, 10, 4)
-        head.setSpacing(6)
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(self.headline, 1)
-        row.addWidget(self.set_up)
-        head.addWidget(self.banner)
-        head.addLayout(row)
-        head.addWidget(self.tabs)
+        row = in_row((self.headline, 1), self.set_up, spacing=8)
+        self._head = in_column(self.banner, row, self.tabs, margins=(10, 8, 10, 4), spacing=6)
         content = QWidget()
-        self._column = column = QVBoxLayout(content)
-        column.setContentsMargins(10, 0, 10, 8)
-        column.setSpacing(4)
-        for part in (self.list, self.live, self.troubles, self.profile):
-            column.addWidget(part)
-        column.addStretch(1)
+        parts = self.list, self.live, self.troubles, self.profile
+        self._column = in_column(*parts, 1, on=content, margins=(10, 0, 10, 8), spacing=4)
         self._scroll = scrolled(content)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
-        outer.addLayout(head)
-        outer.addWidget(self._scroll, 1)
+        in_column(self._head, (self._scroll, 1), on=self, margins=0, spacing=0)
         self._show_page(None)
         self._widen()
 
@@ -216,9 +194,7 @@ class InputsPanel(Panel):
         super().hideEvent(event)
 
     def _toggle(self, on: bool) -> None:
-        self.set_up.setText(
-            translate("inputs", "Leave the set-up") if on else translate("inputs", "Set up …")
-        )
+        self.set_up.setText(tr("Leave the set-up") if on else tr("Set up …"))
         if on:
             self.tabs.setCurrentIndex(list(Page).index(Page.MAPPING))
             self._snapshots.clear()

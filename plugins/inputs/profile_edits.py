@@ -18,7 +18,7 @@ from rotemina.app.motion.teleoperation.profile import (
     ProfileError,
 )
 from rotemina.app.motion.teleoperation.profile_check import PluggedDevice, assigned
-from rotemina.app.shell.language import translate
+from rotemina.plugins.inputs import tr
 
 AT = 0.5  # from where on a detected axis counts as pressed, of its deflection
 LEAST_AT = 0.1
@@ -94,10 +94,9 @@ class Edited:
         """
         if not LEAST_AT <= abs(at) <= 1.0:
             raise ProfileError(
-                translate(
-                    "inputs",
+                tr(
                     "{action}: the threshold of {percent:g} % of the deflection must be "
-                    "{least:g} to 100 % in either direction",
+                    "{least:g} to 100 % in either direction"
                 ).format(action=action, percent=100 * at, least=100 * LEAST_AT)
             )
 
@@ -132,10 +131,9 @@ class Edited:
         kept = tuple(each for each in self._profile.devices if each is not self.mapping)
         if not kept:
             raise ProfileError(
-                translate(
-                    "inputs",
+                tr(
                     "profile {profile!r} would have no device; map another device first, or "
-                    "choose another profile",
+                    "choose another profile"
                 ).format(profile=self._profile.name)
             )
         return replace(self._profile, devices=kept)

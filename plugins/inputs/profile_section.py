@@ -1,55 +1,47 @@
 """Choice of the profile in use; saving a changed one."""
 
 from PySide6.QtGui import QStandardItemModel
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QLineEdit, QToolButton, QWidget
 
 from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.labels import show_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.inputs import mark, tr
 from rotemina.plugins.inputs.profiles import AUTOMATIC, Offer, ProfileChoice
 
-_FIRST = marked("inputs", "save or discard the changes first")
+_FIRST = mark("save or discard the changes first")
 
 
 class ProfileSection(Section):
     """The choice of a profile and, while input devices are set up, what becomes of changes."""
 
     def __init__(self, workbench: Workbench, profiles: ProfileChoice) -> None:
-        super().__init__(translate("inputs", "Profile"))
+        super().__init__(tr("Profile"))
         self._workbench = workbench
         self.profiles = profiles
-        self.choice = SteadyChoice(translate("inputs", "Profile"), letters=8)
+        self.choice = SteadyChoice(tr("Profile"), letters=8)
         self.again = QToolButton()
         self.again.setText("⟳")
-        self.again.setAccessibleName(translate("inputs", "Refresh the profiles"))
-        self.again.setToolTip(translate("inputs", "Read the folder of profiles again"))
+        self.again.setAccessibleName(tr("Refresh the profiles"))
+        self.again.setToolTip(tr("Read the folder of profiles again"))
         self.add_row(self.choice, self.again, equal=False)
         self.state = self.add_text()
         self.name = QLineEdit()
-        self.name.setAccessibleName(translate("inputs", "Name of the profile"))
-        self.name.setToolTip(
-            translate("inputs", "Letters, digits, blanks and ( ) . , + - _; at most 60")
-        )
+        self.name.setAccessibleName(tr("Name of the profile"))
+        self.name.setToolTip(tr("Letters, digits, blanks and ( ) . , + - _; at most 60"))
         self.name.setMaxLength(60)
-        self.save = button(translate("inputs", "Save"), self._ask_save)
-        self.save.setToolTip(
-            translate("inputs", "Save the profile under this name and use it from now on")
-        )
-        self.discard = button(translate("inputs", "Discard"), self._discard)
-        self.discard.setToolTip(translate("inputs", "Discard the changes of the profile"))
+        self.save = button(tr("Save"), self._ask_save)
+        self.save.setToolTip(tr("Save the profile under this name and use it from now on"))
+        self.discard = button(tr("Discard"), self._discard)
+        self.discard.setToolTip(tr("Discard the changes of the profile"))
         self.keeping = QWidget()
-        row = QHBoxLayout(self.keeping)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(6)
-        row.addWidget(self.name, 1)
-        row.addWidget(self.save)
-        row.addWidget(self.discard)
+        in_row((self.name, 1), self.save, self.discard, on=self.keeping, margins=0, spacing=6)
         self.column.addWidget(self.keeping)
         self.question = Question()
         self.column.addWidget(self.question)
@@ -66,9 +58,7 @@ class ProfileSection(Section):
         self._fill(profiles.offers)
         self.choice.select(profiles.chosen)
         allow(
-            self.choice,
-            translate("inputs", _FIRST) if profiles.changed else None,
-            translate("inputs", "Functions of the controls"),
+            self.choice, tr(_FIRST) if profiles.changed else None, tr("Functions of the controls")
         )
         show_text(self.state, _state(view, profiles))
         self.keeping.setVisible(view.setting_up)
@@ -77,17 +67,11 @@ class ProfileSection(Section):
             return
         self._suggest()
         nothing = (
-            None
-            if view.profile is not None
-            else translate("inputs", "there is no profile: map a control first")
+            None if view.profile is not None else tr("there is no profile: map a control first")
         )
-        allow(
-            self.save,
-            nothing,
-            translate("inputs", "Save the profile under this name and use it from now on"),
-        )
-        unchanged = None if profiles.changed else translate("inputs", "nothing was changed")
-        allow(self.discard, unchanged, translate("inputs", "Discard the changes of the profile"))
+        allow(self.save, nothing, tr("Save the profile under this name and use it from now on"))
+        unchanged = None if profiles.changed else tr("nothing was changed")
+        allow(self.discard, unchanged, tr("Discard the changes of the profile"))
 
     def _suggest(self) -> None:
         """Write a name, unless someone has written one."""
@@ -118,8 +102,8 @@ class ProfileSection(Section):
     def _ask_save(self) -> None:
         name = self.name.text().strip()
         if name != self.profiles.chosen and self.profiles.exists(name):
-            asked = translate("inputs", "Profile {name!r} already exists. Overwrite it?")
-            self.question.ask(asked.format(name=name), translate("inputs", "Overwrite"), self._save)
+            asked = tr("Profile {name!r} already exists. Overwrite it?")
+            self.question.ask(asked.format(name=name), tr("Overwrite"), self._save)
         else:
             self._save()
 
@@ -129,8 +113,7 @@ class ProfileSection(Section):
         if self._workbench.ask(lambda: self.profiles.save(name)):
             self._suggested = name
             self._workbench.notify(
-                Level.GOOD,
-                translate("inputs", "Input devices: profile {name!r} is saved.").format(name=name),
+                Level.GOOD, tr("Input devices: profile {name!r} is saved.").format(name=name)
             )
 
     def _discard(self) -> None:
@@ -139,15 +122,10 @@ class ProfileSection(Section):
 
 def _state(view: DevicesView, profiles: ProfileChoice) -> str:
     if profiles.changed:
-        where = (
-            translate("inputs", "save it")
-            if view.setting_up
-            else translate("inputs", "set up, and save it")
-        )
-        return translate(
-            "inputs",
-            "Changed, but not saved: {where}, or the change is lost when the program ends.",
+        where = tr("save it") if view.setting_up else tr("set up, and save it")
+        return tr(
+            "Changed, but not saved: {where}, or the change is lost when the program ends."
         ).format(where=where)
     if profiles.chosen == AUTOMATIC and view.profile is not None:
-        return translate("inputs", "In use: {name}").format(name=spoken(view.profile.name))
+        return tr("In use: {name}").format(name=spoken(view.profile.name))
     return ""

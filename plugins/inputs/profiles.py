@@ -9,7 +9,7 @@ from rotemina.app.motion.teleoperation.profile import ListedProfile, Profile, Pr
 from rotemina.app.motion.teleoperation.profile_check import check_profile
 from rotemina.app.settings import Settings
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.language import translate
+from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.words import device_name
 
 SETTING = "inputs.profile"
@@ -67,9 +67,9 @@ class ProfileChoice:
         try:
             self._use(name)
         except ProfileError as error:
-            return translate(
-                "inputs", "Input devices: {error}. An automatic profile is used instead."
-            ).format(error=error)
+            return tr("Input devices: {error}. An automatic profile is used instead.").format(
+                error=error
+            )
         return None
 
     def look(self) -> tuple[Offer, ...]:
@@ -81,7 +81,7 @@ class ProfileChoice:
     def offers(self) -> tuple[Offer, ...]:
         """What can be chosen, as of the latest look."""
         kept = [self._offer(name, listed) for name, listed in self._listed.items()]
-        return (Offer(AUTOMATIC, translate("inputs", "Automatic")), *kept)
+        return (Offer(AUTOMATIC, tr("Automatic")), *kept)
 
     def choose(self, name: str) -> None:
         """Use a kept profile, or an automatic one, and remember that.
@@ -136,9 +136,7 @@ class ProfileChoice:
         """
         profile = self._devices.profile
         if profile is None:
-            raise ProfileError(
-                translate("inputs", "there is no profile to save: map a control first")
-            )
+            raise ProfileError(tr("there is no profile to save: map a control first"))
         named = _named(profile, name)
         path = self._devices.keep(named)
         self.look()
@@ -154,7 +152,7 @@ class ProfileChoice:
         for one in self._devices.view.devices:
             if one.drives:
                 return plain_name(device_name(one.device.identity))
-        return translate("inputs", "Profile")
+        return tr("Profile")
 
     def _use(self, name: str) -> None:
         if name == AUTOMATIC:
@@ -163,31 +161,22 @@ class ProfileChoice:
             self.look()
             listed = self._listed.get(name)
             if listed is None:
-                raise ProfileError(
-                    translate("inputs", "there is no profile {name!r} any more").format(name=name)
-                )
+                raise ProfileError(tr("there is no profile {name!r} any more").format(name=name))
             if listed.profile is None:
                 raise ProfileError(
-                    listed.problem
-                    or translate("inputs", "{file}: cannot be read").format(file=listed.path)
+                    listed.problem or tr("{file}: cannot be read").format(file=listed.path)
                 )
             self._devices.use(listed.profile)
         self.chosen, self.changed = name, False
 
     def _offer(self, name: str, listed: ListedProfile) -> Offer:
         if listed.profile is None:
-            return Offer(
-                name,
-                translate("inputs", "{name} – cannot be used").format(name=name),
-                listed.problem,
-            )
+            return Offer(name, tr("{name} – cannot be used").format(name=name), listed.problem)
         try:
             check_profile(listed.profile, self._robot_axes)
         except ProfileError as error:
             return Offer(
-                name,
-                translate("inputs", "{name} – not for this robot").format(name=name),
-                error_text(error),
+                name, tr("{name} – not for this robot").format(name=name), error_text(error)
             )
         return Offer(name, name)
 
@@ -196,7 +185,7 @@ def plain_name(name: str) -> str:
     """Return a name that a profile may have, as near to this one as can be."""
     plain = re.sub(r"[^\w ().,+-]+", " ", name)
     plain = re.sub(r"\s+", " ", plain)[:_LETTERS].strip(" ().,+-")
-    return plain or translate("inputs", "Profile")
+    return plain or tr("Profile")
 
 
 def _named(profile: Profile, name: str) -> Profile:
@@ -204,9 +193,8 @@ def _named(profile: Profile, name: str) -> Profile:
         return replace(profile, name=name)
     except ValueError as error:  # pydantic's, which tells several lines
         raise ProfileError(
-            translate(
-                "inputs",
+            tr(
                 "{name!r} cannot be the name of a profile: it must begin with a letter or "
-                "digit and have at most 60 letters, digits, blanks and ( ) . , + - _",
+                "digit and have at most 60 letters, digits, blanks and ( ) . , + - _"
             ).format(name=name)
         ) from error

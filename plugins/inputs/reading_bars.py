@@ -5,9 +5,9 @@ from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent, QPen, QPoly
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from rotemina.app.motion.teleoperation.axis_calibration import AxisCalibration
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.words import control_name
 
 _BAR_HEIGHT = 18
@@ -27,13 +27,12 @@ class AxisBar(QWidget):
         self._calibration = AxisCalibration()
         self.setFixedHeight(_BAR_HEIGHT)
         self.setMinimumWidth(60)
-        self.setAccessibleName(translate("inputs", "Axis {name}").format(name=name))
+        self.setAccessibleName(tr("Axis {name}").format(name=name))
         self.setToolTip(
             plain_tip(
-                translate(
-                    "inputs",
+                tr(
                     "{name}: raw value of the device (thin) and calibrated deflection (thick), "
-                    "−100 % to 100 %; the dead zone is shaded",
+                    "−100 % to 100 %; the dead zone is shaded"
                 ).format(name=name)
             )
         )
@@ -98,7 +97,7 @@ class Lamps(QWidget):
         policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
-        self.setAccessibleName(translate("inputs", "Buttons"))
+        self.setAccessibleName(tr("Buttons"))
 
     def set_theme(self, theme: Theme) -> None:
         """Change the colours."""
@@ -113,11 +112,7 @@ class Lamps(QWidget):
         if lit != self._lit:
             self._lit = lit
             held = ", ".join(control_name(name) for name in names if name in lit)
-            self.setAccessibleDescription(
-                translate("inputs", "Pressed: {held}").format(
-                    held=held or translate("inputs", "none")
-                )
-            )
+            self.setAccessibleDescription(tr("Pressed: {held}").format(held=held or tr("none")))
         self.update()
 
     def heightForWidth(self, width: int) -> int:  # noqa: N802 (Qt's name)
@@ -178,11 +173,9 @@ class Curve(QWidget):
         self._calibration = AxisCalibration()
         self._raw: float | None = None
         self.setFixedHeight(_CURVE_HEIGHT)
-        self.setAccessibleName(translate("inputs", "Response curve"))
+        self.setAccessibleName(tr("Response curve"))
         self.setToolTip(
-            translate(
-                "inputs", "Horizontal: raw value of the device; vertical: the resulting deflection"
-            )
+            tr("Horizontal: raw value of the device; vertical: the resulting deflection")
         )
 
     def set_theme(self, theme: Theme) -> None:

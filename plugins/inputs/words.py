@@ -11,61 +11,47 @@ from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.profile import OperatorRole
 from rotemina.app.motion.teleoperation.profile_check import DEGREES_OF_FREEDOM
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.inputs.device import InputIdentity
 from rotemina.drivers.inputs.hub import InputHub
+from rotemina.plugins.inputs import mark, tr
 from rotemina.sim.quantities import fixed
 
-NOTHING_SENT = marked("inputs", "During set-up only stops are sent to the robot.")
+NOTHING_SENT = mark("During set-up only stops are sent to the robot.")
 ACTIONS = {
-    Action.STOP: marked("inputs", "Stop"),
-    Action.EMERGENCY_STOP: marked("inputs", "Stop and lock"),
-    Action.DEAD_MAN: marked("inputs", "Dead-man"),
-    Action.CLUTCH: marked("inputs", "Clutch"),
-    Action.FINE: marked("inputs", "Fine"),
-    Action.COARSE: marked("inputs", "Coarse"),
-    Action.STAGE: marked("inputs", "Next mode"),
-    Action.LAW: marked("inputs", "Next law"),
-    Action.STEP_PRESET: marked("inputs", "Next preset"),
-    Action.RECENTRE: marked("inputs", "Re-centre"),
-    Action.PENETRATION: marked("inputs", "Penetration"),
-    Action.TOOL: marked("inputs", "Tool on/off"),
-    Action.TAKE_OVER: marked("inputs", "Take over"),
+    Action.STOP: mark("Stop"),
+    Action.EMERGENCY_STOP: mark("Stop and lock"),
+    Action.DEAD_MAN: mark("Dead-man"),
+    Action.CLUTCH: mark("Clutch"),
+    Action.FINE: mark("Fine"),
+    Action.COARSE: mark("Coarse"),
+    Action.STAGE: mark("Next mode"),
+    Action.LAW: mark("Next law"),
+    Action.STEP_PRESET: mark("Next preset"),
+    Action.RECENTRE: mark("Re-centre"),
+    Action.PENETRATION: mark("Penetration"),
+    Action.TOOL: mark("Tool on/off"),
+    Action.TAKE_OVER: mark("Take over"),
 }
 ACTION_TIPS = {
-    Action.STOP: marked("inputs", "Stop all axes; works from every device at any time"),
-    Action.EMERGENCY_STOP: marked(
-        "inputs", "Stop all axes and lock; works from every device at any time"
-    ),
-    Action.DEAD_MAN: marked("inputs", "The stick acts only while this is pressed"),
-    Action.CLUTCH: marked("inputs", "While this is pressed, the stick moves without the robot"),
-    Action.FINE: marked("inputs", "A tenth of the scale while this is pressed"),
-    Action.COARSE: marked("inputs", "Ten times the scale while this is pressed"),
-    Action.STAGE: marked("inputs", "Next control mode: micro, nano and so on"),
-    Action.LAW: marked("inputs", "Next scaling law"),
-    Action.STEP_PRESET: marked("inputs", "Next scale preset"),
-    Action.RECENTRE: marked("inputs", "Move the piezos back to mid-range"),
-    Action.PENETRATION: marked("inputs", "Start or stop the automatic penetration"),
-    Action.TOOL: marked("inputs", "Tool on or off"),
-    Action.TAKE_OVER: marked("inputs", "This seat takes over control"),
+    Action.STOP: mark("Stop all axes; works from every device at any time"),
+    Action.EMERGENCY_STOP: mark("Stop all axes and lock; works from every device at any time"),
+    Action.DEAD_MAN: mark("The stick acts only while this is pressed"),
+    Action.CLUTCH: mark("While this is pressed, the stick moves without the robot"),
+    Action.FINE: mark("A tenth of the scale while this is pressed"),
+    Action.COARSE: mark("Ten times the scale while this is pressed"),
+    Action.STAGE: mark("Next control mode: micro, nano and so on"),
+    Action.LAW: mark("Next scaling law"),
+    Action.STEP_PRESET: mark("Next scale preset"),
+    Action.RECENTRE: mark("Move the piezos back to mid-range"),
+    Action.PENETRATION: mark("Start or stop the automatic penetration"),
+    Action.TOOL: mark("Tool on or off"),
+    Action.TAKE_OVER: mark("This seat takes over control"),
 }
-_WAYS = {
-    "x": marked("inputs", "to the right (+x)"),
-    "y": marked("inputs", "away from you (+y)"),
-    "z": marked("inputs", "upwards (+z)"),
-}
-_SEATS = {
-    OperatorRole.TRAINER: marked("inputs", "trainer"),
-    OperatorRole.TRAINEE: marked("inputs", "trainee"),
-}
+_WAYS = {"x": mark("to the right (+x)"), "y": mark("away from you (+y)"), "z": mark("upwards (+z)")}
+_SEATS = {OperatorRole.TRAINER: mark("trainer"), OperatorRole.TRAINEE: mark("trainee")}
 #: What the pad on the screen and its buttons are called.
-_PAD = ("keys", marked("inputs", "pad"))  # source and name
-_PAD_BUTTONS = (
-    marked("inputs", "clutch"),
-    marked("inputs", "fine"),
-    marked("inputs", "coarse"),
-    marked("inputs", "take_over"),
-)
+_PAD = ("keys", mark("pad"))  # source and name
+_PAD_BUTTONS = (mark("clutch"), mark("fine"), mark("coarse"), mark("take_over"))
 _HID = re.compile(r"hid:([0-9a-f]{4}):([0-9a-f]{4}):")
 
 
@@ -103,37 +89,33 @@ def axis_targets(robot_axes: Collection[str]) -> tuple[str, ...]:
 def target_name(target: str) -> str:
     """Return what an axis drives, as a row of the mapping is called."""
     name = label(target)
-    return (
-        translate("inputs", "Stick {name}").format(name=name)
-        if target in DEGREES_OF_FREEDOM
-        else name
-    )
+    return tr("Stick {name}").format(name=name) if target in DEGREES_OF_FREEDOM else name
 
 
 def control_name(control: str) -> str:
     """Return what a control is called on the screen: the pad's buttons by what they do."""
-    return translate("inputs", control) if control in _PAD_BUTTONS else control
+    return tr(control) if control in _PAD_BUTTONS else control
 
 
 def device_name(identity: InputIdentity) -> str:
     """Return how an operator calls a device: the pad on the screen by what it is."""
     pad = (identity.source, identity.name) == _PAD
-    return translate("inputs", identity.name) if pad else identity.name
+    return tr(identity.name) if pad else identity.name
 
 
 def target_tip(target: str) -> str:
     """Return what that means for the robot."""
     if target in DEGREES_OF_FREEDOM:
-        axes = translate("inputs", " or ").join(label(axis) for axis in DEGREES_OF_FREEDOM[target])
-        return translate("inputs", "Moves {axes}, depending on the control mode").format(axes=axes)
-    return translate("inputs", "Moves {target} directly in any mode").format(target=label(target))
+        axes = tr(" or ").join(label(axis) for axis in DEGREES_OF_FREEDOM[target])
+        return tr("Moves {axes}, depending on the control mode").format(axes=axes)
+    return tr("Moves {target} directly in any mode").format(target=label(target))
 
 
 def way_of(target: str) -> str:
     """Return which way a stick is to be moved for an axis to grow."""
     if target in _WAYS:
-        return translate("inputs", _WAYS[target])
-    return translate("inputs", "the direction of increasing {target}").format(target=label(target))
+        return tr(_WAYS[target])
+    return tr("the direction of increasing {target}").format(target=label(target))
 
 
 def entries(view: DevicesView, hub: InputHub) -> tuple[Entry, ...]:
@@ -144,7 +126,7 @@ def entries(view: DevicesView, hub: InputHub) -> tuple[Entry, ...]:
     open_keys = {one.key for one in there}
     problems = hub.problems
     closed = [
-        Entry(one.key, one.name, translate("inputs", "cannot be used"), problems[one.key])
+        Entry(one.key, one.name, tr("cannot be used"), problems[one.key])
         for one in hub.devices
         if one.key not in open_keys and one.key in problems
     ]
@@ -179,24 +161,24 @@ def udev_rule(key: str) -> str | None:
 def headline(view: DevicesView, wrong: int) -> str:
     """Return who drives, and how much is ``wrong``."""
     if view.setting_up:
-        return translate("inputs", "Set-up: no device controls the robot.")
-    problems = {0: "", 1: translate("inputs", "One problem, see below.")}.get(
-        wrong, translate("inputs", "{wrong} problems, see below.").format(wrong=wrong)
+        return tr("Set-up: no device controls the robot.")
+    problems = {0: "", 1: tr("One problem, see below.")}.get(
+        wrong, tr("{wrong} problems, see below.").format(wrong=wrong)
     )
     return f"{_drivers(view)} {problems}".rstrip()
 
 
 def _drivers(view: DevicesView) -> str:
     if not view.devices:
-        return translate("inputs", "No input device is connected.")
+        return tr("No input device is connected.")
     driving = [one for one in view.devices if one.drives]
-    names = translate("inputs", " and ").join(device_name(one.device.identity) for one in driving)
+    names = tr(" and ").join(device_name(one.device.identity) for one in driving)
     two = len({one.seat for one in view.devices if one.seat is not None}) > 1
     seat = f" ({_seat(view.driving)})" if two else ""
     return (
-        translate("inputs", "{names} may control the robot{seat}.").format(names=names, seat=seat)
+        tr("{names} may control the robot{seat}.").format(names=names, seat=seat)
         if names
-        else translate("inputs", "No device of the controlling seat is connected.")
+        else tr("No device of the controlling seat is connected.")
     )
 
 
@@ -209,7 +191,7 @@ def control_text(controls: Mapping[str, float | None]) -> str:
 
 
 def _seat(seat: OperatorRole) -> str:
-    return translate("inputs", _SEATS[seat])
+    return tr(_SEATS[seat])
 
 
 def _entry(one: DeviceView, view: DevicesView) -> Entry:
@@ -219,22 +201,20 @@ def _entry(one: DeviceView, view: DevicesView) -> Entry:
 
 def _standing(one: DeviceView, view: DevicesView) -> str:
     if one.problem is not None:
-        return translate("inputs", "cannot be used")
+        return tr("cannot be used")
     if one.seat is None:
-        return translate("inputs", "not in the profile")
+        return tr("not in the profile")
     if view.setting_up:
-        return translate("inputs", "{seat}, being set up").format(seat=_seat(one.seat))
+        return tr("{seat}, being set up").format(seat=_seat(one.seat))
     if not one.drives:
         return (
-            translate("inputs", "trainee, watching")
+            tr("trainee, watching")
             if one.seat is OperatorRole.TRAINEE
-            else translate("inputs", "trainer, may take over")
+            else tr("trainer, may take over")
         )
     waiting = [axis.control for axis in one.axes if axis.drives and axis.reason is not None]
     return (
-        translate("inputs", "{seat}, waiting for {waiting}").format(
-            seat=_seat(one.seat), waiting=", ".join(waiting)
-        )
+        tr("{seat}, waiting for {waiting}").format(seat=_seat(one.seat), waiting=", ".join(waiting))
         if waiting
-        else translate("inputs", "{seat}, in control").format(seat=_seat(one.seat))
+        else tr("{seat}, in control").format(seat=_seat(one.seat))
     )

@@ -3,16 +3,7 @@
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QFrame,
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QProgressBar,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QPushButton, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.playback import PlaybackPhase
@@ -21,10 +12,11 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.gap_words import RUN, size, small_print
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Run, Workbench
-from rotemina.app.widgets.controls import allow, fill, plain_tip
-from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.controls import allow, fill, named, plain_tip
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
-from rotemina.plugins.job import words
+from rotemina.plugins.job import tr, words
 from rotemina.plugins.job.words import Running
 from rotemina.plugins.trajectory.playback_controls import against_playing, play_word
 from rotemina.sim.records.record import Tap
@@ -44,17 +36,11 @@ class Card(QFrame):
         for quiet in (self.kind, self.doing):
             quiet.setProperty("quiet", True)
         self.name.setProperty("heading", True)
-        self.bar = QProgressBar()
+        self.bar = named(QProgressBar(), kind)
         self.bar.setRange(0, _STEPS)
         self.bar.setTextVisible(False)
-        self.bar.setAccessibleName(kind)
-        self._buttons = QHBoxLayout()
-        self._buttons.setSpacing(6)
-        self._buttons.addStretch(1)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(2, 4, 2, 6)
-        grid.setVerticalSpacing(3)
-        grid.setColumnStretch(0, 1)
+        self._buttons = in_row(1, spacing=6)
+        grid = in_grid(on=self, margins=(2, 4, 2, 6), spacing=(-1, 3), stretched=0)
         grid.addWidget(self.kind, 0, 0)
         grid.addWidget(self.time, 0, 1)
         for row, widget in enumerate((self.name, self.doing, self.bar), start=1):
@@ -93,37 +79,24 @@ class ResultView(QFrame):
     def __init__(self, bring_up: Callable[[str], object]) -> None:
         super().__init__()
         self.setObjectName("section")
-        heading = QLabel(translate("shell", RUN))
-        heading.setProperty("quiet", True)
+        heading = plain_text(translate("shell", RUN))
         self.name = ElidedLabel()
         self.name.setProperty("heading", True)
-        self.gaps = QGridLayout()
-        self.gaps.setHorizontalSpacing(12)
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
+        self.gaps = in_grid(spacing=(12, -1))
+        buttons = in_row(1)
         for text, tip, panel in (
             (
-                translate("job", "Compare"),
-                translate("job", "Compare model and machine in this run, axis by axis"),
+                tr("Compare"),
+                tr("Compare model and machine in this run, axis by axis"),
                 "comparison",
             ),
-            (
-                translate("job", "Diagnose"),
-                translate("job", "Find the effects that explain the gap"),
-                "gap",
-            ),
+            (tr("Diagnose"), tr("Find the effects that explain the gap"), "gap"),
         ):
             button = QPushButton(text)
             button.setToolTip(plain_tip(tip))
             button.clicked.connect(lambda _=False, panel=panel: bring_up(panel))
             buttons.addWidget(button)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(2, 4, 2, 6)
-        column.setSpacing(3)
-        for widget in (heading, self.name):
-            column.addWidget(widget)
-        column.addLayout(self.gaps)
-        column.addLayout(buttons)
+        in_column(heading, self.name, self.gaps, buttons, on=self, margins=(2, 4, 2, 6), spacing=3)
         self.hide()
 
     def show_run(self, run: Run) -> None:
@@ -155,50 +128,39 @@ class JobPanel(Panel):
         self._make_others()
         self.result = ResultView(self._bring_up)
         cards = QWidget()
-        column = QVBoxLayout(cards)
-        column.setContentsMargins(8, 4, 8, 4)
-        column.setSpacing(4)
-        for card in (self.playback, self.penetration, self.motion, self.recording, self.result):
-            column.addWidget(card)
-        column.addStretch(1)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.addWidget(scrolled(cards))
+        parts = self.playback, self.penetration, self.motion, self.recording, self.result, 1
+        in_column(*parts, on=cards, margins=(8, 4, 8, 4), spacing=4)
+        in_column(scrolled(cards), on=self, margins=0)
         self.follow(self.refresh)
         workbench.run_changed.connect(self.result.show_run)
 
     def _make_playback(self) -> None:
         bench = self.workbench
-        self.playback = Card(translate("job", "Trajectory"))
+        self.playback = Card(tr("Trajectory"))
         self.load = self.playback.add_button(
-            translate("job", "Load …"),
-            translate("job", "Choose a trajectory file; a dry run checks it first"),
+            tr("Load …"),
+            tr("Choose a trajectory file; a dry run checks it first"),
             lambda: self.main_window.ask_trajectory(),
         )
         self.end = self.playback.add_button(
-            translate("job", "End"),
-            translate("job", "Stop; the next playback starts from the beginning"),
-            bench.end_playback,
+            tr("End"), tr("Stop; the next playback starts from the beginning"), bench.end_playback
         )
         self.play = self.playback.add_button("", "", bench.toggle_playback)
         self.play.setProperty("primary", True)
 
     def _make_others(self) -> None:
-        stop, held = (
-            translate("job", "Stop"),
-            translate("job", "Stop all axes and hold their positions (Esc)"),
-        )
-        show = translate("job", "Show"), translate("job", "Bring its panel to the front")
-        self.penetration = Card(translate("job", "Penetration"))
+        stop, held = tr("Stop"), tr("Stop all axes and hold their positions (Esc)")
+        show = tr("Show"), tr("Bring its panel to the front")
+        self.penetration = Card(tr("Penetration"))
         self.penetration.add_button(*show, lambda: self._bring_up("penetration"))
-        self.motion = Card(translate("job", "Motion"))
+        self.motion = Card(tr("Motion"))
         for card in (self.penetration, self.motion):
             card.add_button(stop, held, self.workbench.stop)
-        self.recording = Card(translate("job", "Recording"))
+        self.recording = Card(tr("Recording"))
         self.recording.add_button(*show, lambda: self._bring_up("recorder"))
         self.end_recording = self.recording.add_button(
-            translate("job", "End recording"),
-            translate("job", "Save the recording in one file; motion continues"),
+            tr("End recording"),
+            tr("Save the recording in one file; motion continues"),
             self._end_recording,
         )
 
@@ -231,9 +193,7 @@ class JobPanel(Panel):
         allow(
             self.play,
             None if playing else against_playing(bench, state),
-            translate(
-                "job", "Play, pause or resume (Ctrl+P); the axes first move to the first row"
-            ),
+            tr("Play, pause or resume (Ctrl+P); the axes first move to the first row"),
         )
 
     def _end_recording(self) -> None:
@@ -245,7 +205,7 @@ class JobPanel(Panel):
 
         def done() -> None:
             self.end_recording.setEnabled(True)
-            text = translate("job", "Saved the recording {path}").format(path=path)
+            text = tr("Saved the recording {path}").format(path=path)
             self.workbench.notify(Level.GOOD, text)
 
         self.workbench.finish_recording(done, lambda: self.end_recording.setEnabled(True))

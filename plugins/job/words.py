@@ -9,9 +9,9 @@ from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
 from rotemina.app.motion.playback import PlaybackPhase, PlaybackState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import driven
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.job import tr
 from rotemina.plugins.penetration.words import headline
 
 
@@ -36,14 +36,14 @@ class Running(NamedTuple):
 def playback(state: PlaybackState, name: str) -> Running:
     """Return the state of a playback, or that ``name`` is ready to be played."""
     if not name:
-        return Running(translate("job", "No trajectory is loaded"))
+        return Running(tr("No trajectory is loaded"))
     if state.phase is PlaybackPhase.IDLE:
-        return Running(name, translate("job", "loaded"))
-    row = translate("job", "row {row} of {rows}").format(row=max(state.row, 0) + 1, rows=state.rows)
+        return Running(name, tr("loaded"))
+    row = tr("row {row} of {rows}").format(row=max(state.row, 0) + 1, rows=state.rows)
     if state.phase is PlaybackPhase.PAUSED:
-        row = translate("job", "paused, {row}").format(row=row)
+        row = tr("paused, {row}").format(row=row)
     left_s = (state.duration_s - state.path_s) / state.speed
-    left = translate("job", "{time} left").format(time=duration_text(left_s))
+    left = tr("{time} left").format(time=duration_text(left_s))
     share = state.path_s / state.duration_s if state.duration_s else 0.0
     return Running(name, row, left, share)
 
@@ -57,7 +57,7 @@ def penetration(status: PenetrationStatus) -> Running | None:
 
 def recording(path: Path, since_s: float, size: int, failure: str | None) -> Running:
     """Return the state of a recording: name, duration and size, or why there is none."""
-    doing = translate("job", "not recording: {why}").format(why=failure) if failure else ""
+    doing = tr("not recording: {why}").format(why=failure) if failure else ""
     return Running(path.name, doing or size_text(size), duration_text(since_s))
 
 
@@ -67,4 +67,4 @@ def motion(state: SessionState) -> Running | None:
         return None
     if PLAYBACK in state.owners.values():
         return None
-    return Running(driven(state) or translate("job", "The axes are moving"))
+    return Running(driven(state) or tr("The axes are moving"))

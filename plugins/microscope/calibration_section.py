@@ -9,25 +9,19 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import Activity, MicroscopeStatus
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.controls import allow, button, named, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
+from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.feed_notice import against_moving
-from rotemina.plugins.microscope.words import (
-    ENDED,
-    calibration_text,
-    residual_lines,
-    stage_text,
-)
+from rotemina.plugins.microscope.words import ENDED, calibration_text, residual_lines, stage_text
 
-_GUIDE = marked(
-    "microscope",
+_GUIDE = mark(
     "1. Bring the tip to the middle of the picture and into focus.\n2. Choose "
     "the objective under Camera: each objective has its own calibration.\n3. "
     "Calibrate the micro stage, then the nano stage: the tip makes small moves "
-    "around its position and returns.",
+    "around its position and returns."
 )
 
 
@@ -35,28 +29,26 @@ class CalibrationSection(Section):
     """One button a stage, progress, residuals, and what is kept for the objective."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__(translate("microscope", "Calibration"))
+        super().__init__(tr("Calibration"))
         self._workbench, self._microscope = workbench, microscope
         guide = self.add_text()
-        guide.setText(translate("microscope", _GUIDE))
-        self.whole = QCheckBox(translate("microscope", "the whole picture moves"))
+        guide.setText(tr(_GUIDE))
+        self.whole = QCheckBox(tr("the whole picture moves"))
         self.whole.setToolTip(
             plain_tip(
-                translate(
-                    "microscope",
+                tr(
                     "For use without a visible pipette, if stage and specimen move together: "
-                    "track the picture itself",
+                    "track the picture itself"
                 )
             )
         )
         self.column.addWidget(self.whole)
-        self.micro = button(translate("microscope", "Micro stage"), lambda: self._begin(MICRO))
-        self.nano = button(translate("microscope", "Nano stage"), lambda: self._begin(NANO))
+        self.micro = button(tr("Micro stage"), lambda: self._begin(MICRO))
+        self.nano = button(tr("Nano stage"), lambda: self._begin(NANO))
         self.add_row(self.micro, self.nano)
-        self.abort = button(translate("microscope", "Abort"), lambda: microscope.stop(by=OPERATOR))
-        self.progress = QProgressBar()
+        self.abort = button(tr("Abort"), lambda: microscope.stop(by=OPERATOR))
+        self.progress = named(QProgressBar(), tr("Progress of the calibration"))
         self.progress.setTextVisible(False)
-        self.progress.setAccessibleName(translate("microscope", "Progress of the calibration"))
         self.add_row(self.progress, self.abort)
         self.said = self.add_text()
         self.residuals = self.add_text()
@@ -69,28 +61,20 @@ class CalibrationSection(Section):
         allow(
             self.micro,
             why,
-            translate(
-                "microscope",
-                "Move x and y by 40 µm around their position and evaluate the pictures",
-            ),
+            tr("Move x and y by 40 µm around their position and evaluate the pictures"),
         )
         allow(
             self.nano,
             why,
-            translate(
-                "microscope",
+            tr(
                 "Move the tip by 15 µm with the piezos around its position and evaluate the"
-                " pictures",
+                " pictures"
             ),
         )
         running = status.activity is Activity.CALIBRATION
         for widget in (self.progress, self.abort):
             _show(widget, running)
-        allow(
-            self.abort,
-            None,
-            translate("microscope", "Stop the machine in place and keep the previous calibration"),
-        )
+        allow(self.abort, None, tr("Stop the machine in place and keep the previous calibration"))
         self._show_status(status.calibrating)
         show_text(self.known, "\n".join(_known(status)))
 
@@ -116,9 +100,9 @@ def _known(status: MicroscopeStatus) -> list[str]:
     if calibration is None:
         return (
             [
-                translate(
-                    "microscope", "Objective {objective!r} has no stored calibration."
-                ).format(objective=status.objective)
+                tr("Objective {objective!r} has no stored calibration.").format(
+                    objective=status.objective
+                )
             ]
             if status.objective
             else []
@@ -127,9 +111,9 @@ def _known(status: MicroscopeStatus) -> list[str]:
     focus = calibration.focus
     if focus is not None:
         lines.append(
-            translate(
-                "microscope", "focus: sharpest at {place:.2f} ± {doubt:.2f} µm of {axis}"
-            ).format(place=1e6 * focus.sharpest, doubt=1e6 * focus.uncertainty, axis=focus.axis)
+            tr("focus: sharpest at {place:.2f} ± {doubt:.2f} µm of {axis}").format(
+                place=1e6 * focus.sharpest, doubt=1e6 * focus.uncertainty, axis=focus.axis
+            )
         )
     return lines
 

@@ -2,18 +2,13 @@
 
 from dataclasses import dataclass
 
-from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.cameras.errors import CameraSettingError
 from rotemina.drivers.cameras.frame import Region
-from rotemina.drivers.cameras.settings import (
-    CameraDescription,
-    CameraSettings,
-    PixelType,
-    Trigger,
-)
+from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, PixelType, Trigger
+from rotemina.plugins.microscope import mark, tr
 from rotemina.sim.quantities import parsed, rounded
 
-WHOLE = marked("microscope", "whole")
+WHOLE = mark("whole")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,11 +46,11 @@ def settings_of(texts: CameraTexts) -> CameraSettings:
     CameraSettingError
         If something is no number, or no region.
     """
-    exposure_ms = _number(translate("microscope", "exposure"), texts.exposure, "ms")
+    exposure_ms = _number(tr("exposure"), texts.exposure, "ms")
     return CameraSettings(
         exposure_s=None if exposure_ms is None else 1e-3 * exposure_ms,
-        gain=_number(translate("microscope", "gain"), texts.gain, ""),
-        rate_hz=_number(translate("microscope", "rate"), texts.rate, "Hz"),
+        gain=_number(tr("gain"), texts.gain, ""),
+        rate_hz=_number(tr("rate"), texts.rate, "Hz"),
         region=_region(texts.region),
         pixel_type=PixelType(texts.pixel_type) if texts.pixel_type else None,
         trigger=Trigger(texts.trigger),
@@ -66,7 +61,7 @@ def settings_of(texts: CameraTexts) -> CameraSettings:
 def region_text(region: Region | None) -> str:
     """Return a region as it is typed."""
     if region is None:
-        return translate("microscope", WHOLE)
+        return tr(WHOLE)
     return f"{region.left} {region.top} {region.width} {region.height}"
 
 
@@ -78,9 +73,9 @@ def pixel_types(can: CameraDescription) -> tuple[PixelType, ...]:
 def bounds_text(bounds: tuple[float, float] | None, scale: float, unit: str) -> str:
     """Return what may be typed, in words."""
     if bounds is None:
-        return translate("microscope", "this camera has no such setting")
+        return tr("this camera has no such setting")
     return (
-        translate("microscope", "{low:g} to {high:g} {unit}")
+        tr("{low:g} to {high:g} {unit}")
         .format(low=scale * bounds[0], high=scale * bounds[1], unit=unit)
         .rstrip()
     )
@@ -96,7 +91,7 @@ def _number(name: str, text: str, unit: str) -> float | None:
     number = parsed(text)
     if number is None:
         raise CameraSettingError(
-            translate("microscope", "{name}: {text!r} is not a number; enter one in {unit}").format(
+            tr("{name}: {text!r} is not a number; enter one in {unit}").format(
                 name=name, text=text.strip(), unit=unit or "1"
             )
         )
@@ -105,15 +100,14 @@ def _number(name: str, text: str, unit: str) -> float | None:
 
 def _region(text: str) -> Region | None:
     plain = text.strip().lower()
-    if plain in ("", WHOLE, translate("microscope", WHOLE)):
+    if plain in ("", WHOLE, tr(WHOLE)):
         return None
     parts = plain.replace(",", " ").replace("×", " ").split()
     if len(parts) != 4 or not all(part.isdecimal() and len(part) < 7 for part in parts):
         raise CameraSettingError(
-            translate(
-                "microscope",
+            tr(
                 "region: {text!r} is not valid; enter {whole}, or four integers: first "
-                "column, first row, width and height, px",
-            ).format(text=text.strip(), whole=translate("microscope", WHOLE))
+                "column, first row, width and height, px"
+            ).format(text=text.strip(), whole=tr(WHOLE))
         )
     return Region(*map(int, parts))

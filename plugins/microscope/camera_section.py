@@ -7,13 +7,13 @@ from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.drivers.cameras.settings import CameraDescription, CameraSettings, Trigger
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.camera_form import (
     WHOLE,
     CameraTexts,
@@ -32,40 +32,30 @@ class CameraSection(Section):
     """Cameras that are there, another one by its address, and the objective."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__(translate("microscope", "Camera"))
+        super().__init__(tr("Camera"))
         self._workbench, self._microscope = workbench, microscope
-        self.choice = SteadyChoice(translate("microscope", "Camera"), letters=6)
+        self.choice = SteadyChoice(tr("Camera"), letters=6)
         self.address = QLineEdit()
-        self.address.setPlaceholderText(translate("microscope", "e.g. opencv:film.avi"))
-        self.address.setAccessibleName(
-            translate("microscope", "Source and address of another camera")
-        )
+        self.address.setPlaceholderText(tr("e.g. opencv:film.avi"))
+        self.address.setAccessibleName(tr("Source and address of another camera"))
         self.address.setToolTip(
             plain_tip(
-                translate(
-                    "microscope",
+                tr(
                     "Camera outside the list: source, colon, and a file, folder, stream or "
-                    "number, such as opencv:film.avi or sequence:/data/pictures",
+                    "number, such as opencv:film.avi or sequence:/data/pictures"
                 )
             )
         )
-        self.open = button(
-            translate("microscope", "Open"),
-            self._open,
-            translate("microscope", "Open this camera and close the present one"),
-        )
+        self.open = button(tr("Open"), self._open, tr("Open this camera and close the present one"))
         self.open.setProperty("primary", True)
         self.close_button = button(
-            translate("microscope", "Close"),
+            tr("Close"),
             lambda: workbench.ask(microscope.camera.close_and_forget),
-            translate("microscope", "Close the camera"),
+            tr("Close the camera"),
         )
         self.objective = SteadyChoice(
-            translate("microscope", "Objective"),
-            translate(
-                "microscope",
-                "Objective in use; each has its own calibration. Enter a name to add one",
-            ),
+            tr("Objective"),
+            tr("Objective in use; each has its own calibration. Enter a name to add one"),
             letters=6,
         )
         self.objective.setEditable(True)
@@ -77,7 +67,7 @@ class CameraSection(Section):
         self.column.addWidget(self.choice)
         self.column.addWidget(self.address)
         self.add_row(self.open, self.close_button)
-        title = QLabel(translate("microscope", "Objective"))
+        title = QLabel(tr("Objective"))
         title.setBuddy(self.objective)
         self.add_row(title, self.objective)
         self.said = self.add_text()
@@ -92,16 +82,10 @@ class CameraSection(Section):
         if not edit.hasFocus() and edit.text() != status.objective:
             edit.setText(status.objective)
         nothing = not listed and not self.address.text().strip()
-        why = translate("microscope", "no camera is selected or entered") if nothing else None
-        allow(
-            self.open,
-            why,
-            translate("microscope", "Open this camera and close the present one"),
-        )
-        closed = (
-            translate("microscope", "no camera is open") if status.feed.state in _OPEN else None
-        )
-        allow(self.close_button, closed, translate("microscope", "Close the camera"))
+        why = tr("no camera is selected or entered") if nothing else None
+        allow(self.open, why, tr("Open this camera and close the present one"))
+        closed = tr("no camera is open") if status.feed.state in _OPEN else None
+        allow(self.close_button, closed, tr("Close the camera"))
         problems = [f"{source}: {spoken(why)}" for source, why in status.camera_problems.items()]
         show_text(self.said, "\n".join([one for one in (spoken(status.truth), *problems) if one]))
 
@@ -122,7 +106,7 @@ class SettingsSection(Section):
     """Exposure, gain, region, kind of pixels and trigger, as far as the camera has them."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope, view: PictureView) -> None:
-        super().__init__(translate("microscope", "Camera settings"))
+        super().__init__(tr("Camera settings"))
         self._workbench, self._microscope, self._view = workbench, microscope, view
         self._shown: CameraSettings | None = None
         self._can: CameraDescription | None = None
@@ -133,48 +117,38 @@ class SettingsSection(Section):
         rows.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self.exposure, self.gain, self.rate, self.region = (QLineEdit() for _ in range(4))
         self.pixel_type, self.trigger = (
-            SteadyChoice(translate("microscope", "Kind of pixels"), letters=6),
-            SteadyChoice(translate("microscope", "Trigger"), letters=6),
+            SteadyChoice(tr("Kind of pixels"), letters=6),
+            SteadyChoice(tr("Trigger"), letters=6),
         )
-        self.repeat = QCheckBox(translate("microscope", "Loop at the end"))
-        self.repeat.setToolTip(
-            plain_tip(translate("microscope", "Repeat a file or a sequence of pictures"))
-        )
+        self.repeat = QCheckBox(tr("Loop at the end"))
+        self.repeat.setToolTip(plain_tip(tr("Repeat a file or a sequence of pictures")))
         for text, field in (
-            (translate("microscope", "Exposure [ms]"), self.exposure),
-            (translate("microscope", "Gain"), self.gain),
-            (translate("microscope", "Rate [Hz]"), self.rate),
-            (translate("microscope", "Region [px]"), self.region),
-            (translate("microscope", "Pixels"), self.pixel_type),
-            (translate("microscope", "Trigger"), self.trigger),
+            (tr("Exposure [ms]"), self.exposure),
+            (tr("Gain"), self.gain),
+            (tr("Rate [Hz]"), self.rate),
+            (tr("Region [px]"), self.region),
+            (tr("Pixels"), self.pixel_type),
+            (tr("Trigger"), self.trigger),
         ):
             field.setAccessibleName(text)
             field.setToolTip(
-                plain_tip(
-                    translate("microscope", "{text}; open the camera to see its limits").format(
-                        text=text
-                    )
-                )
+                plain_tip(tr("{text}; open the camera to see its limits").format(text=text))
             )
             field.setMinimumWidth(60)
             rows.addRow(text, field)
         rows.addRow(self.repeat)
         self.column.addWidget(self.form)
         self.apply = button(
-            translate("microscope", "Set"),
-            self._apply,
-            translate("microscope", "Apply these settings; refusals appear below"),
+            tr("Set"), self._apply, tr("Apply these settings; refusals appear below")
         )
         self.cut = button(
-            translate("microscope", "Use visible region"),
-            self._cut,
-            translate("microscope", "Read out only the visible region"),
+            tr("Use visible region"), self._cut, tr("Read out only the visible region")
         )
         self.add_row(self.apply, self.cut)
         self.shoot = button(
-            translate("microscope", "Save picture"),
+            tr("Save picture"),
             lambda: workbench.ask(microscope.camera.trigger),
-            translate("microscope", "Trigger the camera once"),
+            tr("Trigger the camera once"),
         )
         self.column.addWidget(self.shoot)
         self.problem = self.add_text()
@@ -187,28 +161,18 @@ class SettingsSection(Section):
         feed = status.feed
         can = feed.description
         self.form.setEnabled(can is not None)
-        why = translate("microscope", "no camera is open") if can is None else None
-        allow(
-            self.apply,
-            why,
-            translate("microscope", "Apply these settings; refusals appear below"),
-        )
-        no_frame = why or (
-            translate("microscope", "there is no picture") if feed.frame is None else None
-        )
+        why = tr("no camera is open") if can is None else None
+        allow(self.apply, why, tr("Apply these settings; refusals appear below"))
+        no_frame = why or (tr("there is no picture") if feed.frame is None else None)
         allow(
             self.cut,
             no_frame,
-            translate(
-                "microscope", "Read out only the visible region: smaller pictures at a higher rate"
-            ),
+            tr("Read out only the visible region: smaller pictures at a higher rate"),
         )
         waits = why or (
-            None
-            if feed.settings.trigger is Trigger.SOFTWARE
-            else translate("microscope", "the camera is free-running")
+            None if feed.settings.trigger is Trigger.SOFTWARE else tr("the camera is free-running")
         )
-        allow(self.shoot, waits, translate("microscope", "Trigger the camera once"))
+        allow(self.shoot, waits, tr("Trigger the camera once"))
         show_text(self.problem, feed.problem)
         if can is None:
             self._can = self._shown = None
@@ -227,20 +191,15 @@ class SettingsSection(Section):
         ):
             field.setText(text)
             field.setEnabled(bounds is not None)
-            field.setPlaceholderText(
-                translate("microscope", "unchanged")
-                if bounds is not None
-                else translate("microscope", "cannot be set")
-            )
+            field.setPlaceholderText(tr("unchanged") if bounds is not None else tr("cannot be set"))
             field.setToolTip(plain_tip(bounds_text(bounds, scale, unit)))
         self.region.setText(texts.region)
         self.region.setToolTip(
             plain_tip(
-                translate(
-                    "microscope",
+                tr(
                     "{whole}, or first column, first row, width and height of the sensor's "
-                    "{width} × {height} px",
-                ).format(whole=translate("microscope", WHOLE), width=can.width, height=can.height)
+                    "{width} × {height} px"
+                ).format(whole=tr(WHOLE), width=can.width, height=can.height)
             )
         )
         _offer(

@@ -6,8 +6,8 @@ import numpy as np
 
 from rotemina.app.microscope.measurements import tip_in_plane
 from rotemina.app.microscope.status import Measured, MicroscopeStatus
-from rotemina.app.shell.language import translate
 from rotemina.drivers.cameras.frame import Frame
+from rotemina.plugins.microscope import tr
 from rotemina.sim.quantities import exact, fixed
 
 
@@ -28,9 +28,7 @@ def cursor_text(status: MicroscopeStatus, place: tuple[float, float] | None) -> 
     elif status.pixel_m is not None:
         across, down = (1e6 * status.pixel_m * one for one in place)
         parts.append(
-            translate("microscope", "{across:.1f}, {down:.1f} µm from the corner").format(
-                across=across, down=down
-            )
+            tr("{across:.1f}, {down:.1f} µm from the corner").format(across=across, down=down)
         )
     return "   ".join(parts)
 
@@ -40,9 +38,7 @@ def value_text(frame: Frame, column: int, row: int) -> str:
     value = frame.pixels[row, column]
     if frame.colour:
         return "RGB " + " ".join(str(int(one)) for one in value)
-    return translate("microscope", "{number} of {largest}").format(
-        number=int(value), largest=frame.largest
-    )
+    return tr("{number} of {largest}").format(number=int(value), largest=frame.largest)
 
 
 def measured_text(line: Measured) -> str:
@@ -52,7 +48,5 @@ def measured_text(line: Measured) -> str:
         length = f"{exact(line.length_m, 'm')} ({length})"
     text = f"{length}, {fixed(degrees(line.angle), 1)}°"
     if line.to_body is not None:
-        text += translate("microscope", ", {angle:.1f}° to the pipette").format(
-            angle=degrees(line.to_body)
-        )
+        text += tr(", {angle:.1f}° to the pipette").format(angle=degrees(line.to_body))
     return text

@@ -6,8 +6,8 @@ from rotemina.app.cameras.feed import FeedState, FeedView
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
 from rotemina.drivers.samples import DeviceState
+from rotemina.plugins.microscope import mark, tr
 from rotemina.sim.quantities import fixed
 
 TONES = {
@@ -21,13 +21,13 @@ TONES = {
     FeedState.LOST: "danger",
 }
 TITLES = {
-    FeedState.CLOSED: marked("microscope", "No camera"),
-    FeedState.OPENING: marked("microscope", "Opening …"),
-    FeedState.WAITING: marked("microscope", "Waiting for a trigger"),
-    FeedState.STALLED: marked("microscope", "STALLED"),
-    FeedState.FROZEN: marked("microscope", "FROZEN"),
-    FeedState.BLACK: marked("microscope", "BLACK"),
-    FeedState.LOST: marked("microscope", "LOST"),
+    FeedState.CLOSED: mark("No camera"),
+    FeedState.OPENING: mark("Opening …"),
+    FeedState.WAITING: mark("Waiting for a trigger"),
+    FeedState.STALLED: mark("STALLED"),
+    FeedState.FROZEN: mark("FROZEN"),
+    FeedState.BLACK: mark("BLACK"),
+    FeedState.LOST: mark("LOST"),
 }
 
 
@@ -58,28 +58,21 @@ def feed_notice(view: FeedView) -> FeedNotice:
     """Return the text for the present state of a camera."""
     state, tone = view.state, TONES[view.state]
     if state is FeedState.LIVE and view.frame is None:
-        return FeedNotice(
-            "busy",
-            translate("microscope", "opened"),
-            translate("microscope", "Waiting for the first picture"),
-        )
+        return FeedNotice("busy", tr("opened"), tr("Waiting for the first picture"))
     if state is FeedState.LIVE:
         # One picture has no rate yet.
-        parts = [
-            translate("microscope", "live"),
-            *([f"{fixed(view.rate_hz, 0)} Hz"] if view.rate_hz > 0.0 else []),
-        ]
+        parts = [tr("live"), *([f"{fixed(view.rate_hz, 0)} Hz"] if view.rate_hz > 0.0 else [])]
         return FeedNotice(tone, " · ".join((*parts, age(view.age_s))))
     badge = spoken(state)
     if view.frame is not None:
         badge = f"{badge} · {age(view.age_s)}"
     if state is FeedState.WAITING:
-        title = "" if view.frame is not None else translate("microscope", TITLES[state])
+        title = "" if view.frame is not None else tr(TITLES[state])
         return FeedNotice(tone, badge, title)
     reason = spoken(view.reason)
     if state is FeedState.CLOSED:
-        reason = translate("microscope", "Choose a camera under Tools, Camera, and open it.")
-    title = translate("microscope", TITLES[state])
+        reason = tr("Choose a camera under Tools, Camera, and open it.")
+    title = tr(TITLES[state])
     return FeedNotice(tone, badge, title, reason, veiled=state is not FeedState.OPENING)
 
 
@@ -88,22 +81,18 @@ def age(age_s: float | None) -> str:
     if age_s is None:
         return "–"
     return (
-        translate("microscope", "{ms:.0f} ms old").format(ms=1e3 * age_s)
+        tr("{ms:.0f} ms old").format(ms=1e3 * age_s)
         if age_s < 1.0
-        else translate("microscope", "{s:.1f} s old").format(s=age_s)
+        else tr("{s:.1f} s old").format(s=age_s)
     )
 
 
 def against_aiming(status: MicroscopeStatus) -> str | None:
     """Return why a place in the picture is no place to go to; None if it is."""
     if status.feed.state is not FeedState.LIVE or status.feed.frame is None:
-        return translate("microscope", "the picture is not live: {state}").format(
-            state=spoken(status.feed.state)
-        )
+        return tr("the picture is not live: {state}").format(state=spoken(status.feed.state))
     if status.calibration is None:
-        return status.calibration_problem or translate(
-            "microscope", "this camera and objective are not calibrated"
-        )
+        return status.calibration_problem or tr("this camera and objective are not calibrated")
     return None
 
 
@@ -111,27 +100,18 @@ def against_clicking(status: MicroscopeStatus, state: SessionState) -> str | Non
     """Return why no click may move anything now; None if it may."""
     why = against_aiming(status) or against_moving(status, state)
     if why is None and status.tip.state is not TipState.TRACKED:
-        why = translate(
-            "microscope",
-            "the tip is not tracked; click it with Tip, or turn on tracking under Vision",
-        )
+        why = tr("the tip is not tracked; click it with Tip, or turn on tracking under Vision")
     return why
 
 
 def against_moving(status: MicroscopeStatus, state: SessionState) -> str | None:
     """Return why nothing may be moved by the picture now; None if it may."""
     if status.feed.state is not FeedState.LIVE or status.feed.frame is None:
-        return translate("microscope", "the picture is not live: {state}").format(
-            state=spoken(status.feed.state)
-        )
+        return tr("the picture is not live: {state}").format(state=spoken(status.feed.state))
     if status.activity is not Activity.NONE:
-        return translate("microscope", "{activity} is running").format(
-            activity=spoken(status.activity)
-        )
+        return tr("{activity} is running").format(activity=spoken(status.activity))
     if state.locked is not None:
-        return translate("microscope", "motion is locked: {locked}").format(
-            locked=spoken(state.locked)
-        )
+        return tr("motion is locked: {locked}").format(locked=spoken(state.locked))
     if state.activity is not DeviceState.IDLE:
-        return translate("microscope", "the machine is not at rest")
+        return tr("the machine is not at rest")
     return None

@@ -5,8 +5,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.contrast import BINS
 
 _HANDLE = 6.0  # px to each side that take hold of a handle
@@ -31,12 +31,8 @@ class HistogramView(QWidget):
         self._held: int | None = None
         self.setMinimumHeight(70)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(
-            translate("microscope", "Histogram with the levels of black and white")
-        )
-        self.setToolTip(
-            translate("microscope", "Drag a handle to set the black or the white level")
-        )
+        self.setAccessibleName(tr("Histogram with the levels of black and white"))
+        self.setToolTip(tr("Drag a handle to set the black or the white level"))
 
     def show_counts(self, counts: np.ndarray, span: tuple[float, float]) -> None:
         """Show another picture's; a handle that is held stays."""

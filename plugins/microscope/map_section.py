@@ -10,7 +10,6 @@ from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.saved_positions import SavedPositions
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
@@ -18,6 +17,7 @@ from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.drivers.clock import Clock
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.map_view import MapView
 from rotemina.plugins.microscope.tip_map import MapPlace, PlaceKind, TipMap, Trail
 from rotemina.sim.errors import InputError
@@ -38,7 +38,7 @@ class MapSection(Section):
     """
 
     def __init__(self, workbench: Workbench, clock: Clock = time.monotonic) -> None:
-        super().__init__(translate("microscope", "Map of the tip"))
+        super().__init__(tr("Map of the tip"))
         self._bench, self._clock = workbench, clock
         self.trail = Trail()
         self.goal: MapPlace | None = None
@@ -52,22 +52,18 @@ class MapSection(Section):
         self._fitted = False
         self.view = MapView(workbench.theme)
         self.said = self.add_text()
-        self.go = button(translate("microscope", "Go there"), self._go)
+        self.go = button(tr("Go there"), self._go)
         self.go.setProperty("primary", True)
         self.near = button(
-            translate("microscope", "Fit"),
-            lambda: self.view.fit(whole=False),
-            translate("microscope", "Show the trail and all places"),
+            tr("Fit"), lambda: self.view.fit(whole=False), tr("Show the trail and all places")
         )
         self.whole = button(
-            translate("microscope", "Reach"),
+            tr("Reach"),
             lambda: self.view.fit(whole=True),
-            translate("microscope", "Show everything within reach of the axes"),
+            tr("Show everything within reach of the axes"),
         )
         self.clear = button(
-            translate("microscope", "Clear trail"),
-            self._clear,
-            translate("microscope", "Forget where the tip has been; nothing moves"),
+            tr("Clear trail"), self._clear, tr("Forget where the tip has been; nothing moves")
         )
         try:
             self._map: TipMap | None = TipMap(workbench.robot)
@@ -90,7 +86,7 @@ class MapSection(Section):
         if self._map is None:
             return
         if self._asked.what is None:
-            self.go.setText(translate("microscope", "Go there"))
+            self.go.setText(tr("Go there"))
         places = self._places(self._map)
         if self.goal is not None and self.goal.kind is not PlaceKind.FREE:
             # It may have been saved anew elsewhere, or be gone.
@@ -106,15 +102,15 @@ class MapSection(Section):
             self._fitted = True
             self.view.fit(whole=True)
         show_text(self.said, self._told(self._map, state))
-        none = None if self.goal is not None else translate("microscope", "no place is chosen")
+        none = None if self.goal is not None else tr("no place is chosen")
         moves = None
         if not self._bench.session.at_rest:
-            moves = translate("microscope", "the machine is not at rest")
+            moves = tr("the machine is not at rest")
         locked = spoken(state.locked) if state.locked else None
         unknown = None
         if not (state.position_known and state.command):
-            unknown = translate("microscope", "the position is not known")
-        tip_text = translate("microscope", "Raise the tip above both places, move across, lower it")
+            unknown = tr("the position is not known")
+        tip_text = tr("Raise the tip above both places, move across, lower it")
         allow(self.go, none or locked or unknown or moves, tip_text)
 
     def choose(self, place: MapPlace | None, x: float, y: float) -> None:
@@ -127,7 +123,7 @@ class MapSection(Section):
     def _take(self, place: MapPlace | None) -> None:
         self.goal = place
         self._asked.withdraw()
-        self.go.setText(translate("microscope", "Go there"))
+        self.go.setText(tr("Go there"))
 
     def _go(self) -> None:
         session, goal = self._bench.session, self.goal
@@ -141,13 +137,13 @@ class MapSection(Section):
             if self._asked.what != goal:
                 self._asked.put(goal)
                 self._asked_s = self._clock()
-                self.go.setText(translate("microscope", "Far away: go there?"))
+                self.go.setText(tr("Far away: go there?"))
                 return
             if self._clock() - self._asked_s < _SETTLE_S:
                 return
             permit = self._asked.permit
         self._asked.withdraw()
-        self.go.setText(translate("microscope", "Go there"))
+        self.go.setText(tr("Go there"))
         self._bench.ask(lambda: session.go_safely(goal.targets, permit=permit))
 
     def _clear(self) -> None:
@@ -210,15 +206,15 @@ class MapSection(Section):
         """Say what is chosen, and how far it is from where the tip was sent."""
         goal = self.goal
         if goal is None:
-            return translate("microscope", "Click a place to choose it.")
+            return tr("Click a place to choose it.")
         names = {
-            PlaceKind.SAVED: translate("microscope", "Position {name}"),
-            PlaceKind.CELL: translate("microscope", "Cell {name}"),
-            PlaceKind.FREE: translate("microscope", "Free place"),
+            PlaceKind.SAVED: tr("Position {name}"),
+            PlaceKind.CELL: tr("Cell {name}"),
+            PlaceKind.FREE: tr("Free place"),
         }
         lines = [names[goal.kind].format(name=goal.name)]
         there = ", ".join(fixed(1e3 * at, 4) for at in goal.tip_m)
-        lines.append(translate("microscope", "tip x, y, z [mm]: {place}").format(place=there))
+        lines.append(tr("tip x, y, z [mm]: {place}").format(place=there))
         now = tip_map.tip(state.command)
         if now is not None:
             away = float(np.linalg.norm(np.array(goal.tip_m) - now))
@@ -230,7 +226,7 @@ class MapSection(Section):
                 ),
             )
             lines.append(
-                translate("microscope", "{way} from here; farthest: {axis}").format(
+                tr("{way} from here; farthest: {axis}").format(
                     way=amount(away, "m", digits=3), axis=label(far)
                 )
             )

@@ -8,10 +8,10 @@ from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPol
 from PySide6.QtWidgets import QApplication, QSizePolicy, QWidget
 
 from rotemina.app.motion.penetration.cell_list import Outcome
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.tip_frame import TipFrame, draw_scale, forbidden
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.tip_map import MapPlace, PlaceKind
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.keep_out import KeepOutZone
@@ -50,18 +50,16 @@ class MapView(QWidget):
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
         self.setCursor(Qt.CursorShape.CrossCursor)
-        self.setAccessibleName(translate("microscope", "Map of the tip"))
+        self.setAccessibleName(tr("Map of the tip"))
         self.setToolTip(
             plain_tip(
-                translate(
-                    "microscope",
+                tr(
                     "Where the tip has been, from above. ◆: saved positions; circles: cells of the "
-                    "list. Red is forbidden, the frame is what the axes can reach.",
+                    "list. Red is forbidden, the frame is what the axes can reach."
                 ),
-                translate(
-                    "microscope",
+                tr(
                     "Click to choose a place; nothing moves. Wheel: nearer or farther. Drag: move "
-                    "the map.",
+                    "the map."
                 ),
             )
         )
@@ -83,11 +81,7 @@ class MapView(QWidget):
             self.update()
 
     def show_tip(
-        self,
-        tip: FloatArray | None,
-        trail: FloatArray,
-        reach: Box,
-        zone: KeepOutZone | None,
+        self, tip: FloatArray | None, trail: FloatArray, reach: Box, zone: KeepOutZone | None
     ) -> None:
         """Show where the tip is and was, what it can reach, and what is forbidden."""
         same = tip is self._tip or (

@@ -9,69 +9,50 @@ from rotemina.app.microscope.status import Activity, MicroscopeStatus
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.controls import allow, button, named
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.feed_notice import against_clicking
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.words import target_text, visit_text
 
-STAGES = (
-    (marked("microscope", "nano, else micro"), None),
-    (marked("microscope", "micro"), "micro"),
-    (marked("microscope", "nano"), "nano"),
-)
+STAGES = ((mark("nano, else micro"), None), (mark("micro"), "micro"), (mark("nano"), "nano"))
 
 
 class MoveSection(Section):
     """The stage that clicks move, what the latest click came to, and back again."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__(translate("microscope", "Click to move"))
+        super().__init__(tr("Click to move"))
         self._guide = self.add_text()
         self._guide.setText(
-            translate(
-                "microscope",
+            tr(
                 "With Move, above the picture, a click or a drag sends the tip there. Esc "
-                "or any stop ends this mode.",
+                "or any stop ends this mode."
             )
         )
         self.stage = SteadyChoice(
-            translate("microscope", "Stage that a click moves"),
-            translate("microscope", "Stage that a click moves; nano within its range"),
+            tr("Stage that a click moves"),
+            tr("Stage that a click moves; nano within its range"),
             letters=6,
         )
         for text, value in STAGES:
-            self.stage.addItem(translate("microscope", text), value)
+            self.stage.addItem(tr(text), value)
         self.column.addWidget(self.stage)
-        self.back = button(
-            translate("microscope", "Go back"), lambda: workbench.ask(microscope.go_back)
-        )
-        self.halt = button(translate("microscope", "Stop"), lambda: microscope.stop(by=OPERATOR))
+        self.back = button(tr("Go back"), lambda: workbench.ask(microscope.go_back))
+        self.halt = button(tr("Stop"), lambda: microscope.stop(by=OPERATOR))
         self.add_row(self.back, self.halt)
         self.said = self.add_text()
 
     def refresh(self, status: MicroscopeStatus, state: SessionState) -> None:
         """Show what the latest move came to."""
-        busy = (
-            translate("microscope", "the machine is not at rest")
-            if state.queued or state.owners
-            else state.locked
-        )
-        allow(
-            self.back,
-            busy,
-            translate("microscope", "Return to the position before the latest move"),
-        )
-        idle = (
-            translate("microscope", "no move is running")
-            if status.activity is Activity.NONE
-            else None
-        )
-        allow(self.halt, idle, translate("microscope", "Stop the machine in place"))
+        busy = tr("the machine is not at rest") if state.queued or state.owners else state.locked
+        allow(self.back, busy, tr("Return to the position before the latest move"))
+        idle = tr("no move is running") if status.activity is Activity.NONE else None
+        allow(self.halt, idle, tr("Stop the machine in place"))
         lines = (ghost_text(status), visit_text(status.visiting), spoken(status.stopped))
         show_text(self.said, "\n".join(line for line in lines if line))
 
@@ -82,18 +63,16 @@ class TargetSection(Section):
     def __init__(
         self, workbench: Workbench, microscope: Microscope, visit: Callable[[], object]
     ) -> None:
-        super().__init__(translate("microscope", "Targets"))
+        super().__init__(tr("Targets"))
         self._workbench, self._microscope = workbench, microscope
-        self.list = QListWidget()
-        self.list.setAccessibleName(translate("microscope", "Targets, in order"))
+        self.list = named(QListWidget(), tr("Targets, in order"))
         self.list.setMaximumHeight(120)
         self.column.addWidget(self.list)
-        self.next = button(translate("microscope", "Visit next"), visit)
+        self.next = button(tr("Visit next"), visit)
         self.next.setProperty("primary", True)
-        self.remove = button(translate("microscope", "Remove"), self._remove)
+        self.remove = button(tr("Remove"), self._remove)
         self.clear = button(
-            translate("microscope", "Clear"),
-            lambda: workbench.ask(microscope.positioning.sequence.clear),
+            tr("Clear"), lambda: workbench.ask(microscope.positioning.sequence.clear)
         )
         self.column.addWidget(self.next)
         self.add_row(self.remove, self.clear)
@@ -106,34 +85,16 @@ class TargetSection(Section):
             self.list.clear()
             self.list.addItems(texts)
             self.list.setCurrentRow(min(row, len(texts) - 1))
-        none = (
-            None
-            if texts
-            else translate("microscope", "no target is marked; use Mark above the picture")
-        )
+        none = None if texts else tr("no target is marked; use Mark above the picture")
         why = none or against_clicking(status, state)
         if why is None and all(one.visit is not None for one in status.targets):
-            why = translate("microscope", "every target has been visited")
-        allow(
-            self.next,
-            why,
-            translate("microscope", "Send the tip to the first unvisited target"),
-        )
-        chosen = (
-            None
-            if self.list.currentRow() >= 0
-            else translate("microscope", "no target is selected")
-        )
+            why = tr("every target has been visited")
+        allow(self.next, why, tr("Send the tip to the first unvisited target"))
+        chosen = None if self.list.currentRow() >= 0 else tr("no target is selected")
         visiting = status.activity is Activity.TARGETS
-        under_way = (
-            translate("microscope", "the tip is on its way to a target") if visiting else None
-        )
-        allow(
-            self.remove,
-            none or chosen or under_way,
-            translate("microscope", "Delete the selected target"),
-        )
-        allow(self.clear, none or under_way, translate("microscope", "Delete all targets"))
+        under_way = tr("the tip is on its way to a target") if visiting else None
+        allow(self.remove, none or chosen or under_way, tr("Delete the selected target"))
+        allow(self.clear, none or under_way, tr("Delete all targets"))
 
     def _remove(self) -> None:
         row = self.list.currentRow()

@@ -8,7 +8,7 @@ import numpy as np
 from rotemina.app.microscope.click_corrections import Visit
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.cursor_readout import measured_text
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.quantities import exact, fixed
@@ -82,14 +82,7 @@ def shapes(status: MicroscopeStatus, shown: frozenset[Layer]) -> list[Shape]:
     """Return everything that is to be drawn, what lies beneath first."""
     found: list[Shape] = []
     if Layer.NANO in shown and status.nano_limits is not None:
-        found.append(
-            Stroke(
-                Look.NANO,
-                status.nano_limits,
-                closed=True,
-                label=translate("microscope", "nano range"),
-            )
-        )
+        found.append(Stroke(Look.NANO, status.nano_limits, closed=True, label=tr("nano range")))
     if Layer.CELL in shown:
         found += _cell(status)
     if Layer.PATH in shown and status.path is not None and len(status.path) > 1:
@@ -109,7 +102,7 @@ def ghost_text(status: MicroscopeStatus) -> str:
     plan = status.planned
     if plan is None:
         return ""
-    text = translate("microscope", "{distance} with the {stage} stage").format(
+    text = tr("{distance} with the {stage} stage").format(
         distance=exact(plan.distance, "m"), stage=spoken(plan.stage)
     )
     return f"{text}, ± {fixed(plan.uncertainty_px, 1)} px"
@@ -141,16 +134,7 @@ def _tip(status: MicroscopeStatus) -> list[Shape]:
         way = np.array([np.cos(tip.direction), np.sin(tip.direction)])
         body = np.array([tip.pixel, tip.pixel + _BODY_PX * way])
         found.append(Stroke(look, body, dashed=True))
-    return [
-        *found,
-        Cross(
-            look,
-            tip.pixel,
-            translate("microscope", "tip")
-            if look is Look.TIP
-            else translate("microscope", "tip lost"),
-        ),
-    ]
+    return [*found, Cross(look, tip.pixel, tr("tip") if look is Look.TIP else tr("tip lost"))]
 
 
 def _cell(status: MicroscopeStatus) -> list[Shape]:

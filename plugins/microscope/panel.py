@@ -3,27 +3,21 @@
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QScrollArea,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFrame, QScrollArea, QStackedWidget, QWidget
 
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import button
-from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.drivers.cameras.frame import Frame
+from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.calibration_section import CalibrationSection
 from rotemina.plugins.microscope.camera_section import CameraSection, SettingsSection
 from rotemina.plugins.microscope.cursor_readout import cursor_text
@@ -38,14 +32,14 @@ from rotemina.plugins.microscope.top_bar import TopBar
 from rotemina.plugins.microscope.vision_section import CellSection, FocusSection, TipSection
 
 TOOLS = (
-    marked("microscope", "Camera"),
-    marked("microscope", "Picture"),
-    marked("microscope", "Calibrate"),
-    marked("microscope", "Move"),
-    marked("microscope", "Vision"),
-    marked("microscope", "Save"),
-    marked("microscope", "Map"),
-    marked("microscope", "– no tools –"),
+    mark("Camera"),
+    mark("Picture"),
+    mark("Calibrate"),
+    mark("Move"),
+    mark("Vision"),
+    mark("Save"),
+    mark("Map"),
+    mark("– no tools –"),
 )
 _WIDTH = 250  # of the tools, px
 
@@ -56,23 +50,13 @@ class Question(QFrame):
     def __init__(self, yes: str, answer: Callable[[bool], None]) -> None:
         super().__init__()
         self.setObjectName("question")
-        self.text = QLabel()
-        self.text.setTextFormat(Qt.TextFormat.PlainText)
-        self.text.setWordWrap(True)
-        self.yes = button(yes, lambda: answer(True), translate("microscope", "Move the tip"))
+        self.text = plain_text(quiet=False, wrap=True)
+        self.yes = button(yes, lambda: answer(True), tr("Move the tip"))
         self.yes.setProperty("primary", True)
-        self.no = button(
-            translate("microscope", "Cancel"),
-            lambda: answer(False),
-            translate("microscope", "Do not move"),
-        )
+        self.no = button(tr("Cancel"), lambda: answer(False), tr("Do not move"))
         for one in (self.yes, self.no):
             one.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(8, 4, 8, 4)
-        row.addWidget(self.text, 1)
-        row.addWidget(self.yes)
-        row.addWidget(self.no)
+        in_row((self.text, 1), self.yes, self.no, on=self, margins=(8, 4, 8, 4))
         self.hide()
 
     def ask(self, text: str) -> None:
@@ -96,8 +80,8 @@ class MicroscopePanel(Panel):
         self._awaited = False  # whether a picture that came in is yet to be taken notice of
         self.view = PictureView(workbench.theme)
         self.pointer = PointerTools(workbench, self.microscope, self.view)
-        self.bar = TopBar(self.view, tuple(translate("microscope", tool) for tool in TOOLS))
-        self.question = Question(translate("microscope", "Move"), self.pointer.answer)
+        self.bar = TopBar(self.view, tuple(tr(tool) for tool in TOOLS))
+        self.question = Question(tr("Move"), self.pointer.answer)
         self.readout = ElidedLabel()
         self.readout.setProperty("quiet", True)
         self._make_sections()
@@ -165,19 +149,11 @@ class MicroscopePanel(Panel):
         self.tools.setFixedWidth(_WIDTH)
         for sections in self._pages:
             self.tools.addWidget(_page(sections))
-        middle = QHBoxLayout()
-        middle.setSpacing(6)
-        middle.addWidget(self.view, 1)
-        middle.addWidget(self.tools)
+        middle = in_row((self.view, 1), self.tools, spacing=6)
         self.setObjectName("panel")  # the central area gives no ground of its own
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(6, 4, 6, 4)
-        column.setSpacing(4)
-        column.addWidget(self.bar)
-        column.addLayout(middle, 1)
-        column.addWidget(self.question)
-        column.addWidget(self.readout)
+        parts = self.bar, (middle, 1), self.question, self.readout
+        in_column(*parts, on=self, margins=(6, 4, 6, 4), spacing=4)
 
     def _connect(self) -> None:
         bench = self.workbench
@@ -218,7 +194,7 @@ class MicroscopePanel(Panel):
         said = cursor_text(status, self.view.cursor_at)
         mode = ""
         if tool is not PointerTool.PAN:
-            mode = translate("microscope", "{mode}: Esc ends it   ").format(mode=spoken(tool))
+            mode = tr("{mode}: Esc ends it   ").format(mode=spoken(tool))
         self.readout.show_text(mode + said)
 
     def _choose_page(self, page: int) -> None:
@@ -234,11 +210,5 @@ class MicroscopePanel(Panel):
 
 def _page(sections: tuple[QWidget, ...]) -> QScrollArea:
     content = QWidget()
-    column = QVBoxLayout(content)
-    column.setContentsMargins(8, 0, 8, 4)
-    column.setSpacing(4)
-    for section in sections:
-        column.addWidget(section)
-    column.addStretch(1)
-    scroll = scrolled(content)
-    return scroll
+    in_column(*sections, 1, on=content, margins=(8, 0, 8, 4), spacing=4)
+    return scrolled(content)

@@ -11,8 +11,8 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import translate
 from rotemina.drivers.cameras.frame import Frame
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.contrast import Contrast, as_rgb, levels, shown
 
 STAMP = "%Y-%m-%d_%H-%M-%S-%f"
@@ -34,6 +34,24 @@ def circumstances(
     )
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder of pictures, if it is not there yet.
+
+    Raises
+    ------
+    MicroscopeError
+        If it cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise MicroscopeError(
+            tr("{folder}: the folder cannot be created ({reason})").format(
+                folder=folder, reason=error.strerror or error
+            )
+        ) from error
+
+
 def write_pictures(
     folder: Path, frame: Frame, contrast: Contrast, about: Circumstances, name: str
 ) -> tuple[Path, Path]:
@@ -46,14 +64,7 @@ def write_pictures(
     MicroscopeError
         If the folder cannot be made.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise MicroscopeError(
-            translate("microscope", "{folder}: the folder cannot be created ({reason})").format(
-                folder=folder, reason=error.strerror or error
-            )
-        ) from error
+    make_folder(folder)
     tiff, png = folder / f"{name}.tif", folder / f"{name}.png"
     write_tiff(tiff, frame, about)
     write_png(png, as_rgb(shown(frame, contrast, levels(frame, contrast))), frame, about)
@@ -108,14 +119,10 @@ class VideoCapture:
             If no file can be made.
         """
         if self.video is not None:
-            raise MicroscopeError(
-                translate("microscope", "a video is being recorded; end it first")
-            )
+            raise MicroscopeError(tr("a video is being recorded; end it first"))
         frame = status.feed.frame
         if frame is None:
-            raise MicroscopeError(
-                translate("microscope", "there is no picture to record; open a camera first")
-            )
+            raise MicroscopeError(tr("there is no picture to record; open a camera first"))
         now = self._now()
         recording = "" if recorder is None else recorder.writer.path.name
         name = now.strftime(STAMP) if recorder is None else recorder.writer.path.stem
@@ -149,7 +156,7 @@ class VideoCapture:
         """
         video, self.video = self.video, None
         if video is None:
-            raise MicroscopeError(translate("microscope", "no video is being recorded"))
+            raise MicroscopeError(tr("no video is being recorded"))
         self._leave()
         return video
 
@@ -168,30 +175,24 @@ class VideoCapture:
 
 def summary(path: Path, status: VideoStatus) -> str:
     """Return what has become of a film, in words."""
-    text = translate("microscope", "Saved {path}: {pictures} pictures of {seconds:.1f} s").format(
+    text = tr("Saved {path}: {pictures} pictures of {seconds:.1f} s").format(
         path=path, pictures=status.pictures, seconds=status.lasts_s
     )
-    return (
-        translate("microscope", "{text}, {dropped} dropped").format(
-            text=text, dropped=status.dropped
-        )
-        if status.dropped
-        else text
-    )
+    return _with_dropped(text, status)
 
 
 def progress(status: VideoStatus) -> str:
     """Return how a film does, in words."""
-    text = translate(
-        "microscope", "{pictures} pictures, {seconds:.0f} s, {megabytes:.0f} MB"
-    ).format(pictures=status.pictures, seconds=status.lasts_s, megabytes=status.bytes_written / 1e6)
-    return (
-        translate("microscope", "{text}, {dropped} dropped").format(
-            text=text, dropped=status.dropped
-        )
-        if status.dropped
-        else text
+    text = tr("{pictures} pictures, {seconds:.0f} s, {megabytes:.0f} MB").format(
+        pictures=status.pictures, seconds=status.lasts_s, megabytes=status.bytes_written / 1e6
     )
+    return _with_dropped(text, status)
+
+
+def _with_dropped(text: str, status: VideoStatus) -> str:
+    if not status.dropped:
+        return text
+    return tr("{text}, {dropped} dropped").format(text=text, dropped=status.dropped)
 
 
 def _free(folder: Path, name: str) -> Path:

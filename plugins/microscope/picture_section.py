@@ -8,11 +8,11 @@ from PySide6.QtWidgets import QCheckBox, QLabel, QSlider
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.settings import Settings
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
-from rotemina.app.widgets.controls import button, plain_tip
+from rotemina.app.widgets.controls import button, named, plain_tip
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.contrast import GAMMA, Contrast, Table, histogram
 from rotemina.plugins.microscope.histogram_view import HistogramView
 from rotemina.plugins.microscope.overlays import Layer
@@ -25,29 +25,22 @@ class PictureSection(Section):
     """Contrast by hand or by itself, and the histogram that it is read from."""
 
     def __init__(self, view: PictureView, theme: Theme) -> None:
-        super().__init__(translate("microscope", "Contrast"))
+        super().__init__(tr("Contrast"))
         self._view = view
         self.histogram = HistogramView(theme)
         self.histogram.moved.connect(self._set_levels)
-        self.auto = QCheckBox(translate("microscope", "automatic levels"))
-        self.auto.setToolTip(
-            plain_tip(translate("microscope", "Black and white at 0.1 and 99.9 % of the pixels"))
-        )
+        self.auto = QCheckBox(tr("automatic levels"))
+        self.auto.setToolTip(plain_tip(tr("Black and white at 0.1 and 99.9 % of the pixels")))
         self.auto.setChecked(True)
         self.auto.toggled.connect(lambda on: self._change(auto=on))
-        self.whole = button(
-            translate("microscope", "Whole range"), lambda: self._set_levels(0.0, 1.0)
-        )
-        self.whole.setToolTip(
-            plain_tip(translate("microscope", "Black at 0, white at the largest number"))
-        )
-        self.gamma = QSlider(Qt.Orientation.Horizontal)
+        self.whole = button(tr("Whole range"), lambda: self._set_levels(0.0, 1.0))
+        self.whole.setToolTip(plain_tip(tr("Black at 0, white at the largest number")))
+        self.gamma = named(QSlider(Qt.Orientation.Horizontal), tr("Gamma"))
         self.gamma.setRange(0, int(_STEPS))
         self.gamma.setValue(int(_STEPS / 2))
-        self.gamma.setAccessibleName(translate("microscope", "Gamma"))
         self.gamma.valueChanged.connect(lambda step: self._change(gamma=_gamma(step)))
         self._gamma_text = QLabel()
-        self.table = SteadyChoice(translate("microscope", "Colours"), letters=6)
+        self.table = SteadyChoice(tr("Colours"), letters=6)
         for table in Table:
             self.table.addItem(spoken(table), table)
         self.table.currentIndexChanged.connect(
@@ -82,12 +75,8 @@ class PictureSection(Section):
             low, high = self._view.span  # by hand from where it is
             contrast = replace(contrast, low=low, high=high)
         self._view.set_contrast(contrast)
-        self._gamma_text.setText(
-            translate("microscope", "gamma {gamma:.2f}").format(gamma=contrast.gamma)
-        )
-        tip = translate(
-            "microscope", "{low:g} to {high:g}; 1: linear; smaller values brighten dark regions"
-        )
+        self._gamma_text.setText(tr("gamma {gamma:.2f}").format(gamma=contrast.gamma))
+        tip = tr("{low:g} to {high:g}; 1: linear; smaller values brighten dark regions")
         self.gamma.setToolTip(plain_tip(tip.format(low=GAMMA[0], high=GAMMA[1])))
 
 
@@ -95,16 +84,12 @@ class LayerSection(Section):
     """What is shown over the picture."""
 
     def __init__(self, view: PictureView, settings: Settings) -> None:
-        super().__init__(translate("microscope", "Over the picture"))
+        super().__init__(tr("Over the picture"))
         self.boxes: dict[Layer, QCheckBox] = {}
         for layer in Layer:
             box = QCheckBox(spoken(layer))
             box.setToolTip(
-                plain_tip(
-                    translate("microscope", "Show over the picture: {layer}").format(
-                        layer=spoken(layer)
-                    )
-                )
+                plain_tip(tr("Show over the picture: {layer}").format(layer=spoken(layer)))
             )
             key = f"microscope.layer.{layer.name.lower()}"
             box.setChecked(bool(settings.get(key, layer in view.layers)))

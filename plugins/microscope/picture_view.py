@@ -20,10 +20,9 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.microscope.status import MicroscopeStatus
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.drivers.cameras.frame import Frame, Region
-from rotemina.plugins.microscope import painting
+from rotemina.plugins.microscope import painting, tr
 from rotemina.plugins.microscope.contrast import Contrast, levels, shown
 from rotemina.plugins.microscope.feed_notice import feed_notice
 from rotemina.plugins.microscope.geometry import Viewport
@@ -88,7 +87,7 @@ class PictureView(QWidget):
         self.setMinimumSize(160, 120)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
-        self.setAccessibleName(translate("microscope", "Picture of the microscope"))
+        self.setAccessibleName(tr("Picture of the microscope"))
         self.setToolTip("")
 
     @property

@@ -8,10 +8,10 @@ from PySide6.QtCore import QObject, Signal
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.pending_confirmations import Pending
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.gate import Permit
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.feed_notice import against_aiming, against_clicking
 from rotemina.plugins.microscope.overlays import ghost_text
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
@@ -56,11 +56,7 @@ class PointerTools(QObject):
         self, status: MicroscopeStatus, state: SessionState
     ) -> dict[PointerTool, str | None]:
         """Return why a mode cannot be switched on now; one that is on can be switched off."""
-        none = (
-            None
-            if status.feed.frame is not None
-            else translate("microscope", "there is no picture")
-        )
+        none = None if status.feed.frame is not None else tr("there is no picture")
         reasons = dict.fromkeys(PointerTool, none)
         reasons[PointerTool.MOVE] = against_clicking(status, state)
         reasons[self._view.tool] = None
@@ -145,9 +141,7 @@ class PointerTools(QObject):
             self._forget()
         elif status.planned.confirm:
             self._asked = go
-            self.asks.emit(
-                translate("microscope", "Move the tip {how}?").format(how=ghost_text(status))
-            )
+            self.asks.emit(tr("Move the tip {how}?").format(how=ghost_text(status)))
         else:
             self._make(lambda permit: go(permit=permit))
 
@@ -163,7 +157,7 @@ class PointerTools(QObject):
         """Return whether the machine may move by this picture, and say why not."""
         why = against_clicking(self._microscope.status, self._workbench.session.snapshot())
         if why is not None:
-            self._workbench.refused.emit(translate("microscope", "no move: {why}").format(why=why))
+            self._workbench.refused.emit(tr("no move: {why}").format(why=why))
         return why is None
 
     def _forget(self) -> None:

@@ -10,11 +10,11 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.picture_saving import (
     STAMP,
     VideoCapture,
@@ -35,23 +35,20 @@ class SavingSection(Section):
     _told = Signal(str)
 
     def __init__(self, workbench: Workbench, microscope: Microscope, view: PictureView) -> None:
-        super().__init__(translate("microscope", "Save"))
+        super().__init__(tr("Save"))
         self._workbench, self._view = workbench, view
         data = workbench.operation.data
         self._pictures = data / "pictures"
         self._told.connect(lambda text: workbench.notify(Level.WARNING, text, about=self))
         self.filming = VideoCapture(microscope, data / "videos", self._told.emit)
-        self.snapshot = button(translate("microscope", "Snapshot"), self._snap)
-        self.record = button(translate("microscope", "● Video"), self._toggle)
+        self.snapshot = button(tr("Snapshot"), self._snap)
+        self.record = button(tr("● Video"), self._toggle)
         self.add_row(self.snapshot, self.record)
         self.said = self.add_text()
-        self.follows = QCheckBox(translate("microscope", "video with each recording"))
+        self.follows = QCheckBox(tr("video with each recording"))
         self.follows.setToolTip(
             plain_tip(
-                translate(
-                    "microscope",
-                    "Start and end a video with the recording of the session (panel Recorder)",
-                )
+                tr("Start and end a video with the recording of the session (panel Recorder)")
             )
         )
         self.follows.setChecked(bool(workbench.settings.get(FOLLOWS, False)))
@@ -60,9 +57,7 @@ class SavingSection(Section):
         self.column.addWidget(self.follows)
         self._where = self.add_text()
         self._where.setText(
-            translate("microscope", "Files are saved to pictures and videos in {data}.").format(
-                data=data
-            )
+            tr("Files are saved to pictures and videos in {data}.").format(data=data)
         )
         self._status, self._state = MicroscopeStatus(), workbench.session.snapshot()
         workbench.closing.connect(self._close)
@@ -85,21 +80,11 @@ class SavingSection(Section):
         if video is not None and video.failure:
             self._end()
             video = None
-        none = translate("microscope", "there is no picture") if status.feed.frame is None else None
-        allow(
-            self.snapshot,
-            none,
-            translate("microscope", "Save this picture: raw values as TIFF, the view as PNG"),
-        )
+        none = tr("there is no picture") if status.feed.frame is None else None
+        allow(self.snapshot, none, tr("Save this picture: raw values as TIFF, the view as PNG"))
         on = video is not None
-        self.record.setText(
-            translate("microscope", "■ End video") if on else translate("microscope", "● Video")
-        )
-        tip = (
-            translate("microscope", "End the video")
-            if on
-            else translate("microscope", "Record every picture, with its time, as a BigTIFF")
-        )
+        self.record.setText(tr("■ End video") if on else tr("● Video"))
+        tip = tr("End the video") if on else tr("Record every picture, with its time, as a BigTIFF")
         allow(self.record, None if on else none, tip)
         show_text(self.said, progress(video) if video is not None else "")
 
@@ -115,15 +100,12 @@ class SavingSection(Section):
 
         def done(paths: tuple[object, object]) -> None:
             self._workbench.notify(
-                Level.GOOD,
-                translate("microscope", "Saved {tiff} and {png}.png").format(
-                    tiff=paths[0], png=name
-                ),
+                Level.GOOD, tr("Saved {tiff} and {png}.png").format(tiff=paths[0], png=name)
             )
 
         self._workbench.work(
             f"snapshot {name}",
-            translate("microscope", "Writing a picture …"),
+            tr("Writing a picture …"),
             lambda: write_pictures(self._pictures, frame, contrast, about, name),
             done,
         )
@@ -146,10 +128,7 @@ class SavingSection(Section):
             self._workbench.notify(level, summary(video.path, status))
 
         self._workbench.work(
-            f"end of {video.path.name}",
-            translate("microscope", "Ending the video …"),
-            video.close,
-            done,
+            f"end of {video.path.name}", tr("Ending the video …"), video.close, done
         )
 
     def _follow(self, on: bool) -> None:

@@ -14,14 +14,14 @@ from rotemina.app.microscope.stack_run import StackStatus
 from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.controls import allow, button, named, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.feed_notice import against_moving
-from rotemina.plugins.microscope.picture_saving import STAMP, circumstances
+from rotemina.plugins.microscope.picture_saving import STAMP, circumstances, make_folder
 from rotemina.plugins.microscope.words import focus_name
 from rotemina.sim.quantities import parsed, rounded
 
@@ -32,29 +32,20 @@ class StackSection(Section):
     """The focus goes from the first place to the last and back; the file is written then."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__(translate("microscope", "Z-stack"))
+        super().__init__(tr("Z-stack"))
         self._workbench, self._microscope = workbench, microscope
         self._status, self._state = MicroscopeStatus(), workbench.session.snapshot()
         self._taken: StackStatus | None = None  # whose file was begun
         self._folder = workbench.operation.data / "pictures"
-        self.place = SteadyChoice(translate("microscope", "Drive that moves the focus"), letters=6)
+        self.place = SteadyChoice(tr("Drive that moves the focus"), letters=6)
         self.place.activated.connect(lambda _: self._suggest())
         self.first, self.last, self.step = (
-            _field(
-                translate("microscope", "first, µm"),
-                translate("microscope", "First position, µm, within the range of the drive"),
-            ),
-            _field(
-                translate("microscope", "last, µm"),
-                translate("microscope", "Last position, µm, within the range of the drive"),
-            ),
-            _field(
-                translate("microscope", "step, µm"),
-                translate("microscope", "Step from picture to picture, above 0 µm"),
-            ),
+            _field(tr("first, µm"), tr("First position, µm, within the range of the drive")),
+            _field(tr("last, µm"), tr("Last position, µm, within the range of the drive")),
+            _field(tr("step, µm"), tr("Step from picture to picture, above 0 µm")),
         )
         self.step.setText(rounded(1e6 * _STEP_M))
-        self.take = button(translate("microscope", "Take stack"), self._take)
+        self.take = button(tr("Take stack"), self._take)
         self.column.addWidget(self.place)
         self.add_row(self.first, self.last, self.step)
         self.add_row(self.take)
@@ -87,14 +78,12 @@ class StackSection(Section):
         none = (
             None
             if names
-            else translate(
-                "microscope", "no focus drive is available: open a camera or connect the machine"
-            )
+            else tr("no focus drive is available: open a camera or connect the machine")
         )
         allow(
             self.take,
             none or against_moving(status, state),
-            translate("microscope", "Take a picture at each position and return"),
+            tr("Take a picture at each position and return"),
         )
         show_text(self.said, _text(status.stacking))
 
@@ -110,8 +99,7 @@ class StackSection(Section):
         name = self.place.currentData()
         self._workbench.ask(
             lambda: self._microscope.adjustments.stack(
-                name,
-                *(_metres(field) for field in (self.first, self.last, self.step)),
+                name, *(_metres(field) for field in (self.first, self.last, self.step))
             )
         )
 
@@ -121,26 +109,17 @@ class StackSection(Section):
         path = self._folder / f"{now.strftime(STAMP)}_stack.tif"
         self._workbench.work(
             f"z-stack {path.name}",
-            translate("microscope", "Writing a z-stack …"),
+            tr("Writing a z-stack …"),
             lambda: _write(path, stack, about),
             lambda _: self._workbench.notify(
                 Level.GOOD,
-                translate("microscope", "Saved {path}, {count} pictures").format(
-                    path=path, count=stack.total
-                ),
+                tr("Saved {path}, {count} pictures").format(path=path, count=stack.total),
             ),
         )
 
 
 def _write(path: Path, stack: StackStatus, about: Circumstances) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise MicroscopeError(
-            translate("microscope", "{folder}: the folder cannot be created ({reason})").format(
-                folder=path.parent, reason=error.strerror or error
-            )
-        ) from error
+    make_folder(path.parent)
     write_stack(path, stack.pages, stack.axis, about)
 
 
@@ -148,7 +127,7 @@ def _metres(field: QLineEdit) -> float:
     number = parsed(field.text())
     if number is None:
         raise MicroscopeError(
-            translate("microscope", "{name}: {text!r} is not a number; enter one in µm").format(
+            tr("{name}: {text!r} is not a number; enter one in µm").format(
                 name=field.accessibleName(), text=field.text().strip()
             )
         )
@@ -163,15 +142,11 @@ def _text(stack: StackStatus | None) -> str:
     if stack is None:
         return ""
     if _failed(stack):
-        return translate("microscope", "Failed: {reason}").format(reason=spoken(stack.reason))
-    return translate("microscope", "{done} of {total} pictures").format(
-        done=stack.done, total=stack.total
-    )
+        return tr("Failed: {reason}").format(reason=spoken(stack.reason))
+    return tr("{done} of {total} pictures").format(done=stack.done, total=stack.total)
 
 
 def _field(hint: str, name: str) -> QLineEdit:
-    field = QLineEdit()
+    field = named(QLineEdit(), name, plain_tip(name))
     field.setPlaceholderText(hint)
-    field.setAccessibleName(name)
-    field.setToolTip(plain_tip(name))
     return field

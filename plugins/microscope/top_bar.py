@@ -2,35 +2,31 @@
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import allow, button, plain_tip
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
 from rotemina.sim.quantities import fixed
 
 TOOLS = {
     PointerTool.MOVE: (
-        marked("microscope", "Move"),
-        marked("microscope", "Click or drag: the tip moves there. Esc or any stop ends this mode"),
+        mark("Move"),
+        mark("Click or drag: the tip moves there. Esc or any stop ends this mode"),
     ),
-    PointerTool.MARK: (
-        marked("microscope", "Mark"),
-        marked("microscope", "Click: mark a target for a visit; nothing moves"),
-    ),
+    PointerTool.MARK: (mark("Mark"), mark("Click: mark a target for a visit; nothing moves")),
     PointerTool.MEASURE: (
-        marked("microscope", "Measure"),
-        marked("microscope", "Drag a line: its length and angles; nothing moves"),
+        mark("Measure"),
+        mark("Drag a line: its length and angles; nothing moves"),
     ),
     PointerTool.TIP: (
-        marked("microscope", "Tip"),
-        marked("microscope", "Click near the pipette's tip: track it from there; nothing moves"),
+        mark("Tip"),
+        mark("Click near the pipette's tip: track it from there; nothing moves"),
     ),
-    PointerTool.CELL: (
-        marked("microscope", "Cell"),
-        marked("microscope", "Click into a cell: find its outline; nothing moves"),
-    ),
+    PointerTool.CELL: (mark("Cell"), mark("Click into a cell: find its outline; nothing moves")),
 }
 
 
@@ -50,33 +46,22 @@ class TopBar(QWidget):
     def __init__(self, view: PictureView, tools: tuple[str, ...]) -> None:
         super().__init__()
         self.buttons: dict[PointerTool, QPushButton] = {}
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
+        row = in_row(on=self, margins=0, spacing=4)
         for tool, (text, tip) in TOOLS.items():
-            made = QPushButton(translate("microscope", text))
+            made = QPushButton(tr(text))
             made.setCheckable(True)
-            made.setToolTip(plain_tip(translate("microscope", tip)))
+            made.setToolTip(plain_tip(tr(tip)))
             made.clicked.connect(
                 lambda on, tool=tool: self.chosen.emit(tool if on else PointerTool.PAN)
             )
             self.buttons[tool] = made
             row.addWidget(made)
         row.addStretch(1)
-        self.zoom = QLabel()
-        self.zoom.setProperty("quiet", True)
+        self.zoom = plain_text()
         self.zoom.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.fit = button(
-            translate("microscope", "Fit"),
-            view.show_fitted,
-            translate("microscope", "Show all of the picture (F)"),
-        )
-        self.one = button(
-            "1:1",
-            view.show_one_to_one,
-            translate("microscope", "One camera pixel per screen pixel (1)"),
-        )
-        self.tools = SteadyChoice(translate("microscope", "Tools beside the picture"), letters=6)
+        self.fit = button(tr("Fit"), view.show_fitted, tr("Show all of the picture (F)"))
+        self.one = button("1:1", view.show_one_to_one, tr("One camera pixel per screen pixel (1)"))
+        self.tools = SteadyChoice(tr("Tools beside the picture"), letters=6)
         for name in tools:
             self.tools.addItem(name)
         for widget in (self.zoom, self.fit, self.one, self.tools):
@@ -101,4 +86,4 @@ class TopBar(QWidget):
     def refresh(self, against: dict[PointerTool, str | None]) -> None:
         """Lock what cannot be done now, with the reason."""
         for tool, made in self.buttons.items():
-            allow(made, against.get(tool), translate("microscope", TOOLS[tool][1]))
+            allow(made, against.get(tool), tr(TOOLS[tool][1]))

@@ -7,12 +7,12 @@ from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.microscope.status import Activity, MicroscopeStatus, TipState
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import show_text
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.microscope import tr
 from rotemina.plugins.microscope.feed_notice import against_moving
 from rotemina.plugins.microscope.words import (
     cell_text,
@@ -30,27 +30,24 @@ class TipSection(Section):
     """Tracking on or off, and what it says."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__(translate("microscope", "Tip"))
-        self.track = QCheckBox(translate("microscope", "track the tip"))
+        super().__init__(tr("Tip"))
+        self.track = QCheckBox(tr("track the tip"))
         self.track.setToolTip(
             plain_tip(
-                translate(
-                    "microscope",
+                tr(
                     "Find the pipette tip in every picture; to help the search, click it with "
-                    "Tip, above",
+                    "Tip, above"
                 )
             )
         )
         self.track.clicked.connect(lambda on: workbench.ask(lambda: microscope.track(on)))
         self.background = button(
-            translate("microscope", "Take background"),
+            tr("Take background"),
             lambda: workbench.ask(microscope.tracker.take_ground),
-            translate("microscope", "Save the background without the tip in the picture"),
+            tr("Save the background without the tip in the picture"),
         )
-        self.drift = QCheckBox(translate("microscope", "monitor drift"))
-        self.drift.setToolTip(
-            plain_tip(translate("microscope", "Displacement of the background since it was taken"))
-        )
+        self.drift = QCheckBox(tr("monitor drift"))
+        self.drift.setToolTip(plain_tip(tr("Displacement of the background since it was taken")))
         self.drift.clicked.connect(
             lambda on: workbench.ask(lambda: microscope.jobs.watch_drift(on))
         )
@@ -67,30 +64,21 @@ class TipSection(Section):
             self.track.setChecked(on)
         looked, passed = status.frames_processed, status.frames_skipped
         figures = (
-            translate("microscope", "\n{looked} pictures evaluated, {passed} skipped").format(
+            tr("\n{looked} pictures evaluated, {passed} skipped").format(
                 looked=looked, passed=passed
             )
             if on
             else ""
         )
         show_text(self.said, tip_text(status.tip) + figures)
-        none = (
-            None
-            if status.feed.frame is not None
-            else translate("microscope", "there is no picture")
-        )
-        about = (
-            translate("microscope", "taken")
-            if status.background
-            else translate("microscope", "not taken yet")
-        )
+        none = None if status.feed.frame is not None else tr("there is no picture")
+        about = tr("taken") if status.background else tr("not taken yet")
         allow(
             self.background,
             none,
-            translate(
-                "microscope",
+            tr(
                 "Save the background without the tip, so that cells do not disturb the "
-                "tracking; {about}",
+                "tracking; {about}"
             ).format(about=about),
         )
         if self.drift.isChecked() != status.drift.watched:
@@ -102,62 +90,48 @@ class CellSection(Section):
     """The outline of a cell, and how far its membrane is."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__(translate("microscope", "Cell"))
+        super().__init__(tr("Cell"))
         self._guide = self.add_text()
-        self._guide.setText(
-            translate("microscope", "With Cell, above the picture, a click outlines a cell.")
-        )
+        self._guide.setText(tr("With Cell, above the picture, a click outlines a cell."))
         self.said = self.add_text()
         self.forget = button(
-            translate("microscope", "Remove cell"),
+            tr("Remove cell"),
             lambda: workbench.ask(microscope.jobs.forget),
-            translate("microscope", "Remove the outline"),
+            tr("Remove the outline"),
         )
         self.column.addWidget(self.forget)
 
     def refresh(self, status: MicroscopeStatus) -> None:
         """Show size and distance."""
         show_text(self.said, cell_text(status))
-        none = (
-            translate("microscope", "no cell is outlined") if status.cell.outline is None else None
-        )
-        allow(self.forget, none, translate("microscope", "Remove the outline"))
+        none = tr("no cell is outlined") if status.cell.outline is None else None
+        allow(self.forget, none, tr("Remove the outline"))
 
 
 class FocusSection(Section):
     """Autofocus with the microscope's drive, or with an axis of the machine."""
 
     def __init__(self, workbench: Workbench, microscope: Microscope) -> None:
-        super().__init__(translate("microscope", "Focus"))
+        super().__init__(tr("Focus"))
         self._workbench, self._microscope = workbench, microscope
         self._status = MicroscopeStatus()
-        self.place = SteadyChoice(translate("microscope", "Drive for focusing"), letters=6)
+        self.place = SteadyChoice(tr("Drive for focusing"), letters=6)
         self.reach = QLineEdit(rounded(1e6 * _PRESET_M))
-        self.reach.setAccessibleName(translate("microscope", "Search distance each way, µm"))
+        self.reach.setAccessibleName(tr("Search distance each way, µm"))
         self.reach.setToolTip(
-            plain_tip(
-                translate(
-                    "microscope", "Search distance each way from the present position, above 0 µm"
-                )
-            )
+            plain_tip(tr("Search distance each way from the present position, above 0 µm"))
         )
         self.search = button(
-            translate("microscope", "Autofocus"),
-            self._autofocus,
-            translate("microscope", "Find the sharpest focus and stay there"),
+            tr("Autofocus"), self._autofocus, tr("Find the sharpest focus and stay there")
         )
         self.column.addWidget(self.place)
         self.add_row(self.reach, self.search)
         self.goal = QLineEdit()
-        self.goal.setPlaceholderText(translate("microscope", "focus at, µm"))
-        self.goal.setAccessibleName(translate("microscope", "Position of the focus drive, µm"))
-        self.goal.setToolTip(
-            plain_tip(translate("microscope", "Target of the drive, µm, within its range"))
-        )
+        self.goal.setPlaceholderText(tr("focus at, µm"))
+        self.goal.setAccessibleName(tr("Position of the focus drive, µm"))
+        self.goal.setToolTip(plain_tip(tr("Target of the drive, µm, within its range")))
         self.move = button(
-            translate("microscope", "Move focus"),
-            self._move,
-            translate("microscope", "Move the focus drive of the microscope"),
+            tr("Move focus"), self._move, tr("Move the focus drive of the microscope")
         )
         self.goal.returnPressed.connect(self._move)
         self.add_row(self.goal, self.move)
@@ -176,27 +150,17 @@ class FocusSection(Section):
         none = (
             None
             if names
-            else translate(
-                "microscope", "no focus drive is available: open a camera or connect the machine"
-            )
+            else tr("no focus drive is available: open a camera or connect the machine")
         )
         why = none or against_moving(status, state)
-        allow(self.search, why, translate("microscope", "Find the sharpest focus and stay there"))
-        drive = (
-            None if "focus" in names else translate("microscope", "this camera has no focus drive")
-        )
+        allow(self.search, why, tr("Find the sharpest focus and stay there"))
+        drive = None if "focus" in names else tr("this camera has no focus drive")
         busy = (
             None
             if status.activity is Activity.NONE
-            else translate("microscope", "{activity} is running").format(
-                activity=spoken(status.activity)
-            )
+            else tr("{activity} is running").format(activity=spoken(status.activity))
         )
-        allow(
-            self.move,
-            drive or busy,
-            translate("microscope", "Move the focus drive of the microscope"),
-        )
+        allow(self.move, drive or busy, tr("Move the focus drive of the microscope"))
         show_text(self.said, focus_text(status.focusing))
 
     def _autofocus(self) -> None:
@@ -204,7 +168,7 @@ class FocusSection(Section):
         chosen = next((one for one in self._status.focus_axes if one.name == name), None)
 
         def begin() -> None:
-            reach_m = _micrometres(translate("microscope", "search distance"), self.reach.text())
+            reach_m = _micrometres(tr("search distance"), self.reach.text())
             if chosen is None or chosen.position is None:
                 self._microscope.adjustments.autofocus(name)
                 return
@@ -218,9 +182,7 @@ class FocusSection(Section):
 
     def _move(self) -> None:
         self._workbench.ask(
-            lambda: self._microscope.move_focus(
-                _micrometres(translate("microscope", "focus"), self.goal.text())
-            )
+            lambda: self._microscope.move_focus(_micrometres(tr("focus"), self.goal.text()))
         )
 
 
@@ -228,7 +190,7 @@ def _micrometres(name: str, text: str) -> float:
     number = parsed(text)
     if number is None:
         raise MicroscopeError(
-            translate("microscope", "{name}: {text!r} is not a number; enter one in µm").format(
+            tr("{name}: {text!r} is not a number; enter one in µm").format(
                 name=name, text=text.strip()
             )
         )

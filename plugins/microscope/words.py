@@ -8,35 +8,29 @@ from rotemina.app.microscope.calibration_file import StageCalibration
 from rotemina.app.microscope.calibration_run import CalibrationStatus, Phase
 from rotemina.app.microscope.click_corrections import Visit, VisitStatus
 from rotemina.app.microscope.focus_run import FocusStatus, Search
-from rotemina.app.microscope.status import (
-    DriftSeen,
-    FocusAxis,
-    MicroscopeStatus,
-    TipSeen,
-    TipState,
-)
+from rotemina.app.microscope.status import DriftSeen, FocusAxis, MicroscopeStatus, TipSeen, TipState
 from rotemina.app.microscope.targets import Target
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.overlays import membrane_text
 from rotemina.sim.quantities import exact, fixed
 from rotemina.sim.vision.calibration import Geometry, StageFit
 
 ENDED = (Phase.DONE, Phase.FAILED)
 _PHASES = {
-    Phase.LOOKING: marked("microscope", "makes small moves"),
-    Phase.RETURNING: marked("microscope", "returns to the start"),
-    Phase.DONE: marked("microscope", "calibrated"),
-    Phase.FAILED: marked("microscope", "failed"),
+    Phase.LOOKING: mark("makes small moves"),
+    Phase.RETURNING: mark("returns to the start"),
+    Phase.DONE: mark("calibrated"),
+    Phase.FAILED: mark("failed"),
 }
 
 
 def stage_text(name: str, stage: StageCalibration | None) -> str:
     """Return the calibration of a stage, in a few lines."""
     if stage is None:
-        return translate("microscope", "{name}: not calibrated").format(name=spoken(name))
+        return tr("{name}: not calibrated").format(name=spoken(name))
     found, when = stage.map.geometry, stage.date[:16].replace("T", " ")
-    return translate("microscope", "{name}: {found}, residual {residual:.2f} px, {when}").format(
+    return tr("{name}: {found}, residual {residual:.2f} px, {when}").format(
         name=spoken(name), found=geometry_text(found), residual=stage.residual_px, when=when
     )
 
@@ -45,11 +39,9 @@ def geometry_text(found: Geometry) -> str:
     """Return pixel sizes, rotation, handedness and skew with their uncertainties."""
     sizes = " × ".join(fixed(1e9 * size, 2) for size in found.pixel_size)
     doubts = max(1e9 * one for one in found.pixel_size_uncertainty)
-    hand = "" if found.handedness > 0 else translate("microscope", ", mirrored")
-    return translate(
-        "microscope",
-        "{sizes} ± {doubts:.2f} nm/px, turned {rotation:.3f} ± {doubt:.3f}°, skew "
-        "{skew:.3f}°{hand}",
+    hand = "" if found.handedness > 0 else tr(", mirrored")
+    return tr(
+        "{sizes} ± {doubts:.2f} nm/px, turned {rotation:.3f} ± {doubt:.3f}°, skew {skew:.3f}°{hand}"
     ).format(
         sizes=sizes,
         doubts=doubts,
@@ -64,11 +56,11 @@ def calibration_text(status: CalibrationStatus | None) -> str:
     """Return how the latest calibration continues, or went."""
     if status is None:
         return ""
-    text = translate("microscope", "{phase}: picture {done} of {moves}").format(
-        phase=translate("microscope", _PHASES[status.phase]), done=status.done, moves=status.moves
+    text = tr("{phase}: picture {done} of {moves}").format(
+        phase=tr(_PHASES[status.phase]), done=status.done, moves=status.moves
     )
     if status.phase in ENDED:
-        text = translate("microscope", _PHASES[status.phase])
+        text = tr(_PHASES[status.phase])
     if status.reason:
         text = f"{text}: {spoken(status.reason)}"
     return text
@@ -80,8 +72,8 @@ def residual_lines(fit: StageFit | None) -> list[str]:
         return []
     sizes = np.linalg.norm(fit.residuals, axis=1)
     return [
-        translate("microscope", "move {number}: {size:.2f} px").format(number=number, size=size)
-        + ("" if kept else translate("microscope", ", omitted"))
+        tr("move {number}: {size:.2f} px").format(number=number, size=size)
+        + ("" if kept else tr(", omitted"))
         for number, (size, kept) in enumerate(zip(sizes, fit.kept, strict=True), start=1)
     ]
 
@@ -91,21 +83,17 @@ def visit_text(status: VisitStatus | None) -> str:
     if status is None:
         return ""
     if status.visit is Visit.FAILED:
-        return translate("microscope", "Failed: {reason}").format(reason=spoken(status.reason))
+        return tr("Failed: {reason}").format(reason=spoken(status.reason))
     miss = (
         ""
         if status.miss is None
-        else translate("microscope", ", {miss:.2f} px off").format(miss=np.linalg.norm(status.miss))
+        else tr(", {miss:.2f} px off").format(miss=np.linalg.norm(status.miss))
     )
-    head = (
-        translate("microscope", "Arrived")
-        if status.visit is Visit.ARRIVED
-        else translate("microscope", "Under way")
-    )
+    head = tr("Arrived") if status.visit is Visit.ARRIVED else tr("Under way")
     many = (
-        translate("microscope", "1 correction")
+        tr("1 correction")
         if status.corrections == 1
-        else translate("microscope", "{n} corrections").format(n=status.corrections)
+        else tr("{n} corrections").format(n=status.corrections)
     )
     return f"{head}{miss}, {many}"
 
@@ -121,7 +109,7 @@ def target_text(number: int, target: Target) -> str:
 def tip_text(tip: TipSeen) -> str:
     """Return where the tip is and how surely, or why it is not seen."""
     if tip.state is TipState.OFF:
-        return translate("microscope", "off")
+        return tr("off")
     state = spoken(tip.state)
     lines = [state if not tip.reason else f"{state}: {spoken(tip.reason)}"]
     if tip.state is not TipState.TRACKED:
@@ -139,13 +127,11 @@ def tip_text(tip: TipSeen) -> str:
         sign = "" if tip.depth.sign_known else "±"
         distance = f"{sign}{fixed(1e6 * tip.depth.distance, 2)}"
         lines.append(
-            translate("microscope", "{distance} ± {uncertainty:.2f} µm from focus").format(
+            tr("{distance} ± {uncertainty:.2f} µm from focus").format(
                 distance=distance, uncertainty=1e6 * tip.depth.uncertainty
             )
         )
-    lines.append(
-        translate("microscope", "quality {quality:.0f} %").format(quality=100.0 * tip.quality)
-    )
+    lines.append(tr("quality {quality:.0f} %").format(quality=100.0 * tip.quality))
     return "\n".join(lines)
 
 
@@ -162,9 +148,7 @@ def cell_text(status: MicroscopeStatus) -> str:
         )
     ahead = membrane_text(status)
     return (
-        translate("microscope", "{size}\nmembrane: {ahead} from head on").format(
-            size=size, ahead=ahead
-        )
+        tr("{size}\nmembrane: {ahead} from head on").format(size=size, ahead=ahead)
         if ahead
         else size
     )
@@ -175,11 +159,11 @@ def drift_text(seen: DriftSeen) -> str:
     if not seen.watched:
         return ""
     if seen.drift is None:
-        return spoken(seen.reason) or translate("microscope", "watching")
+        return spoken(seen.reason) or tr("watching")
     right, down = seen.drift.shift
-    return translate(
-        "microscope", "{right:.2f}, {down:.2f} px since the background was taken"
-    ).format(right=right, down=down)
+    return tr("{right:.2f}, {down:.2f} px since the background was taken").format(
+        right=right, down=down
+    )
 
 
 def focus_text(status: FocusStatus | None) -> str:
@@ -187,22 +171,16 @@ def focus_text(status: FocusStatus | None) -> str:
     if status is None:
         return ""
     if status.search is Search.FAILED:
-        return translate("microscope", "Failed: {reason}").format(reason=spoken(status.reason))
+        return tr("Failed: {reason}").format(reason=spoken(status.reason))
     if status.peak is None:
-        return translate("microscope", "{places} positions evaluated").format(
-            places=len(status.places)
-        )
+        return tr("{places} positions evaluated").format(places=len(status.places))
     peak = status.peak
-    return translate("microscope", "Sharpest at {place:.2f} ± {doubt:.2f} µm").format(
+    return tr("Sharpest at {place:.2f} ± {doubt:.2f} µm").format(
         place=1e6 * peak.place, doubt=1e6 * peak.uncertainty
     )
 
 
 def focus_name(axis: FocusAxis) -> str:
     """Return something that can be focused with, by name and place."""
-    name = (
-        translate("microscope", "focus drive")
-        if axis.name == "focus"
-        else translate("microscope", "axis {name}").format(name=axis.name)
-    )
+    name = tr("focus drive") if axis.name == "focus" else tr("axis {name}").format(name=axis.name)
     return name if axis.position is None else f"{name}: {exact(axis.position, 'm')}"

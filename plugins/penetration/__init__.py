@@ -2,3 +2,7 @@
 
 Parameters, their consequences, the run and the log.
 """
+
+from rotemina.app.shell.language import texts_of
+
+tr, mark = texts_of("penetration")

@@ -3,11 +3,7 @@
 from pathlib import Path
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QWidget
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.files import write_text
@@ -17,20 +13,21 @@ from rotemina.app.motion.penetration.status import PenetrationStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_where
-from rotemina.app.shell.language import marked, translate
-from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.plan_preview import way_text
 from rotemina.plugins.penetration.words import FIXED
 
 _OUTCOMES = {
-    Outcome.WAITING: marked("penetration", "waiting"),
-    Outcome.SKIPPED: marked("penetration", "skipped"),
-    Outcome.DONE: marked("penetration", "done"),
-    Outcome.FAILED: marked("penetration", "failed"),
+    Outcome.WAITING: mark("waiting"),
+    Outcome.SKIPPED: mark("skipped"),
+    Outcome.DONE: mark("done"),
+    Outcome.FAILED: mark("failed"),
 }
-_TABLES = marked("penetration", "Tables (*.csv);;All files (*)")
+_TABLES = mark("Tables (*.csv);;All files (*)")
 
 
 class CellListView(QWidget):
@@ -53,30 +50,23 @@ class CellListView(QWidget):
         axes = tuple(workbench.robot.axes)
         self._shown_axes = axes[: min(len(axes), 3)]
         heads = (
-            translate("penetration", "Cell"),
+            tr("Cell"),
             *(label(axis) for axis in self._shown_axes),
-            translate("penetration", "Outcome"),
-            translate("penetration", "Depth"),
-            translate("penetration", "Why"),
+            tr("Outcome"),
+            tr("Depth"),
+            tr("Why"),
         )
-        self.table = Table(translate("penetration", "Cells"), heads)
+        self.table = Table(tr("Cells"), heads)
         self.table.horizontalHeader().setStretchLastSection(True)
         self.table.setMinimumSize(200, 60)
-        self.add = button(translate("penetration", "Add here"), self._add)
-        self.next = button(translate("penetration", "Next"), self._next)
-        self.skip = button(translate("penetration", "Skip"), self._skip)
-        self.penetrate = button(translate("penetration", "Penetrate"), self.penetrate_asked.emit)
-        self.remove = button(translate("penetration", "Remove"), self._remove)
-        self.export = button(translate("penetration", "Export …"), self._ask_where)
-        row = QHBoxLayout()
-        for one in (self.add, self.next, self.skip, self.penetrate, self.remove, self.export):
-            row.addWidget(one)
-        row.addStretch(1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(3)
-        column.addWidget(self.table, 1)
-        column.addLayout(row)
+        self.add = button(tr("Add here"), self._add)
+        self.next = button(tr("Next"), self._next)
+        self.skip = button(tr("Skip"), self._skip)
+        self.penetrate = button(tr("Penetrate"), self.penetrate_asked.emit)
+        self.remove = button(tr("Remove"), self._remove)
+        self.export = button(tr("Export …"), self._ask_where)
+        row = in_row(self.add, self.next, self.skip, self.penetrate, self.remove, self.export, 1)
+        in_column((self.table, 1), row, on=self, margins=0, spacing=3)
 
     def armed(self, status: PenetrationStatus) -> None:
         """Note that a penetration was armed: its run is that of the cell that it is at."""
@@ -90,59 +80,32 @@ class CellListView(QWidget):
                 self.list.take(self._armed, status.run)
                 self._fill()
             self._armed = None
-        busy = (
-            translate("penetration", "a penetration is armed or running")
-            if status.phase in FIXED
-            else None
-        )
+        busy = tr("a penetration is armed or running") if status.phase in FIXED else None
         locked = spoken(state.locked) if state.locked else None
-        moves = (
-            None
-            if self._workbench.session.at_rest
-            else translate("penetration", "the machine is moving")
-        )
+        moves = None if self._workbench.session.at_rest else tr("the machine is moving")
         still = busy or locked or moves
-        none = None if self.list.cells else translate("penetration", "the list is empty")
-        at = (
-            None
-            if self.list.current is not None
-            else translate("penetration", "go to a cell first")
-        )
-        more = (
-            None
-            if self.list.following() is not None
-            else translate("penetration", "no other cell is waiting")
-        )
+        none = None if self.list.cells else tr("the list is empty")
+        at = None if self.list.current is not None else tr("go to a cell first")
+        more = None if self.list.following() is not None else tr("no other cell is waiting")
         allow(
             self.add,
-            None if state.position_known else translate("penetration", "its position is unknown"),
-            translate("penetration", "Add a cell at the present position, with the tip above it"),
+            None if state.position_known else tr("its position is unknown"),
+            tr("Add a cell at the present position, with the tip above it"),
         )
-        allow(
-            self.next,
-            still or none or more,
-            translate("penetration", "Go to the next waiting cell: up, across, down"),
-        )
-        allow(self.skip, busy or at, translate("penetration", "Skip this cell"))
+        allow(self.next, still or none or more, tr("Go to the next waiting cell: up, across, down"))
+        allow(self.skip, busy or at, tr("Skip this cell"))
         allow(
             self.penetrate,
             busy or at or why_not,
-            translate("penetration", "Arm for this cell; motion begins only with Start, above"),
+            tr("Arm for this cell; motion begins only with Start, above"),
         )
-        allow(self.remove, busy or none, translate("penetration", "Remove the selected cell"))
-        allow(self.export, none, translate("penetration", "Export the list as CSV"))
+        allow(self.remove, busy or none, tr("Remove the selected cell"))
+        allow(self.export, none, tr("Export the list as CSV"))
 
     def export_to(self, path: Path) -> None:
         """Write the list."""
         text = self.list.as_csv(self._workbench.robot)
-        self._workbench.work(
-            "export cells",
-            translate("penetration", "Writing {name} …").format(name=path.name),
-            lambda: write_text(path, text),
-            lambda _: self._workbench.notify(
-                Level.GOOD, translate("penetration", "Saved {path}").format(path=path)
-            ),
-        )
+        self._workbench.write_file("export cells", path, lambda: write_text(path, text))
 
     # --- what the operator does -------------------------------------------------------------------
 
@@ -168,7 +131,7 @@ class CellListView(QWidget):
             self._fill()
 
     def _ask_where(self) -> None:
-        title, kinds = translate("penetration", "Export cells"), translate("penetration", _TABLES)
+        title, kinds = tr("Export cells"), tr(_TABLES)
         ask_where(self, self._workbench, title, kinds, "cells.csv", self.export_to)
 
     # --- what is shown ----------------------------------------------------------------------------
@@ -180,7 +143,7 @@ class CellListView(QWidget):
             (
                 f"▸ {cell.number}" if cell.number == current else str(cell.number),
                 *(scale.text(cell.place[axis]) for axis, scale in scales.items()),
-                translate("penetration", _OUTCOMES[cell.outcome]),
+                tr(_OUTCOMES[cell.outcome]),
                 "" if cell.depth is None else way_text(cell.depth),
                 spoken(cell.reason),
             )

@@ -1,31 +1,30 @@
 """A demonstration cell on the simulator: place it ahead of the tip, remove it."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, plain_tip, set_property
+from rotemina.app.widgets.controls import allow, named, plain_tip, set_property
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_grid
+from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.parameter_quantities import TypedError
 from rotemina.plugins.penetration.plan_preview import way_text
 from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.quantities import parsed, rounded
 from rotemina.sim.robot.model import AxisEffect, Robot
 
-REAL_MACHINE = marked(
-    "penetration",
+REAL_MACHINE = mark(
     "Demonstration cells exist only in the simulator. On a real machine put a "
-    "real cell under the tip.",
+    "real cell under the tip."
 )
-_ABOUT = marked(
-    "penetration",
+_ABOUT = mark(
     "Elastic membrane (effect “contact”); other effects stay. The membrane does"
-    " not break: remove it during the thrust to simulate a rupture.",
+    " not break: remove it during the thrust to simulate a rupture."
 )
 
 
@@ -64,10 +63,9 @@ def with_cell(
     least, most = parameter.bounds(bare.facts)
     if not least <= place <= most:
         raise PenetrationError(
-            translate(
-                "penetration",
+            tr(
                 "a cell at {at} of {axis} must be within {least} to {most}; move the axis "
-                "away from its end first",
+                "away from its end first"
             ).format(
                 at=way_text(at),
                 axis=label(axis),
@@ -94,16 +92,12 @@ def cells_text(robot: Robot, effects: Effects, axis: str) -> str:
         if _is_cell(one, axis) and one.enabled:
             values = Attached.of(robot, one).values
             places.append(
-                translate("penetration", "{at} of {axis}").format(
-                    at=way_text(low + values["place"]), axis=label(axis)
-                )
+                tr("{at} of {axis}").format(at=way_text(low + values["place"]), axis=label(axis))
             )
     return (
-        translate("penetration", "A cell at {places}.").format(
-            places=translate("penetration", " and ").join(places)
-        )
+        tr("A cell at {places}.").format(places=tr(" and ").join(places))
         if places
-        else translate("penetration", "There is no cell.")
+        else tr("There is no cell.")
     )
 
 
@@ -123,40 +117,27 @@ class CellView(QWidget):
         self.missing = False
         self.where, self.about = plain_text(wrap=True), plain_text(wrap=True)
         self.where.setProperty("quiet", False)
-        about = translate(
-            "penetration", "Distance from the present position of the axis, above 0 µm"
-        )
-        self.ahead = _field(
-            rounded(1e6 * AHEAD), translate("penetration", "Distance to the cell, µm"), about
-        )
+        about = tr("Distance from the present position of the axis, above 0 µm")
+        self.ahead = _field(rounded(1e6 * AHEAD), tr("Distance to the cell, µm"), about)
         self.stiffness = _field(
             rounded(STIFFNESS),
-            translate("penetration", "Stiffness of the cell"),
-            translate("penetration", "Relative to the stiffness of the axis, up to 30"),
+            tr("Stiffness of the cell"),
+            tr("Relative to the stiffness of the axis, up to 30"),
         )
-        self.put, self.take = (
-            QPushButton(translate("penetration", "Place cell")),
-            QPushButton(translate("penetration", "Remove")),
-        )
+        self.put, self.take = QPushButton(tr("Place cell")), QPushButton(tr("Remove"))
         self.put.clicked.connect(lambda _: self._put())
         self.take.clicked.connect(lambda _: self._take())
         self.controls = QWidget()
-        grid = QGridLayout(self.controls)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setColumnStretch(4, 1)
-        grid.addWidget(QLabel(translate("penetration", "Ahead of the tip")), 0, 0)
+        grid = in_grid(on=self.controls, margins=0, stretched=4)
+        grid.addWidget(QLabel(tr("Ahead of the tip")), 0, 0)
         grid.addWidget(self.ahead, 0, 1)
         grid.addWidget(QLabel("µm"), 0, 2)
-        grid.addWidget(QLabel(translate("penetration", "Stiffness")), 1, 0)
+        grid.addWidget(QLabel(tr("Stiffness")), 1, 0)
         grid.addWidget(self.stiffness, 1, 1)
-        grid.addWidget(QLabel(translate("penetration", "× axis")), 1, 2)
+        grid.addWidget(QLabel(tr("× axis")), 1, 2)
         grid.addWidget(self.put, 0, 3)
         grid.addWidget(self.take, 1, 3)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 4, 0, 0)
-        for widget in (self.where, self.controls, self.about):
-            column.addWidget(widget)
-        column.addStretch(1)
+        in_column(self.where, self.controls, self.about, 1, on=self, margins=(0, 4, 0, 0))
 
     def refresh(self, state: SessionState, parameters: PenetrationParameters) -> None:
         """Show a state, for the axis and direction of some parameters."""
@@ -166,34 +147,27 @@ class CellView(QWidget):
             self._known = effects, axis
             simulated = effects is not None
             self.controls.setVisible(simulated)
-            self.about.setText(translate("penetration", _ABOUT if simulated else REAL_MACHINE))
+            self.about.setText(tr(_ABOUT if simulated else REAL_MACHINE))
             self.where.setVisible(simulated)
             if effects is not None and axis in session.robot.axes:
                 self.where.setText(cells_text(session.robot, effects, axis))
         at = state.measured.get(axis)
-        why = None if at is not None else translate("penetration", "the axis' position is unknown")
+        why = None if at is not None else tr("the axis' position is unknown")
         allow(
             self.put,
             why,
-            translate(
-                "penetration",
-                "Place a cell ahead of the present position of the axis, or move it there",
-            ),
+            tr("Place a cell ahead of the present position of the axis, or move it there"),
         )
         has = effects is not None and without_cell(effects, axis) != effects
         self.missing = effects is not None and not has
-        allow(
-            self.take,
-            None if has else translate("penetration", "there is no cell"),
-            translate("penetration", "Remove the simulated cell"),
-        )
+        allow(self.take, None if has else tr("there is no cell"), tr("Remove the simulated cell"))
 
     def _put(self) -> None:
         session, p = self._workbench.session, self._parameters
 
         def put() -> None:
-            ahead = _value(self.ahead, translate("penetration", "distance to the cell")) / 1e6
-            stiffness = _value(self.stiffness, translate("penetration", "stiffness"))
+            ahead = _value(self.ahead, tr("distance to the cell")) / 1e6
+            stiffness = _value(self.stiffness, tr("stiffness"))
             # Where the tip is, not where it was sent: hysteresis and creep part the two.
             tip = session.snapshot().measured[p.axis] - session.robot.axes[p.axis].offset
             at = tip + p.sign * ahead
@@ -218,17 +192,15 @@ def _value(field: QLineEdit, name: str) -> float:
     set_property(field, "bad", not good)
     if number is None or not good:
         raise TypedError(
-            translate(
-                "penetration", "{name}: {text!r}; enter a number above 0 with a decimal point"
-            ).format(name=name, text=text)
+            tr("{name}: {text!r}; enter a number above 0 with a decimal point").format(
+                name=name, text=text
+            )
         )
     return number
 
 
 def _field(text: str, name: str, tip: str) -> QLineEdit:
-    field = QLineEdit(text)
+    field = named(QLineEdit(text), name, plain_tip(f"{name}. {tip}."))
     field.setFixedWidth(70)
     field.setAlignment(Qt.AlignmentFlag.AlignRight)
-    field.setAccessibleName(name)
-    field.setToolTip(plain_tip(f"{name}. {tip}."))
     return field

@@ -6,13 +6,11 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
     QPushButton,
     QScrollArea,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,9 +22,11 @@ from rotemina.app.motion.penetration.parameters import (
     ThrustShape,
 )
 from rotemina.app.shell.engine_words import error_text, spoken
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import allow, plain_tip
+from rotemina.app.widgets.labels import heading
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.form_fields import NumberField
 from rotemina.plugins.penetration.parameter_quantities import (
     QUANTITIES,
@@ -39,20 +39,20 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.robot.model import Robot
 
 _SHAPES = {
-    ThrustShape.S_CURVE: marked("penetration", "S-curve"),
-    ThrustShape.MINIMUM_JERK: marked("penetration", "minimum jerk"),
-    ThrustShape.TABLE: marked("penetration", "table"),
+    ThrustShape.S_CURVE: mark("S-curve"),
+    ThrustShape.MINIMUM_JERK: mark("minimum jerk"),
+    ThrustShape.TABLE: mark("table"),
 }
 _SHAPINGS = {
-    Shaping.NONE: marked("penetration", "none"),
-    Shaping.ZV: marked("penetration", "ZV"),
-    Shaping.ZVD: marked("penetration", "ZVD"),
-    Shaping.ZVDD: marked("penetration", "ZVDD"),
-    Shaping.INVERSE: marked("penetration", "inverse model"),
+    Shaping.NONE: mark("none"),
+    Shaping.ZV: mark("ZV"),
+    Shaping.ZVD: mark("ZVD"),
+    Shaping.ZVDD: mark("ZVDD"),
+    Shaping.INVERSE: mark("inverse model"),
 }
 _TABLE_TIP = (
-    marked("penetration", "Points of the thrust, one per line: time share, depth share."),
-    marked("penetration", "From 0, 0 to 1, 1; 2 to 200 points."),
+    mark("Points of the thrust, one per line: time share, depth share."),
+    mark("From 0, 0 to 1, 1; 2 to 200 points."),
 )
 
 
@@ -74,11 +74,8 @@ class ParameterForm(QScrollArea):
         self.setWidgetResizable(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._body = QWidget()
-        self.load, self.save = (
-            QPushButton(translate("penetration", "Load …")),
-            QPushButton(translate("penetration", "Save …")),
-        )
-        self.save.setToolTip(translate("penetration", "Save these parameters to a TOML file"))
+        self.load, self.save = QPushButton(tr("Load …")), QPushButton(tr("Save …"))
+        self.save.setToolTip(tr("Save these parameters to a TOML file"))
         self.fields = {key: NumberField(one, self) for key, one in QUANTITIES.items()}
         self._make_choices(robot)
         self._make_more()
@@ -118,128 +115,86 @@ class ParameterForm(QScrollArea):
     def allow(self, why_not: str | None) -> None:
         """Let the fields be changed, or say why not; they can be read all the same."""
         allow(self._body, why_not, "")
-        allow(
-            self.load,
-            why_not,
-            translate("penetration", "Replace these parameters by those of a TOML file"),
-        )
+        allow(self.load, why_not, tr("Replace these parameters by those of a TOML file"))
 
     # --- parts ------------------------------------------------------------------------------------
 
     def _lay_out(self) -> None:
-        body = QVBoxLayout(self._body)
-        body.setContentsMargins(0, 0, 0, 0)
-        body.setSpacing(2)
-        for group in Group:
-            body.addWidget(self._section(group))
-        files = QHBoxLayout()
-        files.setSpacing(6)
-        for button in (self.load, self.save):
-            files.addWidget(button, 1)
+        in_column(*(self._section(group) for group in Group), on=self._body, margins=0, spacing=2)
+        files = in_row((self.load, 1), (self.save, 1), spacing=6)
         content = QWidget()
-        column = QVBoxLayout(content)
-        column.setContentsMargins(0, 0, 8, 4)
-        column.addWidget(self._body)
-        column.addLayout(files)
-        column.addStretch(1)
+        in_column(self._body, files, 1, on=content, margins=(0, 0, 8, 4))
         self.setWidget(content)
         self.setMinimumWidth(content.minimumSizeHint().width() + 12)
 
     def _make_choices(self, robot: Robot) -> None:
         axis = SteadyChoice(
-            translate("penetration", "Axis of the penetration"),
-            translate("penetration", "Axis that penetrates the cell"),
-            letters=8,
+            tr("Axis of the penetration"), tr("Axis that penetrates the cell"), letters=8
         )
         for name in robot.axes:
             if robot.unit(name) == "m":
                 axis.addItem(label(name), name)
         direction = SteadyChoice(
-            translate("penetration", "Direction"),
-            translate(
-                "penetration",
-                "Direction of the cell along the axis; down: towards smaller positions",
-            ),
+            tr("Direction"),
+            tr("Direction of the cell along the axis; down: towards smaller positions"),
             letters=8,
         )
         shape = SteadyChoice(
-            translate("penetration", "Shape of the thrust"),
-            translate("penetration", "Speed profile of the thrust"),
-            letters=8,
+            tr("Shape of the thrust"), tr("Speed profile of the thrust"), letters=8
         )
         shaping = SteadyChoice(
-            translate("penetration", "Input shaping"),
-            translate(
-                "penetration",
+            tr("Input shaping"),
+            tr(
                 "Suppresses the resonance of the axis in the robot file. ZV, ZVD, ZVDD: "
-                "impulses, increasingly slow and robust; inverse model: best tracking",
+                "impulses, increasingly slow and robust; inverse model: best tracking"
             ),
             letters=8,
         )
         for direct in Direction:
             direction.addItem(spoken(direct), str(direct))
         for form, text in _SHAPES.items():
-            shape.addItem(translate("penetration", text), str(form))
+            shape.addItem(tr(text), str(form))
         for kind, text in _SHAPINGS.items():
-            shaping.addItem(translate("penetration", text), str(kind))
-        self.choices = {
-            "axis": axis,
-            "direction": direction,
-            "shape": shape,
-            "shaping": shaping,
-        }
+            shaping.addItem(tr(text), str(kind))
+        self.choices = {"axis": axis, "direction": direction, "shape": shape, "shaping": shaping}
         self.table = QPlainTextEdit()
-        self.table.setAccessibleName(
-            translate("penetration", "Table of the thrust: time share, depth share")
-        )
+        self.table.setAccessibleName(tr("Table of the thrust: time share, depth share"))
         self.table.setToolTip(plain_tip(*_table_tip()))
         self.table.setTabChangesFocus(True)
         self.table.setFixedHeight(86)
 
     def _make_more(self) -> None:
         self.more = QToolButton()
-        self.more.setText(translate("penetration", "More ▸"))
+        self.more.setText(tr("More ▸"))
         self.more.setCheckable(True)
-        self.more.setAccessibleName(
-            translate("penetration", "More settings of the contact detection")
-        )
+        self.more.setAccessibleName(tr("More settings of the contact detection"))
         self.more.setToolTip(
-            translate(
-                "penetration", "Settings that distinguish contact from noise, hysteresis and creep"
-            )
+            tr("Settings that distinguish contact from noise, hysteresis and creep")
         )
         self._detection = QWidget()
         self._detection.hide()
 
     def _section(self, group: Group) -> QWidget:
         section, body = QWidget(), QWidget()
-        column = QVBoxLayout(section)
-        column.setContentsMargins(0, 0, 0, 2)
-        column.setSpacing(2)
-        heading = QLabel(translate("penetration", group))
-        heading.setProperty("heading", True)
-        column.addWidget(heading)
+        column = in_column(on=section, margins=(0, 0, 0, 2), spacing=2)
+        column.addWidget(heading(tr(group)))
         if group is Group.CONTACT:
             body = self._detection
             column.addWidget(self.more, 0, Qt.AlignmentFlag.AlignLeft)
         column.addWidget(body)
-        grid = QGridLayout(body)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setVerticalSpacing(3)
-        grid.setHorizontalSpacing(8)
-        grid.setColumnStretch(0, 1)
+        grid = in_grid(on=body, margins=0, spacing=(8, 3), stretched=0)
         if group is Group.APPROACH:
-            self._add_choice(grid, translate("penetration", "Axis"), "axis")
-            self._add_choice(grid, translate("penetration", "Cell is"), "direction")
+            self._add_choice(grid, tr("Axis"), "axis")
+            self._add_choice(grid, tr("Cell is"), "direction")
         if group is Group.THRUST:
-            self._add_choice(grid, translate("penetration", "Shape"), "shape")
-            self._add_choice(grid, translate("penetration", "Shaping"), "shaping")
+            self._add_choice(grid, tr("Shape"), "shape")
+            self._add_choice(grid, tr("Shaping"), "shaping")
         for quantity in in_group(group):
             field, row = self.fields[quantity.key], grid.rowCount()
             for place, widget in enumerate((field.title, field.edit, field.unit)):
                 grid.addWidget(widget, row, place)
         if group is Group.THRUST:
-            self._table_title = QLabel(translate("penetration", "Time share, depth share"))
+            self._table_title = QLabel(tr("Time share, depth share"))
             grid.addWidget(self._table_title, grid.rowCount(), 0, 1, 3)
             grid.addWidget(self.table, grid.rowCount(), 0, 1, 3)
         return section
@@ -280,11 +235,9 @@ class ParameterForm(QScrollArea):
         self.table.setToolTip(plain_tip(*_table_tip(), wrong))
 
     def _show_more(self, shown: bool) -> None:
-        self.more.setText(
-            translate("penetration", "Less ▾") if shown else translate("penetration", "More ▸")
-        )
+        self.more.setText(tr("Less ▾") if shown else tr("More ▸"))
         self._detection.setVisible(shown)
 
 
 def _table_tip() -> list[str]:
-    return [translate("penetration", line) for line in _TABLE_TIP]
+    return [tr(line) for line in _TABLE_TIP]

@@ -4,7 +4,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QLabel, QLineEdit
 
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import named, plain_tip, set_property
 from rotemina.plugins.penetration.parameter_quantities import Quantity, TypedError
 
 
@@ -25,11 +25,10 @@ class NumberField(QObject):
         self._read = ""
         self.title, self.unit = QLabel(quantity.shown_title), QLabel(quantity.unit)
         self.unit.setProperty("quiet", True)
-        self.edit = QLineEdit()
+        self.edit = named(QLineEdit(), quantity.name)
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.setMinimumWidth(54)
         self.edit.setMaximumWidth(90)
-        self.edit.setAccessibleName(quantity.name)
         self.title.setBuddy(self.edit)
         for widget in (self.title, self.edit, self.unit):
             widget.setToolTip(plain_tip(*quantity.tip))

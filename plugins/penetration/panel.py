@@ -3,14 +3,7 @@
 from pathlib import Path
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QStackedWidget,
-    QTabBar,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QStackedWidget, QTabBar, QWidget
 
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import PenetrationRun, as_table
@@ -19,10 +12,14 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.file_dialog import ask_file, ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.report_files import ask_run_report, recording_of
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.controls import named
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.cell_list_view import CellListView
 from rotemina.plugins.penetration.cell_view import CellView
 from rotemina.plugins.penetration.form import ParameterForm
@@ -33,7 +30,7 @@ from rotemina.plugins.penetration.run_bar import RunBar
 from rotemina.plugins.penetration.thrust_view import ThrustPreview
 from rotemina.plugins.penetration.words import FIXED, message
 
-FILES = marked("penetration", "Penetrations (*.toml);;All files (*)")
+FILES = mark("Penetrations (*.toml);;All files (*)")
 KEEP_MS = 500  # after the latest change the parameters are kept
 
 
@@ -53,10 +50,7 @@ class PenetrationPanel(Panel):
         self._last_inputs: object = ()
         self._problem = ""
         self.bar = RunBar(workbench)
-        self.message = QLabel()
-        self.message.setWordWrap(True)
-        self.message.setTextFormat(Qt.TextFormat.PlainText)
-        self.message.setAccessibleName(translate("penetration", "State of the penetration"))
+        self.message = named(plain_text(quiet=False, wrap=True), tr("State of the penetration"))
         self.form = ParameterForm(workbench.robot, self._operation.penetration_parameters)
         self._plan()
         self.readouts, self.preview = Readouts(workbench), ThrustPreview(workbench.theme)
@@ -73,33 +67,21 @@ class PenetrationPanel(Panel):
 
     def _lay_out(self) -> None:
         thrust = QWidget()
-        row = QHBoxLayout(thrust)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(12)
         self._beside = scrolled(self.readouts)
-        row.addWidget(self._beside)
-        row.addWidget(self.preview, 1)
-        row.addWidget(self.form)
+        in_row(self._beside, (self.preview, 1), self.form, on=thrust, margins=0, spacing=12)
         self.tabs, self.views = QTabBar(), QStackedWidget()
         for name, view in (
-            (translate("penetration", "Thrust"), thrust),
-            (translate("penetration", "Runs"), self.log),
-            (translate("penetration", "Simulated cell"), self.cell),
-            (translate("penetration", "Cells"), self.cells),
+            (tr("Thrust"), thrust),
+            (tr("Runs"), self.log),
+            (tr("Simulated cell"), self.cell),
+            (tr("Cells"), self.cells),
         ):
             self.tabs.addTab(name)
             self.views.addWidget(view)
         self.tabs.currentChanged.connect(self.views.setCurrentIndex)
-        head = QHBoxLayout()
-        head.setSpacing(10)
-        head.addWidget(self.message, 1)
+        head = in_row((self.message, 1), spacing=10)
         head.addWidget(self.tabs, 0, Qt.AlignmentFlag.AlignTop)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 6, 10, 6)
-        column.setSpacing(4)
-        column.addWidget(self.bar)
-        column.addLayout(head)
-        column.addWidget(self.views, 1)
+        in_column(self.bar, head, (self.views, 1), on=self, margins=(10, 6, 10, 6), spacing=4)
 
     def _connect(self) -> None:
         self.bar.arm_asked.connect(self.arm)
@@ -143,20 +125,17 @@ class PenetrationPanel(Panel):
             if self._penetration.status.phase in FIXED:
                 self.workbench.notify(
                     Level.WARNING,
-                    translate(
-                        "penetration", "{name} is not applied: a penetration is armed or running."
-                    ).format(name=path.name),
+                    tr("{name} is not applied: a penetration is armed or running.").format(
+                        name=path.name
+                    ),
                     about=self,
                 )
                 return
             self.form.show_parameters(parameters)
             self._change()
 
-        self.workbench.work(
-            "penetration",
-            translate("penetration", "Reading {name} …").format(name=path.name),
-            lambda: PenetrationParameters.load(path),
-            done,
+        self.workbench.read_file(
+            "penetration", path.name, lambda: PenetrationParameters.load(path), done
         )
 
     def save_parameters(self, path: Path) -> None:
@@ -165,29 +144,19 @@ class PenetrationPanel(Panel):
         if self.form.complaint:
             self.workbench.notify(
                 Level.ERROR,
-                translate("penetration", "Not saved: {reason}").format(reason=self.form.complaint),
+                tr("Not saved: {reason}").format(reason=self.form.complaint),
                 about=self,
             )
             return
         parameters = self.form.parameters
-        self.workbench.work(
-            "save penetration",
-            translate("penetration", "Writing {name} …").format(name=path.name),
-            lambda: parameters.save(path),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("penetration", "Saved {path}").format(path=path)
-            ),
-        )
+        self.workbench.write_file("save penetration", path, lambda: parameters.save(path))
 
     def _ask_load(self) -> None:
-        title = translate("penetration", "Load parameters")
-        kinds = translate("penetration", FILES)
-        ask_file(self, self.workbench, title, kinds, self.load_parameters)
+        ask_file(self, self.workbench, tr("Load parameters"), tr(FILES), self.load_parameters)
 
     def _ask_save(self) -> None:
-        title = translate("penetration", "Save parameters")
-        kinds = translate("penetration", FILES)
-        ask_where(self, self.workbench, title, kinds, "penetration.toml", self.save_parameters)
+        title = tr("Save parameters")
+        ask_where(self, self.workbench, title, tr(FILES), "penetration.toml", self.save_parameters)
 
     # --- parameters -------------------------------------------------------------------------------
 
@@ -225,9 +194,7 @@ class PenetrationPanel(Panel):
         self.cell.refresh(state, self.plan_preview.parameters)
         text = message(status, self._why_not)
         if self.cell.missing and self._why_not is None and status.phase not in FIXED:
-            text += translate(
-                "penetration", " The simulator has no cell: place one in Simulated cell."
-            )
+            text += tr(" The simulator has no cell: place one in Simulated cell.")
         if self.message.text() != text:
             self.message.setText(text)
         self.readouts.refresh(status, state, self.plan_preview.parameters)
@@ -237,7 +204,7 @@ class PenetrationPanel(Panel):
         self._draw(status)
         fixed = None
         if status.phase in FIXED:
-            fixed = translate("penetration", "the penetration is armed or running; disarm it first")
+            fixed = tr("the penetration is armed or running; disarm it first")
         self.form.allow(fixed)
         self.log.take_latest(status.run)
         if status.problem != self._problem:
@@ -245,9 +212,7 @@ class PenetrationPanel(Panel):
             if status.problem:
                 self.workbench.notify(
                     Level.WARNING,
-                    translate("penetration", "The run was not logged: {problem}").format(
-                        problem=status.problem
-                    ),
+                    tr("The run was not logged: {problem}").format(problem=status.problem),
                     about=self,
                 )
 
@@ -274,9 +239,7 @@ class PenetrationPanel(Panel):
         if self.form.complaint or self.plan_preview.plan is None:
             self._why_not = self.form.complaint or self.plan_preview.problem
         elif state.locked is not None:
-            self._why_not = translate("penetration", "motion is locked: {locked}").format(
-                locked=spoken(state.locked)
-            )
+            self._why_not = tr("motion is locked: {locked}").format(locked=spoken(state.locked))
         else:
             self._why_not = self._penetration.why_not(
                 self.plan_preview.parameters, self.plan_preview.plan
@@ -296,7 +259,7 @@ class PenetrationPanel(Panel):
     def _report(self, run: PenetrationRun) -> None:
         entry = recording_of(self.workbench.library.entries, run)
         if entry is None:
-            text = translate("penetration", "The library has no recording of this run.")
+            text = tr("The library has no recording of this run.")
             self.workbench.notify(Level.WARNING, text, about=self)
         else:
             ask_run_report(self, self.workbench, entry)
@@ -312,15 +275,13 @@ class PenetrationPanel(Panel):
             if problems:
                 self.workbench.notify(
                     Level.WARNING,
-                    translate("penetration", "{n} lines of the log cannot be read: {first}").format(
+                    tr("{n} lines of the log cannot be read: {first}").format(
                         n=len(problems), first=problems[0]
                     ),
                     about=self,
                 )
 
-        self.workbench.work(
-            "penetration log", translate("penetration", "Reading the log …"), log.read, done
-        )
+        self.workbench.work("penetration log", tr("Reading the log …"), log.read, done)
 
 
 def _by(run: PenetrationRun | None, parameters: PenetrationParameters) -> bool:

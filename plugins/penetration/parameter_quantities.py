@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParameters
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.penetration import mark, tr
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import parsed, rounded
 
@@ -14,12 +14,12 @@ _PRESETS = PenetrationParameters()
 class Group(StrEnum):
     """What belongs together on the screen."""
 
-    APPROACH = marked("penetration", "Approach")
-    CONTACT = marked("penetration", "Contact detection")
-    THRUST = marked("penetration", "Thrust")
-    HOLD = marked("penetration", "Hold and inject")
-    RETRACT = marked("penetration", "Retract")
-    LIMITS = marked("penetration", "Limits")
+    APPROACH = mark("Approach")
+    CONTACT = mark("Contact detection")
+    THRUST = mark("Thrust")
+    HOLD = mark("Hold and inject")
+    RETRACT = mark("Retract")
+    LIMITS = mark("Limits")
 
 
 class TypedError(InputError):
@@ -53,15 +53,13 @@ class Quantity:
     @property
     def shown_title(self) -> str:
         """The title in the language in use."""
-        return translate("penetration", self.title)
+        return tr(self.title)
 
     @property
     def name(self) -> str:
         """Title and unit, for those who hear the screen."""
         return (
-            translate("penetration", "{title}, {unit}").format(
-                title=self.shown_title, unit=self.unit
-            )
+            tr("{title}, {unit}").format(title=self.shown_title, unit=self.unit)
             if self.unit
             else self.shown_title
         )
@@ -71,8 +69,8 @@ class Quantity:
         """What it does, and its bounds and preset."""
         bound, preset = BOUNDS[self.key], getattr(_PRESETS, self.key)
         least, most = self.number(bound.least), self.text(bound.most)
-        about = translate("penetration", self.about)
-        bounds = translate("penetration", "{least} to {most}; preset {preset}")
+        about = tr(self.about)
+        bounds = tr("{least} to {most}; preset {preset}")
         return f"{about}.", bounds.format(least=least, most=most, preset=self.text(preset))
 
     def number(self, value: float) -> str:
@@ -96,9 +94,8 @@ class Quantity:
         if number is None:
             unit = f" in {self.unit}" if self.unit else ""
             raise TypedError(
-                translate(
-                    "penetration",
-                    "{title}: {text!r} is not a number; enter one{unit} with a decimal point",
+                tr(
+                    "{title}: {text!r} is not a number; enter one{unit} with a decimal point"
                 ).format(title=self.shown_title, text=text, unit=unit)
             )
         value, bound = number / self.per_si, BOUNDS[self.key]
@@ -107,7 +104,7 @@ class Quantity:
                 value = end  # typed as it is shown: rounding must not put it beyond
         if not bound.least <= value <= bound.most:
             raise TypedError(
-                translate("penetration", "{title}: {value} must be {least} to {most}").format(
+                tr("{title}: {value} must be {least} to {most}").format(
                     title=self.shown_title,
                     value=f"{text} {self.unit}".rstrip(),
                     least=self.number(bound.least),
@@ -117,161 +114,100 @@ class Quantity:
         return value
 
 
-_UM, _MS, _PERCENT = 1e6, 1e3, 1e2
-
-QUANTITIES = {
-    one.key: one
-    for one in (
-        Quantity(
-            "approach_speed",
-            marked("penetration", "Speed"),
-            "µm/s",
-            _UM,
-            Group.APPROACH,
-            marked("penetration", "Speed of the approach"),
-        ),
-        Quantity(
+_PER_SI = {"µm": 1e6, "µm/s": 1e6, "ms": 1e3, "%": 1e2}
+_TABLE = {
+    Group.APPROACH: (
+        ("approach_speed", mark("Speed"), "µm/s", mark("Speed of the approach")),
+        (
             "approach_distance",
-            marked("penetration", "At most"),
+            mark("At most"),
             "µm",
-            _UM,
-            Group.APPROACH,
-            marked(
-                "penetration",
-                "Without contact within this distance the run fails and the tip retracts",
-            ),
+            mark("Without contact within this distance the run fails and the tip retracts"),
         ),
-        Quantity(
+    ),
+    Group.CONTACT: (
+        (
             "false_alarms_per_hour",
-            marked("penetration", "False alarms"),
+            mark("False alarms"),
             "1/h",
-            1.0,
-            Group.CONTACT,
-            marked(
-                "penetration",
-                "Rate of false alarms from noise; fewer alarms make the detection slower",
-            ),
+            mark("Rate of false alarms from noise; fewer alarms make the detection slower"),
         ),
-        Quantity(
+        (
             "drift",
-            marked("penetration", "Drift"),
+            mark("Drift"),
             "%",
-            _PERCENT,
-            Group.CONTACT,
-            marked(
-                "penetration",
+            mark(
                 "Slope of measured − model that hysteresis, creep and gain may cause; a "
-                "smaller value detects softer membranes",
+                "smaller value detects softer membranes"
             ),
         ),
-        Quantity(
+        (
             "drift_length",
-            marked("penetration", "Drift over"),
+            mark("Drift over"),
             "µm",
-            _UM,
-            Group.CONTACT,
-            marked("penetration", "Distance over which that slope may change by the same amount"),
+            mark("Distance over which that slope may change by the same amount"),
         ),
-        Quantity(
-            "contact_pause_s",
-            marked("penetration", "Pause"),
-            "ms",
-            _MS,
-            Group.CONTACT,
-            marked("penetration", "At rest on the membrane before the thrust"),
-        ),
-        Quantity(
+        ("contact_pause_s", mark("Pause"), "ms", mark("At rest on the membrane before the thrust")),
+    ),
+    Group.THRUST: (
+        (
             "depth",
-            marked("penetration", "Depth"),
+            mark("Depth"),
             "µm",
-            _UM,
-            Group.THRUST,
-            marked("penetration", "Depth of the thrust, from the position of rest on the membrane"),
+            mark("Depth of the thrust, from the position of rest on the membrane"),
         ),
-        Quantity(
-            "duration_s",
-            marked("penetration", "Duration"),
-            "ms",
-            _MS,
-            Group.THRUST,
-            marked("penetration", "Duration of the thrust, with shaping"),
-        ),
-        Quantity(
+        ("duration_s", mark("Duration"), "ms", mark("Duration of the thrust, with shaping")),
+        (
             "ramp",
-            marked("penetration", "Ramp"),
+            mark("Ramp"),
             "%",
-            _PERCENT,
-            Group.THRUST,
-            marked(
-                "penetration",
-                "S-curve: share of the time for acceleration, and the same for deceleration",
-            ),
+            mark("S-curve: share of the time for acceleration, and the same for deceleration"),
         ),
-        Quantity(
-            "hold_s",
-            marked("penetration", "Hold"),
-            "ms",
-            _MS,
-            Group.HOLD,
-            marked("penetration", "Time at depth before the tool is switched on"),
-        ),
-        Quantity(
-            "inject_s",
-            marked("penetration", "Inject"),
-            "ms",
-            _MS,
-            Group.HOLD,
-            marked("penetration", "Time with the tool on; 0: the tool stays off"),
-        ),
-        Quantity(
+    ),
+    Group.HOLD: (
+        ("hold_s", mark("Hold"), "ms", mark("Time at depth before the tool is switched on")),
+        ("inject_s", mark("Inject"), "ms", mark("Time with the tool on; 0: the tool stays off")),
+        (
             "hold_after_s",
-            marked("penetration", "Hold after"),
+            mark("Hold after"),
             "ms",
-            _MS,
-            Group.HOLD,
-            marked("penetration", "Time at depth after the tool is switched off"),
+            mark("Time at depth after the tool is switched off"),
         ),
-        Quantity(
-            "retract_speed",
-            marked("penetration", "Return speed"),
-            "µm/s",
-            _UM,
-            Group.RETRACT,
-            marked("penetration", "Speed of the retraction"),
-        ),
-        Quantity(
+    ),
+    Group.RETRACT: (
+        ("retract_speed", mark("Return speed"), "µm/s", mark("Speed of the retraction")),
+    ),
+    Group.LIMITS: (
+        (
             "depth_tolerance",
-            marked("penetration", "Depth tolerance"),
+            mark("Depth tolerance"),
             "%",
-            _PERCENT,
-            Group.LIMITS,
-            marked(
-                "penetration",
+            mark(
                 "Permitted deviation of the measured from the requested depth; above it, "
-                "the run fails",
+                "the run fails"
             ),
         ),
-        Quantity(
+        (
             "overload",
-            marked("penetration", "Overload"),
+            mark("Overload"),
             "µm",
-            _UM,
-            Group.LIMITS,
-            marked(
-                "penetration",
+            mark(
                 "Maximum deviation of the axis from its set-point; above it, the tip "
-                "retracts at once",
+                "retracts at once"
             ),
         ),
-        Quantity(
+        (
             "armed_s",
-            marked("penetration", "Armed for"),
+            mark("Armed for"),
             "s",
-            1.0,
-            Group.LIMITS,
-            marked("penetration", "Time after which the penetration disarms automatically"),
+            mark("Time after which the penetration disarms automatically"),
         ),
-    )
+    ),
+}
+QUANTITIES = {
+    key: Quantity(key, title, unit, _PER_SI.get(unit, 1.0), group, about)
+    for group, rows in _TABLE.items()
+    for key, title, unit, about in rows
 }
 
 

@@ -1,44 +1,39 @@
 """Logged runs as rows and in full, and the choice of those shown."""
 
 import json
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from datetime import datetime
+from functools import partial
 from typing import Any
 
 from rotemina.app.motion.penetration.parameters import BOUNDS
 from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.parameter_quantities import QUANTITIES
 from rotemina.plugins.penetration.plan_preview import UNKNOWN, speed_text, way_text
 from rotemina.sim.quantities import fixed, rounded
 
 MOST = 50
 COLUMNS = (
-    marked("penetration", "Time"),
-    marked("penetration", "Verdict"),
-    marked("penetration", "Contact"),
-    marked("penetration", "Depth"),
-    marked("penetration", "Average"),
-    marked("penetration", "Peak"),
-    marked("penetration", "Error"),
-    marked("penetration", "Reason"),
+    mark("Time"),
+    mark("Verdict"),
+    mark("Contact"),
+    mark("Depth"),
+    mark("Average"),
+    mark("Peak"),
+    mark("Error"),
+    mark("Reason"),
 )
 COLUMN_TIPS = (
-    marked("penetration", "Start time of the run"),
-    marked(
-        "penetration",
-        "Done, aborted by the button, failed, or held by a stop; the tip retracts unless held",
-    ),
-    marked(
-        "penetration",
-        "Height of the tip at the detected contact; without a tip, position of the axis",
-    ),
-    marked("penetration", "Travel of the axis in the thrust, by its own sensor"),
-    marked("penetration", "Average speed of the thrust, measured"),
-    marked("penetration", "Maximum speed of the thrust, measured over five samples"),
-    marked("penetration", "Maximum distance from the profile, without a constant delay"),
-    marked("penetration", "Reason for the verdict"),
+    mark("Start time of the run"),
+    mark("Done, aborted by the button, failed, or held by a stop; the tip retracts unless held"),
+    mark("Height of the tip at the detected contact; without a tip, position of the axis"),
+    mark("Travel of the axis in the thrust, by its own sensor"),
+    mark("Average speed of the thrust, measured"),
+    mark("Maximum speed of the thrust, measured over five samples"),
+    mark("Maximum distance from the profile, without a constant delay"),
+    mark("Reason for the verdict"),
 )
 
 
@@ -94,9 +89,7 @@ def in_full(run: PenetrationRun) -> str:
     """Return all that is known of a run, a line each."""
     lines = [
         f"{run.started}  {spoken(run.verdict)}" + (f": {spoken(run.reason)}" if run.reason else ""),
-        translate("penetration", "robot {robot}, driver {driver}").format(
-            robot=run.robot, driver=run.driver
-        ),
+        tr("robot {robot}, driver {driver}").format(robot=run.robot, driver=run.driver),
         "",
         *(f"{fixed(at, 3):>8} s  {spoken(name)}" for name, at in run.phases),
         "",
@@ -108,38 +101,36 @@ def in_full(run: PenetrationRun) -> str:
 
 
 def _found(run: PenetrationRun) -> list[str]:
-    rows: list[tuple[str, str | None]] = [
-        (translate("penetration", "started at"), _way(run.start)),
-        (translate("penetration", "contact at"), _way(run.contact)),
-        (translate("penetration", "contact, as measured"), _way(run.contact_measured)),
-        (
-            translate("penetration", "contact, height of the tip"),
-            None if run.contact_height is None else _height(run),
-        ),
-        (translate("penetration", "contact detected after"), _ms(run.contact_delay_s)),
-        (translate("penetration", "in contact from the start"), _yes(run.contact_from_start)),
-        (translate("penetration", "noise, rms"), _nm(run.noise_rms)),
-        (translate("penetration", "detector's threshold"), _plain(run.threshold)),
-        (translate("penetration", "planned average speed"), _speed(run.planned_average_speed)),
-        (translate("penetration", "planned peak speed"), _speed(run.planned_peak_speed)),
-        (translate("penetration", "deviation of the cubics from the profile"), _nm(run.fit_error)),
+    height = None if run.contact_height is None else _height(run)
+    rows: list[tuple[str, Any, Callable[[Any], str]]] = [
+        (tr("started at"), run.start, way_text),
+        (tr("contact at"), run.contact, way_text),
+        (tr("contact, as measured"), run.contact_measured, way_text),
+        (tr("contact, height of the tip"), height, str),
+        (tr("contact detected after"), run.contact_delay_s, _ms),
+        (tr("in contact from the start"), run.contact_from_start, _yes),
+        (tr("noise, rms"), run.noise_rms, _nm),
+        (tr("detector's threshold"), run.threshold, partial(rounded, digits=3)),
+        (tr("planned average speed"), run.planned_average_speed, speed_text),
+        (tr("planned peak speed"), run.planned_peak_speed, speed_text),
+        (tr("deviation of the cubics from the profile"), run.fit_error, _nm),
     ]
     if run.thrust is not None:
         thrust = run.thrust
         rows += [
-            (translate("penetration", "depth"), _way(thrust.depth)),
-            (translate("penetration", "average speed"), _speed(thrust.average_speed)),
-            (translate("penetration", "peak speed"), _speed(thrust.peak_speed)),
-            (translate("penetration", "error against the profile"), _way(thrust.error)),
-            (translate("penetration", "delay removed"), _ms(thrust.delay_s)),
-            (translate("penetration", "samples"), f"{fixed(thrust.rate_hz, 0)} Hz"),
+            (tr("depth"), thrust.depth, way_text),
+            (tr("average speed"), thrust.average_speed, speed_text),
+            (tr("peak speed"), thrust.peak_speed, speed_text),
+            (tr("error against the profile"), thrust.error, way_text),
+            (tr("delay removed"), thrust.delay_s, _ms),
+            (tr("samples"), f"{fixed(thrust.rate_hz, 0)} Hz", str),
         ]
     rows += [
-        (translate("penetration", "deviation, peak"), _way(run.peak_deviation)),
-        (translate("penetration", "deviation, at the end"), _way(run.final_deviation)),
-        (translate("penetration", "membrane ruptured"), _yes(run.gave_way)),
+        (tr("deviation, peak"), run.peak_deviation, way_text),
+        (tr("deviation, at the end"), run.final_deviation, way_text),
+        (tr("membrane ruptured"), run.gave_way, _yes),
     ]
-    return [f"{name}: {text}" for name, text in rows if text is not None]
+    return [f"{name}: {said(value)}" for name, value, said in rows if value is not None]
 
 
 def _parameter(key: str, value: Any) -> str:
@@ -155,7 +146,7 @@ def _parameter(key: str, value: Any) -> str:
 
 def _inline(title: str) -> str:
     """Return a title within a line: English ones lose their capitals, others may be nouns."""
-    said = translate("penetration", title)
+    said = tr(title)
     return said.lower() if said == title else said
 
 
@@ -171,31 +162,13 @@ def _height(run: PenetrationRun) -> str:
     return UNKNOWN if run.contact is None else way_text(run.contact)
 
 
-def _way(value: float | None) -> str | None:
-    return None if value is None else way_text(value)
+def _nm(value: float) -> str:
+    return f"{fixed(1e9 * value, 1)} nm"
 
 
-def _nm(value: float | None) -> str | None:
-    return None if value is None else f"{fixed(1e9 * value, 1)} nm"
+def _ms(value: float) -> str:
+    return f"{fixed(1e3 * value, 1)} ms"
 
 
-def _ms(value: float | None) -> str | None:
-    return None if value is None else f"{fixed(1e3 * value, 1)} ms"
-
-
-def _speed(value: float | None) -> str | None:
-    return None if value is None else speed_text(value)
-
-
-def _plain(value: float | None) -> str | None:
-    return None if value is None else rounded(value, 3)
-
-
-def _yes(value: bool | None) -> str | None:
-    return (
-        None
-        if value is None
-        else translate("penetration", "yes")
-        if value
-        else translate("penetration", "no")
-    )
+def _yes(value: bool) -> str:
+    return tr("yes") if value else tr("no")

@@ -4,14 +4,16 @@ from collections.abc import Iterable
 from datetime import datetime
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPlainTextEdit, QSplitter, QWidget
 
 from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.report_files import RUN_REPORT, RUN_REPORT_TIP
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.plugins.penetration import tr
 from rotemina.plugins.penetration.past_runs import COLUMN_TIPS, COLUMNS, RunList, in_full, row
 
 _NUMBERS = range(2, 7)
@@ -30,23 +32,17 @@ class LogView(QWidget):
     def __init__(self, path: str) -> None:
         super().__init__()
         self.list = RunList()
-        self.table = Table(
-            translate("penetration", "Runs, latest first"),
-            [translate("penetration", one) for one in COLUMNS],
-            row_height=24,
-        )
+        self.table = Table(tr("Runs, latest first"), [tr(one) for one in COLUMNS], row_height=24)
         for column, tip in enumerate(COLUMN_TIPS):
-            self.table.horizontalHeaderItem(column).setToolTip(
-                plain_tip(translate("penetration", tip))
-            )
+            self.table.horizontalHeaderItem(column).setToolTip(plain_tip(tr(tip)))
         self.table.horizontalHeader().setStretchLastSection(True)
         self.table.setMinimumSize(200, 60)
         self.table.itemSelectionChanged.connect(self._show_chosen)
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
-        self.text.setAccessibleName(translate("penetration", "Details of the selected run"))
-        self.text.setToolTip(translate("penetration", "Log of the selected run"))
-        self.text.setPlaceholderText(translate("penetration", "Select a run to see its details."))
+        self.text.setAccessibleName(tr("Details of the selected run"))
+        self.text.setToolTip(tr("Log of the selected run"))
+        self.text.setPlaceholderText(tr("Select a run to see its details."))
         self.text.setMinimumWidth(160)
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(self.table)
@@ -57,15 +53,9 @@ class LogView(QWidget):
         self.file.setProperty("quiet", True)
         self.file.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._path = path
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(3)
         self.report = button(translate("shell", RUN_REPORT), self._ask_report)
-        below = QHBoxLayout()
-        below.addWidget(self.file, 1)
-        below.addWidget(self.report)
-        column.addWidget(split, 1)
-        column.addLayout(below)
+        below = in_row((self.file, 1), self.report)
+        in_column((split, 1), below, on=self, margins=0, spacing=3)
         self._fill()
 
     def take_file(self, runs: Iterable[PenetrationRun]) -> None:
@@ -87,9 +77,9 @@ class LogView(QWidget):
         self._allow_report()
         count, ours = len(self.list.runs), self.list.of_this_start
         self.file.show_text(
-            translate(
-                "penetration", "{count} runs, {ours} since the program start. Log file: {path}"
-            ).format(count=count, ours=ours, path=self._path)
+            tr("{count} runs, {ours} since the program start. Log file: {path}").format(
+                count=count, ours=ours, path=self._path
+            )
         )
 
     def _show_chosen(self) -> None:
@@ -98,7 +88,7 @@ class LogView(QWidget):
         self._allow_report()
 
     def _allow_report(self) -> None:
-        none = translate("penetration", "select a run") if self._chosen is None else None
+        none = tr("select a run") if self._chosen is None else None
         allow(self.report, none, translate("shell", RUN_REPORT_TIP))
 
     def _ask_report(self) -> None:

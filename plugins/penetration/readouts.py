@@ -2,48 +2,36 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QProgressBar,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QProgressBar, QPushButton, QWidget
 
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, fill, plain_tip
+from rotemina.app.widgets.controls import allow, fill, named, plain_tip
 from rotemina.app.widgets.figures import Figures
 from rotemina.app.widgets.labels import heading
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.plan_preview import UNKNOWN, PlanPreview, way_text
 from rotemina.sim.quantities import fixed
 
 _PLAN = {
-    marked("penetration", "Average speed"): marked("penetration", "Depth over duration"),
-    marked("penetration", "Peak speed"): marked(
-        "penetration", "Maximum instantaneous speed of the thrust"
+    mark("Average speed"): mark("Depth over duration"),
+    mark("Peak speed"): mark("Maximum instantaneous speed of the thrust"),
+    mark("End depth"): mark(
+        "Commanded end of the thrust, from the position of rest on the membrane"
     ),
-    marked("penetration", "End depth"): marked(
-        "penetration", "Commanded end of the thrust, from the position of rest on the membrane"
-    ),
-    marked("penetration", "Travel needed"): marked(
-        "penetration", "Approach, halt and thrust together"
-    ),
-    marked("penetration", "Travel available"): marked(
-        "penetration", "Travel from the present position to the end of the range, towards the cell"
+    mark("Travel needed"): mark("Approach, halt and thrust together"),
+    mark("Travel available"): mark(
+        "Travel from the present position to the end of the range, towards the cell"
     ),
 }
 _RUN = {
-    marked("penetration", "Way"): marked(
-        "penetration", "Commanded distance from the start of the run"
-    ),
-    marked("penetration", "Deviation"): marked(
-        "penetration",
-        "Change of measured − model since the start of the run, opposite to the motion",
+    mark("Way"): mark("Commanded distance from the start of the run"),
+    mark("Deviation"): mark(
+        "Change of measured − model since the start of the run, opposite to the motion"
     ),
 }
 
@@ -56,28 +44,15 @@ class Readouts(QWidget):
         self._workbench = workbench
         self.plan = _figures(_PLAN, "50000 µm/s")
         self.run = _figures(_RUN, "−2000.00 µm")
-        self.load = QProgressBar()
+        self.load = named(QProgressBar(), tr("Load, up to the overload"))
         self.load.setRange(0, 1000)
         self.load.setMinimumWidth(144)
-        self.load.setAccessibleName(translate("penetration", "Load, up to the overload"))
         self.tool = QPushButton()
         self.tool.setCheckable(True)
         self.tool.clicked.connect(self._toggle)
-        column = QVBoxLayout()
-        column.setSpacing(4)
-        for widget in (heading(translate("penetration", "Run")), self.run, self.load, self.tool):
-            column.addWidget(widget)
-        column.addStretch(1)
-        beside = QVBoxLayout()
-        beside.setSpacing(4)
-        for widget in (heading(translate("penetration", "Plan")), self.plan):
-            beside.addWidget(widget)
-        beside.addStretch(1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(14)
-        row.addLayout(column, 1)
-        row.addLayout(beside, 1)
+        column = in_column(heading(tr("Run")), self.run, self.load, self.tool, 1, spacing=4)
+        beside = in_column(heading(tr("Plan")), self.plan, 1, spacing=4)
+        in_row((column, 1), (beside, 1), on=self, margins=0, spacing=14)
 
     def show_plan(self, preview: PlanPreview, state: SessionState) -> None:
         """Show what a plan gives from where the axis stands."""
@@ -101,16 +76,14 @@ class Readouts(QWidget):
         fill(self.load, round(1000 * share))
         value = UNKNOWN if load is None else fixed(1e6 * load, 2)
         self.load.setFormat(
-            translate("penetration", "load {value} of {most:.4g} µm").format(
-                value=value, most=1e6 * most
-            )
+            tr("load {value} of {most:.4g} µm").format(value=value, most=1e6 * most)
         )
         self.load.setToolTip(
             plain_tip(
-                translate("penetration", "Deviation of the axis from its set-point."),
-                translate(
-                    "penetration", "Above {most:.4g} µm the run fails and the tip retracts."
-                ).format(most=1e6 * most),
+                tr("Deviation of the axis from its set-point."),
+                tr("Above {most:.4g} µm the run fails and the tip retracts.").format(
+                    most=1e6 * most
+                ),
             )
         )
         self._show_tool(status, state)
@@ -118,26 +91,18 @@ class Readouts(QWidget):
     def _show_tool(self, status: PenetrationStatus, state: SessionState) -> None:
         on = self._workbench.session.tool.on
         self.tool.setChecked(bool(on))
-        self.tool.setText(
-            translate("penetration", "Tool is on")
-            if on
-            else translate("penetration", "Tool is off")
-        )
+        self.tool.setText(tr("Tool is on") if on else tr("Tool is off"))
         why = None
         if on is None:
-            self.tool.setText(translate("penetration", "No tool"))
-            why = translate("penetration", "{driver} has no switchable tool").format(
+            self.tool.setText(tr("No tool"))
+            why = tr("{driver} has no switchable tool").format(
                 driver=self._workbench.session.driver.name
             )
         elif not on and status.phase in UNDER_WAY:
-            why = translate("penetration", "the running penetration controls the tool")
+            why = tr("the running penetration controls the tool")
         elif not on:
             why = state.locked
-        tip = (
-            translate("penetration", "Switch the tool off")
-            if on
-            else translate("penetration", "Switch the tool on")
-        )
+        tip = tr("Switch the tool off") if on else tr("Switch the tool on")
         allow(self.tool, why, tip)
 
     def _toggle(self) -> None:
@@ -146,8 +111,5 @@ class Readouts(QWidget):
 
 
 def _figures(names: Mapping[str, str], widest: str) -> Figures:
-    said = {
-        translate("penetration", name): translate("penetration", about)
-        for name, about in names.items()
-    }
+    said = {tr(name): tr(about) for name, about in names.items()}
     return Figures(said, widest=widest, spacing=1)

@@ -1,19 +1,22 @@
 """Arm, the main button, and the strip of phases, always visible."""
 
 import time
+from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.controls import allow, named
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.connection.unavailable_reasons import in_motion
+from rotemina.plugins.penetration import tr
 from rotemina.plugins.penetration.words import (
     STRIP,
     Light,
@@ -43,101 +46,56 @@ _HEADLINES = {
 }
 
 
-class RunBar(QWidget):
-    """Two buttons whose words follow the phase.
+class RunButtons(QWidget):
+    """Two buttons whose words follow the phase, and the phase; subclasses lay them out.
 
-    Signals
-    -------
-    arm_asked() : the parameters are to be armed.
-    prepare_asked() : the nano stage is to be moved back for them.
+    They act as they were labelled when they were pressed, or not at all.
     """
 
-    arm_asked = Signal()
-    prepare_asked = Signal()
-
-    def __init__(self, workbench: Workbench, clock: Clock = time.monotonic) -> None:
+    def __init__(self, workbench: Workbench, clock: Clock) -> None:
         super().__init__()
         self._workbench, self._operation = workbench, workbench.operation
         self._clock, self._pressed_s = clock, float("-inf")
         self._shown = Phase.DISARMED
-        self.arm = QPushButton(translate("penetration", "Arm"))
-        self.arm.setMinimumWidth(104)
+        self.arm = QPushButton(tr(arm_word(self._shown)))
         self.arm.clicked.connect(lambda _: self._arm())
-        self.prepare = QPushButton(translate("penetration", "Prepare"))
-        self.prepare.clicked.connect(lambda _: self.prepare_asked.emit())
-        self.prepare.hide()
-        self.button = QPushButton(translate("penetration", "Start"))
-        self.button.setObjectName("penetration")
+        self.button = QPushButton(tr(button_word(self._shown)))
         self.button.setProperty("primary", True)
-        self.button.setMinimumSize(140, 34)
         # By Tab alone: no space bar that follows a click may start or end anything.
         self.button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         # On pressing, not on release: what stops must not wait for the finger to lift.
         self.button.pressed.connect(self._press)
-        self.phase = QLabel()
-        self.phase.setMinimumWidth(
-            self.phase.fontMetrics().horizontalAdvance(
-                translate("penetration", "armed, {left_s:.0f} s").format(left_s=600)
-            )
-            + 30
-        )
-        self.phase.setAccessibleName(translate("penetration", "Phase of the penetration"))
+        self.phase = named(QLabel(), tr("Phase of the penetration"))
         self.phase.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.strip = {one: _chip(spoken(one)) for one in STRIP}
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
-        for widget in (self.arm, self.prepare, self.button, self.phase):
-            row.addWidget(widget)
-        row.addStretch(1)
-        for chip in self.strip.values():
-            row.addWidget(chip)
-        row.addStretch(1)
 
-    def refresh(self, status: PenetrationStatus, state: SessionState, why_not: str | None) -> None:
-        """Show a moment; ``why_not`` is why it cannot be armed now."""
+    def show_status(
+        self, status: PenetrationStatus, state: SessionState, why_not: Callable[[], str | None]
+    ) -> str | None:
+        """Show a moment; return why the first button cannot act: ``why_not`` says it of arming."""
         self._shown = phase = status.phase
-        self.arm.setText(translate("penetration", arm_word(phase)))
-        against = (
-            translate("penetration", "the penetration is running ({phase}); stop it first").format(
-                phase=spoken(phase)
-            )
-            if phase in UNDER_WAY
-            else None
-        )
-        if arm_word(phase) == "Arm" and against is None:
-            against = None if why_not is None else spoken(why_not)
-        allow(self.arm, against, translate("penetration", arm_tip(phase)))
-        self.button.setText(translate("penetration", button_word(phase)))
-        allow(
-            self.button, against_button(status, state), translate("penetration", button_tip(phase))
-        )
+        against = None
+        if phase in UNDER_WAY:
+            running = tr("the penetration is running ({phase}); stop it first")
+            against = running.format(phase=spoken(phase))
+        elif arm_word(phase) == "Arm":
+            against = why_not()
+        self.arm.setText(tr(arm_word(phase)))
+        allow(self.arm, against, tr(arm_tip(phase)))
+        self.button.setText(tr(button_word(phase)))
+        allow(self.button, against_button(status, state), tr(button_tip(phase)))
         self.phase.setText(headline(status))
         set_tone(self.phase, _HEADLINES.get(phase, Tone.BUSY))
-        for chip, light in zip(self.strip.values(), lights(status), strict=True):
-            set_tone(chip, _TONES[light])
-            chip.setAccessibleDescription(spoken(light))
+        return against
 
-    def offer_preparing(self, lacks: bool, state: SessionState) -> None:
-        """Offer to move the nano stage back where the way ``lacks`` room."""
-        self.prepare.setVisible(lacks)
-        if lacks:
-            allow(
-                self.prepare,
-                state.locked or in_motion(state),
-                translate(
-                    "penetration",
-                    "Move Z nano back as far as needed; Z compensates, so the tip stays in place",
-                ),
-            )
+    def _ask_to_arm(self) -> None:
+        raise NotImplementedError
 
     def _arm(self) -> None:
-        penetration = self._operation.penetration
-        word = arm_word(self._shown)
+        penetration, word = self._operation.penetration, arm_word(self._shown)
         if word != arm_word(penetration.status.phase):
             return  # it acts as it was labelled, or not at all
         if word == "Arm":
-            self.arm_asked.emit()
+            self._ask_to_arm()
         else:
             self._workbench.ask(penetration.disarm)
 
@@ -149,9 +107,55 @@ class RunBar(QWidget):
             self._workbench.ask(self._operation.press_penetration)
 
 
+class RunBar(RunButtons):
+    """The buttons beside the strip of phases.
+
+    Signals
+    -------
+    arm_asked() : the parameters are to be armed.
+    prepare_asked() : the nano stage is to be moved back for them.
+    """
+
+    arm_asked = Signal()
+    prepare_asked = Signal()
+
+    def __init__(self, workbench: Workbench, clock: Clock = time.monotonic) -> None:
+        super().__init__(workbench, clock)
+        self.arm.setMinimumWidth(104)
+        self.prepare = QPushButton(tr("Prepare"))
+        self.prepare.clicked.connect(lambda _: self.prepare_asked.emit())
+        self.prepare.hide()
+        self.button.setObjectName("penetration")
+        self.button.setMinimumSize(140, 34)
+        widest = tr("armed, {left_s:.0f} s").format(left_s=600)
+        self.phase.setMinimumWidth(self.phase.fontMetrics().horizontalAdvance(widest) + 30)
+        self.strip = {one: _chip(spoken(one)) for one in STRIP}
+        parts = self.arm, self.prepare, self.button, self.phase
+        in_row(*parts, 1, *self.strip.values(), 1, on=self, margins=0, spacing=4)
+
+    def refresh(self, status: PenetrationStatus, state: SessionState, why_not: str | None) -> None:
+        """Show a moment; ``why_not`` is why it cannot be armed now."""
+        self.show_status(status, state, lambda: None if why_not is None else spoken(why_not))
+        for chip, light in zip(self.strip.values(), lights(status), strict=True):
+            set_tone(chip, _TONES[light])
+            chip.setAccessibleDescription(spoken(light))
+
+    def offer_preparing(self, lacks: bool, state: SessionState) -> None:
+        """Offer to move the nano stage back where the way ``lacks`` room."""
+        self.prepare.setVisible(lacks)
+        if lacks:
+            allow(
+                self.prepare,
+                state.locked or in_motion(state),
+                tr("Move Z nano back as far as needed; Z compensates, so the tip stays in place"),
+            )
+
+    def _ask_to_arm(self) -> None:
+        self.arm_asked.emit()
+
+
 def _chip(text: str) -> QLabel:
-    chip = QLabel(text)
-    chip.setTextFormat(Qt.TextFormat.PlainText)
+    chip = plain_text(text, quiet=False)
     chip.setStyleSheet("padding: 1px 5px;")  # six of them in one row
     chip.setMinimumWidth(16)  # in a narrow dock they are cut; the phase stands before them
     chip.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)

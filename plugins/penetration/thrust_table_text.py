@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 from rotemina.app.motion.penetration.parameters import MOST_POINTS
-from rotemina.app.shell.language import translate
+from rotemina.plugins.penetration import tr
 from rotemina.plugins.penetration.parameter_quantities import TypedError
 from rotemina.sim.quantities import POINT, parsed
 
@@ -32,20 +32,19 @@ def read_table(text: str) -> Table:
             points.append(_point(number, line.strip()))
     if not 2 <= len(points) <= MOST_POINTS:
         raise TypedError(
-            translate(
-                "penetration",
-                "table: {n} points; must be 2 to {most}, one per line, from 0, 0 to 1, 1",
-            ).format(n=len(points), most=MOST_POINTS)
+            tr("table: {n} points; must be 2 to {most}, one per line, from 0, 0 to 1, 1").format(
+                n=len(points), most=MOST_POINTS
+            )
         )
     for number, ((at, _), (later, _)) in enumerate(pairwise(points), 2):
         if later <= at:
             raise TypedError(
-                translate(
-                    "penetration", "table, point {number}: time {later:g} must be after {at:g}"
-                ).format(number=number, later=later, at=at)
+                tr("table, point {number}: time {later:g} must be after {at:g}").format(
+                    number=number, later=later, at=at
+                )
             )
     if points[0] != (0.0, 0.0) or points[-1] != (1.0, 1.0):
-        raise TypedError(translate("penetration", "table: must go from 0, 0 to 1, 1"))
+        raise TypedError(tr("table: must go from 0, 0 to 1, 1"))
     return tuple(points)
 
 
@@ -55,21 +54,17 @@ def _point(number: int, line: str) -> tuple[float, float]:
     shares = [share for part in parts if (share := parsed(part, POINT)) is not None]
     if len(parts) != 2 or len(shares) != 2:
         raise TypedError(
-            translate(
-                "penetration",
+            tr(
                 "table, line {number}: {line!r}; enter a time share, a comma and a depth "
-                "share, such as 0.3, 0.1",
+                "share, such as 0.3, 0.1"
             ).format(number=number, line=line[:40])
         )
     at, depth = shares
-    for name, value in (
-        (translate("penetration", "time"), at),
-        (translate("penetration", "depth"), depth),
-    ):
+    for name, value in ((tr("time"), at), (tr("depth"), depth)):
         if not 0.0 <= value <= 1.0:
             raise TypedError(
-                translate(
-                    "penetration", "table, line {number}: {name} {value:g} must be 0 to 1"
-                ).format(number=number, name=name, value=value)
+                tr("table, line {number}: {name} {value:g} must be 0 to 1").format(
+                    number=number, name=name, value=value
+                )
             )
     return at, depth

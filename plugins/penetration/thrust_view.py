@@ -1,15 +1,16 @@
 """The thrust over time: desired, commanded, and measured after a run."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from rotemina.app.motion.penetration.thrust import ThrustPlan, ThrustTrace
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.plot import LINES, SignalPlot
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import legend
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.plan_preview import (
     Curve,
     commanded_curve,
@@ -19,11 +20,7 @@ from rotemina.plugins.penetration.plan_preview import (
 )
 
 POSITION, SPEED = "position", "speed"
-_ROLES = {
-    marked("penetration", "desired"): "text",
-    marked("penetration", "commanded"): "command",
-    marked("penetration", "measured"): "real",
-}
+_ROLES = {mark("desired"): "text", mark("commanded"): "command", mark("measured"): "real"}
 _LEAST = {POSITION: 0.1, SPEED: 1.0}  # µm, µm/s
 
 
@@ -39,39 +36,29 @@ class ThrustPreview(QWidget):
         self.plot.add_curve("commanded", LINES["command"])
         self.plot.add_curve("measured", LINES["measured"])
         self.plot.show_times(True)
-        self.plot.getPlotItem().getAxis("bottom").setLabel(translate("penetration", "time [ms]"))
+        self.plot.getPlotItem().getAxis("bottom").setLabel(tr("time [ms]"))
         self.plot.setMinimumSize(180, 80)
-        self.plot.setAccessibleName(translate("penetration", "Thrust over time"))
+        self.plot.setAccessibleName(tr("Thrust over time"))
         self.plot.setToolTip(
             plain_tip(
-                translate(
-                    "penetration",
+                tr(
                     "Desired: planned motion of the tip. Commanded: output of the device. "
-                    "Measured: latest run, constant delay removed.",
+                    "Measured: latest run, constant delay removed."
                 )
             )
         )
         self.shown = SteadyChoice(
-            translate("penetration", "Quantity of the plot"),
-            translate("penetration", "Distance into the cell, or speed"),
-            letters=8,
+            tr("Quantity of the plot"), tr("Distance into the cell, or speed"), letters=8
         )
-        self.shown.addItem(translate("penetration", "Position [µm]"), POSITION)
-        self.shown.addItem(translate("penetration", "Speed [µm/s]"), SPEED)
+        self.shown.addItem(tr("Position [µm]"), POSITION)
+        self.shown.addItem(tr("Speed [µm/s]"), SPEED)
         self.shown.currentIndexChanged.connect(lambda _: self._draw())
         self._legend = QLabel()
         self._legend.setTextFormat(Qt.TextFormat.RichText)
         self._legend.setWordWrap(True)
         self._legend.setMinimumWidth(100)
-        head = QHBoxLayout()
-        head.setSpacing(6)
-        head.addWidget(self._legend, 1)
-        head.addWidget(self.shown)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addLayout(head)
-        column.addWidget(self.plot, 1)
+        head = in_row((self._legend, 1), self.shown, spacing=6)
+        in_column(head, (self.plot, 1), on=self, margins=0, spacing=2)
         self.set_theme(theme)
 
     def show_plan(self, plan: ThrustPlan | None, trace: ThrustTrace | None) -> None:
@@ -86,7 +73,7 @@ class ThrustPreview(QWidget):
     def set_theme(self, theme: Theme) -> None:
         """Change the colours."""
         self.plot.set_theme(theme)
-        named = ((translate("penetration", name), role) for name, role in _ROLES.items())
+        named = ((tr(name), role) for name, role in _ROLES.items())
         self._legend.setText(legend(theme, named, mark="▬"))
 
     def _draw(self) -> None:

@@ -6,54 +6,35 @@ from rotemina.app.motion.penetration.run_log import Verdict
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.plan_preview import speed_text, way_text
 
 #: The phases of the strip, in their order.
-STRIP = (
-    Phase.APPROACH,
-    Phase.CONTACT,
-    Phase.THRUST,
-    Phase.HOLD,
-    Phase.INJECT,
-    Phase.RETRACT,
-)
+STRIP = (Phase.APPROACH, Phase.CONTACT, Phase.THRUST, Phase.HOLD, Phase.INJECT, Phase.RETRACT)
 SETTLE_S = 0.5  # a second press in alarm must not stop the way back, nor begin one
 #: Phases in which the parameters are those of a run.
 FIXED = UNDER_WAY | {Phase.ARMED, Phase.HELD}
 
 _DOING = {
-    Phase.APPROACH: marked("penetration", "The tip approaches until it touches the membrane."),
-    Phase.CONTACT: marked(
-        "penetration", "Contact. The tip rests on the membrane; the thrust follows."
-    ),
-    Phase.THRUST: marked("penetration", "The device executes the thrust."),
-    Phase.HOLD: marked("penetration", "The tip holds at its depth."),
-    Phase.INJECT: marked("penetration", "The tool is on."),
-    Phase.HOLD_AFTER: marked("penetration", "The tool is off; the tip holds at its depth."),
-    Phase.RETRACT: marked("penetration", "The tip returns to its start."),
+    Phase.APPROACH: mark("The tip approaches until it touches the membrane."),
+    Phase.CONTACT: mark("Contact. The tip rests on the membrane; the thrust follows."),
+    Phase.THRUST: mark("The device executes the thrust."),
+    Phase.HOLD: mark("The tip holds at its depth."),
+    Phase.INJECT: mark("The tool is on."),
+    Phase.HOLD_AFTER: mark("The tool is off; the tip holds at its depth."),
+    Phase.RETRACT: mark("The tip returns to its start."),
 }
 # What the buttons do, in English here: translated where it is shown.
 _BUTTON_TIPS = {
-    marked("penetration", "Hold"): marked(
-        "penetration", "Stop the retraction; the tip stays in place"
-    ),
-    marked("penetration", "Retract"): marked(
-        "penetration", "Return the tip to the start of the run"
-    ),
-    marked("penetration", "Stop and retract"): marked(
-        "penetration", "Stop, switch the tool off, and retract the tip along its axis"
-    ),
-    marked("penetration", "Start"): marked("penetration", "Start the approach to the cell"),
+    mark("Hold"): mark("Stop the retraction; the tip stays in place"),
+    mark("Retract"): mark("Return the tip to the start of the run"),
+    mark("Stop and retract"): mark("Stop, switch the tool off, and retract the tip along its axis"),
+    mark("Start"): mark("Start the approach to the cell"),
 }
 _ARM_TIPS = {
-    marked("penetration", "Arm"): marked(
-        "penetration", "Check all conditions and reserve all axes; nothing moves before Start"
-    ),
-    marked("penetration", "Disarm"): marked("penetration", "Release the axes; nothing has moved"),
-    marked("penetration", "Free the axes"): marked(
-        "penetration", "Leave the tip in place and release the axes for manual motion"
-    ),
+    mark("Arm"): mark("Check all conditions and reserve all axes; nothing moves before Start"),
+    mark("Disarm"): mark("Release the axes; nothing has moved"),
+    mark("Free the axes"): mark("Leave the tip in place and release the axes for manual motion"),
 }
 
 
@@ -84,11 +65,7 @@ def against_button(status: PenetrationStatus, state: SessionState) -> str | None
     """Return why the button cannot act now; None: it can."""
     if status.phase is Phase.HELD:
         return state.locked
-    return (
-        None
-        if status.phase in FIXED
-        else translate("penetration", "the penetration is not armed; arm it first")
-    )
+    return None if status.phase in FIXED else tr("the penetration is not armed; arm it first")
 
 
 def counts(shown: Phase, now: Phase, since_press_s: float) -> bool:
@@ -133,7 +110,7 @@ def lights(status: PenetrationStatus) -> tuple[Light, ...]:
 def headline(status: PenetrationStatus) -> str:
     """Return the phase in a word or two, with the time that is left when armed."""
     if status.phase is Phase.ARMED and status.armed_left_s is not None:
-        return translate("penetration", "armed, {left_s:.0f} s").format(left_s=status.armed_left_s)
+        return tr("armed, {left_s:.0f} s").format(left_s=status.armed_left_s)
     return spoken(status.phase)
 
 
@@ -141,28 +118,21 @@ def message(status: PenetrationStatus, why_not: str | None) -> str:
     """Return the running phase, or the latest outcome and whether arming is possible."""
     phase = status.phase
     if phase in UNDER_WAY:
-        return translate("penetration", _DOING[phase]) + (
-            translate("penetration", " Why: {reason}.").format(reason=spoken(status.reason))
-            if status.reason
-            else ""
+        return tr(_DOING[phase]) + (
+            tr(" Why: {reason}.").format(reason=spoken(status.reason)) if status.reason else ""
         )
     if phase is Phase.HELD:
-        return translate(
-            "penetration",
+        return tr(
             "Held: {reason}. The tip stays in place; press Retract to return it, or "
-            "Free the axes to move it manually.",
+            "Free the axes to move it manually."
         ).format(reason=spoken(status.reason))
     if phase is Phase.ARMED:
-        return translate(
-            "penetration", "Armed: all axes are reserved. Nothing moves until you press Start."
-        )
+        return tr("Armed: all axes are reserved. Nothing moves until you press Start.")
     came = _came_of(status)
     may = (
-        translate("penetration", "Ready to arm.")
+        tr("Ready to arm.")
         if why_not is None
-        else translate("penetration", "Cannot be armed now: {why_not}").format(
-            why_not=_stopped(spoken(why_not))
-        )
+        else tr("Cannot be armed now: {why_not}").format(why_not=_stopped(spoken(why_not)))
     )
     return f"{came} {may}".lstrip()
 
@@ -171,24 +141,21 @@ def _came_of(status: PenetrationStatus) -> str:
     run = status.run
     if status.phase is Phase.DISARMED or run is None:
         return (
-            translate("penetration", "Disarmed: {reason}").format(
-                reason=_stopped(spoken(status.reason))
-            )
+            tr("Disarmed: {reason}").format(reason=_stopped(spoken(status.reason)))
             if status.reason
             else ""
         )
     if run.verdict is Verdict.DONE and run.thrust is not None:
         thrust = run.thrust
-        return translate(
-            "penetration",
-            "Done: depth {depth}, maximum speed {speed}, error {error} from the profile.",
+        return tr(
+            "Done: depth {depth}, maximum speed {speed}, error {error} from the profile."
         ).format(
             depth=way_text(thrust.depth),
             speed=speed_text(thrust.peak_speed),
             error=way_text(thrust.error),
         )
     verdict = spoken(run.verdict)
-    return translate("penetration", "{verdict}: {reason} The tip is retracted.").format(
+    return tr("{verdict}: {reason} The tip is retracted.").format(
         verdict=verdict[:1].upper() + verdict[1:], reason=_stopped(spoken(run.reason))
     )
 

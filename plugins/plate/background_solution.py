@@ -3,7 +3,7 @@
 from PySide6.QtCore import QObject, Signal
 
 from rotemina.app.shell.background_job import Job, Tell
-from rotemina.app.shell.language import marked
+from rotemina.plugins.plate import mark
 from rotemina.plugins.plate.coloured_quantities import QUANTITIES
 from rotemina.plugins.plate.solution import Solved, solved
 from rotemina.plugins.plate.surface_drawing import View, drawn
@@ -45,7 +45,7 @@ class Solving(QObject):
                 tell(name, 0.0, None)
 
             answer = solved(robot, divisions, stage)
-            stage(marked("plate", "drawing"))
+            stage(mark("drawing"))
             # The first time this loads or compiles the loop over pixels: not on the window's
             # thread.
             picture = static_picture(answer, answer.ranges[:, 1], QUANTITIES[0], 1.0)

@@ -14,8 +14,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
+from rotemina.plugins.plate import mark, tr
 from rotemina.plugins.plate.surface_drawing import View, colours, drawn
 from rotemina.plugins.plate.surface_picture import Picture
 from rotemina.sim.quantities import rounded
@@ -33,10 +33,7 @@ _ZOOMS = {Qt.Key.Key_Plus: _ZOOM_PER_STEP, Qt.Key.Key_Minus: 1.0 / _ZOOM_PER_STE
 _BAR_WIDTH = 14
 _STOPS = 16
 _BAR_ROOM = 92  # on the right, for the bar and its numbers
-TIP = marked(
-    "plate",
-    "Drag to rotate, use the wheel to zoom, double-click to reset; also arrow keys, + and −",
-)
+TIP = mark("Drag to rotate, use the wheel to zoom, double-click to reset; also arrow keys, + and −")
 
 
 class Canvas(QWidget):
@@ -53,8 +50,8 @@ class Canvas(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(260, 180)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName(translate("plate", "The plate in 3-D"))
-        self.setToolTip(translate("plate", TIP))
+        self.setAccessibleName(tr("The plate in 3-D"))
+        self.setToolTip(tr(TIP))
 
     def set_theme(self, theme: Theme) -> None:
         """Draw in other colours."""
@@ -113,7 +110,7 @@ class Canvas(QWidget):
             bar.setColorAt(share, QColor(*colours()[round(share * 255)].tolist()))
         painter.fillRect(QRectF(left, top, _BAR_WIDTH, bottom - top), bar)
         painter.setPen(QColor(self._theme.text))
-        painter.drawText(QPointF(left, 18), picture.unit or translate("plate", "relative"))
+        painter.drawText(QPointF(left, 18), picture.unit or tr("relative"))
         for share in (0.0, 0.25, 0.5, 0.75, 1.0):
             value = picture.low + share * (picture.high - picture.low)
             y = bottom - share * (bottom - top) + 5

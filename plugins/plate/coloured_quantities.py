@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.plate import mark
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.statics import UnitSolutions
 from rotemina.sim.plate.stress import deflection, principal, surface_stress, von_mises
@@ -39,10 +39,10 @@ def _deflection(solutions: UnitSolutions, pose: FloatArray) -> FloatArray:
 
 
 QUANTITIES = (
-    Quantity(marked("plate", "Von Mises stress"), "MPa", 1e-6, False, _von_mises),
-    Quantity(marked("plate", "Larger principal stress, top"), "MPa", 1e-6, True, _larger),
-    Quantity(marked("plate", "Smaller principal stress, top"), "MPa", 1e-6, True, _smaller),
-    Quantity(marked("plate", "Deflection"), "µm", 1e6, True, _deflection),
+    Quantity(mark("Von Mises stress"), "MPa", 1e-6, False, _von_mises),
+    Quantity(mark("Larger principal stress, top"), "MPa", 1e-6, True, _larger),
+    Quantity(mark("Smaller principal stress, top"), "MPa", 1e-6, True, _smaller),
+    Quantity(mark("Deflection"), "µm", 1e6, True, _deflection),
 )
 
 

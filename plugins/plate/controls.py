@@ -2,17 +2,13 @@
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QComboBox,
-    QGridLayout,
-    QLabel,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.controls import named
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.wheel_safe import SteadySlider
+from rotemina.plugins.plate import mark, tr
 from rotemina.plugins.plate.coloured_quantities import QUANTITIES, Quantity
 from rotemina.plugins.plate.words import AXES
 from rotemina.sim.arrays import FloatArray
@@ -20,7 +16,7 @@ from rotemina.sim.quantities import fixed
 
 _STEPS = 500
 _SCALES = 200  # per cent
-STATIC = marked("plate", "Moved hub")
+STATIC = mark("Moved hub")
 
 
 class Controls(QWidget):
@@ -37,31 +33,27 @@ class Controls(QWidget):
         super().__init__()
         self._ranges = np.zeros((3, 2))
         self.what = QComboBox()
-        self.what.setAccessibleName(translate("plate", "View"))
-        self.what.setToolTip(
-            translate("plate", "The plate with its hub moved, or one of its modes")
-        )
-        self.colour = QComboBox()
-        self.colour.setAccessibleName(translate("plate", "Colours"))
-        self.colour.setToolTip(translate("plate", "Quantity of the colours"))
+        self.what.setAccessibleName(tr("View"))
+        self.what.setToolTip(tr("The plate with its hub moved, or one of its modes"))
+        self.colour = named(QComboBox(), tr("Colours"), tr("Quantity of the colours"))
         for quantity in QUANTITIES:
-            self.colour.addItem(translate("plate", quantity.title))
+            self.colour.addItem(tr(quantity.title))
         self.sliders = tuple(
-            SteadySlider(translate("plate", "{axis} of the hub").format(axis=label(name)), _STEPS)
+            SteadySlider(tr("{axis} of the hub").format(axis=label(name)), _STEPS)
             for name, _, _ in AXES
         )
         for slider, (name, unit, _) in zip(self.sliders, AXES, strict=True):
-            text = translate("plate", "{axis} of the hub over its range, in {unit}")
+            text = tr("{axis} of the hub over its range, in {unit}")
             slider.setToolTip(text.format(axis=label(name), unit=unit))
         self.values = tuple(QLabel() for _ in AXES)
-        self.scale = SteadySlider(translate("plate", "Scale of the deformation"), _SCALES)
+        self.scale = SteadySlider(tr("Scale of the deformation"), _SCALES)
         self.scale.setValue(100)
         self.scale_text = QLabel()
         self.scale.setToolTip(
-            translate("plate", "Scale of the drawn deformation, 0 to 200 %; 100 % is well visible")
+            tr("Scale of the drawn deformation, 0 to 200 %; 100 % is well visible")
         )
-        self.mesh = QCheckBox(translate("plate", "Mesh lines"))
-        self.mesh.setToolTip(translate("plate", "Draw the edges of the elements"))
+        self.mesh = QCheckBox(tr("Mesh lines"))
+        self.mesh.setToolTip(tr("Draw the edges of the elements"))
         self._lay_out()
         for box in (self.what, self.colour):
             box.setSizeAdjustPolicy(
@@ -74,12 +66,10 @@ class Controls(QWidget):
         self._change()
 
     def _lay_out(self) -> None:
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setVerticalSpacing(4)
-        grid.addWidget(QLabel(translate("plate", "Show")), 0, 0)
+        grid = in_grid(on=self, margins=0, spacing=(-1, 4), stretched=1)
+        grid.addWidget(QLabel(tr("Show")), 0, 0)
         grid.addWidget(self.what, 0, 1, 1, 2)
-        grid.addWidget(QLabel(translate("plate", "Colours")), 1, 0)
+        grid.addWidget(QLabel(tr("Colours")), 1, 0)
         grid.addWidget(self.colour, 1, 1, 1, 2)
         for row, ((name, _, _), slider, value) in enumerate(
             zip(AXES, self.sliders, self.values, strict=True), start=2
@@ -87,7 +77,7 @@ class Controls(QWidget):
             grid.addWidget(QLabel(label(name)), row, 0)
             grid.addWidget(slider, row, 1)
             grid.addWidget(value, row, 2)
-        grid.addWidget(QLabel(translate("plate", "Scale")), 5, 0)
+        grid.addWidget(QLabel(tr("Scale")), 5, 0)
         grid.addWidget(self.scale, 5, 1)
         grid.addWidget(self.scale_text, 5, 2)
         grid.addWidget(self.mesh, 6, 1)
@@ -95,7 +85,6 @@ class Controls(QWidget):
             value.setTextFormat(Qt.TextFormat.PlainText)
             value.setMinimumWidth(86)
             value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        grid.setColumnStretch(1, 1)
         grid.setRowStretch(7, 1)
 
     def offer(self, ranges: FloatArray, modes: list[str]) -> None:
@@ -104,13 +93,13 @@ class Controls(QWidget):
         self._ranges = ranges
         for slider, ends, (name, unit, per_si) in zip(self.sliders, ranges, AXES, strict=True):
             low, high = per_si * ends
-            text = translate("plate", "{axis} of the hub, {low:.4g} to {high:.4g} {unit}")
+            text = tr("{axis} of the hub, {low:.4g} to {high:.4g} {unit}")
             slider.setToolTip(text.format(axis=label(name), low=low, high=high, unit=unit))
         chosen = max(self.what.currentIndex(), 0)
         self.what.blockSignals(True)
         self.what.clear()
-        mode = translate("plate", "Mode {title}")
-        self.what.addItem(translate("plate", STATIC))
+        mode = tr("Mode {title}")
+        self.what.addItem(tr(STATIC))
         self.what.addItems([mode.format(title=title) for title in modes])
         self.what.setCurrentIndex(min(chosen, len(modes)))
         self.what.blockSignals(False)

@@ -4,36 +4,25 @@ import time
 from math import tau
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QIODevice, Qt, QTimer
+from PySide6.QtCore import QBuffer, QIODevice, QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QPushButton, QWidget
 
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.file_dialog import ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, set_property
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.plugins.plate import mark, tr
 from rotemina.plugins.plate.background_solution import Solving
 from rotemina.plugins.plate.canvas import Canvas
 from rotemina.plugins.plate.controls import Controls
 from rotemina.plugins.plate.solution import Solved
 from rotemina.plugins.plate.surface_picture import mode_picture, static_picture
-from rotemina.plugins.plate.words import (
-    EMPTY,
-    MESHES,
-    mode_titles,
-    plate_text,
-    pose_lines,
-    yields,
-)
+from rotemina.plugins.plate.words import EMPTY, MESHES, mode_titles, plate_text, pose_lines, yields
 from rotemina.sim.plate.export import write_vtu
 from rotemina.sim.quantities import fixed
 from rotemina.sim.whole_files import replaced
@@ -41,7 +30,7 @@ from rotemina.sim.whole_files import replaced
 FRAME_MS = 33
 _WIDTH = 330  # of the choices at least, px
 SWING_S = 2.0  # a mode is shown slowly, whatever its frequency
-_UNSOLVED = marked("plate", "no plate is solved yet")
+_UNSOLVED = mark("no plate is solved yet")
 
 
 class PlatePanel(Panel):
@@ -67,57 +56,30 @@ class PlatePanel(Panel):
 
     def _make_parts(self) -> None:
         self.mesh = QComboBox()
-        self.mesh.setAccessibleName(translate("plate", "Mesh"))
-        self.mesh.setToolTip(translate("plate", "A finer mesh is more accurate and takes longer"))
+        self.mesh.setAccessibleName(tr("Mesh"))
+        self.mesh.setToolTip(tr("A finer mesh is more accurate and takes longer"))
         for title, divisions in MESHES:
-            self.mesh.addItem(translate("plate", title), divisions)
+            self.mesh.addItem(tr(title), divisions)
         self.mesh.setCurrentIndex(1)
-        self.start, self.stop = (
-            QPushButton(translate("plate", "Solve")),
-            QPushButton(translate("plate", "Stop")),
-        )
+        self.start, self.stop = QPushButton(tr("Solve")), QPushButton(tr("Stop"))
         self.start.setProperty("primary", True)
-        self.start.setToolTip(
-            translate("plate", "Compute the plate of the robot file; motion continues")
-        )
-        self.stop.setToolTip(translate("plate", "Cancel the computation; motion continues"))
-        self.vtu, self.png = (
-            QPushButton(translate("plate", "Save VTU …")),
-            QPushButton(translate("plate", "Save PNG …")),
-        )
-        self.doing, self.pose_text, self.plate_text = QLabel(), QLabel(), QLabel()
-        for text in (self.doing, self.pose_text, self.plate_text):
-            text.setTextFormat(Qt.TextFormat.PlainText)
-            text.setWordWrap(True)
-        self.doing.setProperty("quiet", True)
-        self.pose_text.setAccessibleName(translate("plate", "In this pose"))
-        self.plate_text.setAccessibleName(translate("plate", "The plate as a whole"))
+        self.start.setToolTip(tr("Compute the plate of the robot file; motion continues"))
+        self.stop.setToolTip(tr("Cancel the computation; motion continues"))
+        self.vtu, self.png = QPushButton(tr("Save VTU …")), QPushButton(tr("Save PNG …"))
+        self.doing = plain_text(wrap=True)
+        self.pose_text, self.plate_text = (plain_text(quiet=False, wrap=True) for _ in range(2))
+        self.pose_text.setAccessibleName(tr("In this pose"))
+        self.plate_text.setAccessibleName(tr("The plate as a whole"))
 
     def _lay_out(self) -> None:
-        top, saving = QHBoxLayout(), QHBoxLayout()
-        for widget in (self.mesh, self.start, self.stop):
-            top.addWidget(widget)
-        for widget in (self.vtu, self.png):
-            saving.addWidget(widget)
+        top, saving = in_row(self.mesh, self.start, self.stop), in_row(self.vtu, self.png)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 8, 0)
-        column.setSpacing(6)
-        column.addLayout(top)
-        column.addWidget(self.doing)
-        column.addWidget(self.controls)
-        column.addWidget(self.plate_text)
-        column.addLayout(saving)
-        column.addStretch(1)
+        parts = top, self.doing, self.controls, self.plate_text, saving, 1
+        in_column(*parts, on=left, margins=(0, 0, 8, 0), spacing=6)
         scroll = scrolled(left)
         scroll.setFixedWidth(max(least_width(scroll), _WIDTH))
-        outer = QHBoxLayout(self)
-        outer.setContentsMargins(10, 6, 10, 6)
-        outer.addWidget(scroll)
-        right = QVBoxLayout()
-        right.addWidget(self.canvas, 1)
-        right.addWidget(self.pose_text)
-        outer.addLayout(right, 1)
+        right = in_column((self.canvas, 1), self.pose_text)
+        in_row(scroll, (right, 1), on=self, margins=(10, 6, 10, 6))
 
     def _connect(self) -> None:
         self.start.clicked.connect(lambda _: self.solve())
@@ -138,13 +100,13 @@ class PlatePanel(Panel):
     def solve(self) -> None:
         """Solve the robot's plate; what is shown stays until there is an answer."""
         self.solving.start(self.workbench.robot, self.mesh.currentData())
-        self._show_stage(marked("plate", "waiting"))
+        self._show_stage(mark("waiting"))
         self._show_state()
 
     def end(self) -> None:
         """Discard the answer."""
         self.solving.stop()
-        self.doing.setText(translate("plate", "Stopped."))
+        self.doing.setText(tr("Stopped."))
         self._show_state()
 
     def take(self, solved: Solved) -> None:
@@ -152,7 +114,7 @@ class PlatePanel(Panel):
         self.solved = solved
         self.plate_text.setText(plate_text(solved))
         triangles = solved.mesh.triangles.shape[1]
-        text = translate("plate", "{triangles} triangles, {unknowns} unknowns.")
+        text = tr("{triangles} triangles, {unknowns} unknowns.")
         unknowns = solved.solutions.unknowns
         self.doing.setText(text.format(triangles=triangles, unknowns=unknowns))
         self.controls.offer(solved.ranges, mode_titles(solved))
@@ -160,13 +122,12 @@ class PlatePanel(Panel):
         self._show()
 
     def _fail(self, message: str) -> None:
-        self.doing.setText(translate("plate", "Failed."))
+        self.doing.setText(tr("Failed."))
         self.workbench.notify(Level.ERROR, message, about=self)
         self._show_state()
 
     def _show_stage(self, name: str) -> None:
-        text = translate("plate", "Solving: {stage} …")
-        self.doing.setText(text.format(stage=translate("plate", name)))
+        self.doing.setText(tr("Solving: {stage} …").format(stage=tr(name)))
 
     # --- what is shown ----------------------------------------------------------------------------
 
@@ -175,18 +136,16 @@ class PlatePanel(Panel):
         self.start.setEnabled(not running)
         self.mesh.setEnabled(not running)
         self.stop.setEnabled(running)
-        why_not = None if self.solved is not None else translate("plate", _UNSOLVED)
+        why_not = None if self.solved is not None else tr(_UNSOLVED)
         allow(
             self.vtu,
             why_not,
-            translate(
-                "plate", "Mesh, displacement, stress and modes for ParaView and similar programs"
-            ),
+            tr("Mesh, displacement, stress and modes for ParaView and similar programs"),
         )
-        allow(self.png, why_not, translate("plate", "The displayed picture"))
+        allow(self.png, why_not, tr("The displayed picture"))
         self.controls.setEnabled(self.solved is not None)
         if self.solved is None:
-            self.canvas.show_picture(None, translate("plate", EMPTY))
+            self.canvas.show_picture(None, tr(EMPTY))
 
     def _show(self) -> None:
         """Draw the plate as the controls say; a mode swings while it is in sight."""
@@ -229,13 +188,8 @@ class PlatePanel(Panel):
         """Write mesh, fields at the pose that is shown, and modes."""
         solved, pose = self.solved, self.controls.pose
         assert solved is not None
-        self.workbench.work(
-            "plate vtu",
-            translate("plate", "Writing {name} …").format(name=path.name),
-            lambda: write_vtu(path, solved.solutions, pose, solved.modes),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("plate", "Saved {path}").format(path=path)
-            ),
+        self.workbench.write_file(
+            "plate vtu", path, lambda: write_vtu(path, solved.solutions, pose, solved.modes)
         )
 
     def save_png(self, path: Path) -> None:
@@ -249,18 +203,11 @@ class PlatePanel(Panel):
             with replaced(path) as file:
                 file.write(picture)
 
-        self.workbench.work(
-            "plate png",
-            translate("plate", "Writing {name} …").format(name=path.name),
-            write,
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("plate", "Saved {path}").format(path=path)
-            ),
-        )
+        self.workbench.write_file("plate png", path, write)
 
     def _ask(self, suffix: str) -> None:
-        every = translate("plate", "All files (*)")
+        every = tr("All files (*)")
         kinds = f"{suffix.upper()} (*.{suffix});;{every}"
         save = {"vtu": self.save_vtu, "png": self.save_png}[suffix]
-        title = translate("plate", "Save the plate")
+        title = tr("Save the plate")
         ask_where(self, self.workbench, title, kinds, f"plate.{suffix}", save)

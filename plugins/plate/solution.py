@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 
-from rotemina.app.shell.language import marked
+from rotemina.plugins.plate import mark
 from rotemina.plugins.plate.coloured_quantities import largest_values
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.mesh import PlateMesh
@@ -60,13 +60,13 @@ def solved(robot: Robot, divisions: int, stage: Callable[[str], None]) -> Solved
         If the plate cannot be computed, or the robot does not have the axes that it carries.
     """
     ranges, length = motion_ranges(robot), pin_length(robot)
-    stage(marked("plate", "meshing"))
+    stage(mark("meshing"))
     held = hold(robot.plate, divisions)
-    stage(marked("plate", "solving"))
+    stage(mark("solving"))
     solutions = solve(held)
-    stage(marked("plate", "modes"))
+    stage(mark("modes"))
     modes = eigenmodes(held, length, MODES)
-    stage(marked("plate", "range of motion"))
+    stage(mark("range of motion"))
     return Solved(
         solutions=solutions,
         modes=modes,

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.app.shell.language import translate
+from rotemina.plugins.plate import tr
 from rotemina.plugins.plate.coloured_quantities import QUANTITIES, Quantity
 from rotemina.plugins.plate.solution import Solved
 from rotemina.plugins.plate.surface_drawing import Surface
@@ -43,7 +43,7 @@ def static_picture(solved: Solved, pose: FloatArray, quantity: Quantity, scale: 
         pose * magnified,
     )
     factor = quantity.per_si
-    title = translate("plate", quantity.title)
+    title = tr(quantity.title)
     return Picture(surface, title, quantity.unit, low * factor, largest * factor, magnified)
 
 
@@ -55,7 +55,7 @@ def mode_picture(solved: Solved, number: int, phase: float, scale: float) -> Pic
     hub = solved.modes.hub[number] * swing * size
     surface = _surface(solved, shape * swing * size, shape * swing, (-1.0, 1.0), hub)
     frequency = solved.modes.frequencies_hz[number]
-    title = translate("plate", "Mode {number}, {frequency:.0f} Hz")
+    title = tr("Mode {number}, {frequency:.0f} Hz")
     title = title.format(number=number + 1, frequency=frequency)
     return Picture(surface, title, "", -1.0, 1.0, 1.0)
 

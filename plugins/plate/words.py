@@ -3,7 +3,7 @@
 import numpy as np
 
 from rotemina.app.display_units import label
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.plate import mark, tr
 from rotemina.plugins.plate.solution import Solved
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plate.plate_report import TOLERANCE, mode_name
@@ -12,20 +12,14 @@ from rotemina.sim.plate.stress import Safety, StressPoint, safety
 from rotemina.sim.quantities import fixed, percent
 from rotemina.sim.robot.plate import Plate
 
-MESHES = (
-    (marked("plate", "Coarse mesh"), 60),
-    (marked("plate", "Default mesh"), 120),
-    (marked("plate", "Fine mesh"), 240),
-)
+MESHES = ((mark("Coarse mesh"), 60), (mark("Default mesh"), 120), (mark("Fine mesh"), 240))
 _NEAR = 0.02  # of the way from hub to rim
 AXES = (("zn", "µm", 1e6), ("thx", "µrad", 1e6), ("thy", "µrad", 1e6))
-EMPTY = marked(
-    "plate", "Solve the plate of this robot to see its stress, its deformation and its modes."
-)
+EMPTY = mark("Solve the plate of this robot to see its stress, its deformation and its modes.")
 
 
 # What moves in a mode, as the model says it.
-MODES = (marked("plate", "hub along the pin"), marked("plate", "plate between hub and rim"))
+MODES = (mark("hub along the pin"), mark("plate between hub and rim"))
 _TILTS = "hub tilts about "
 
 
@@ -34,7 +28,7 @@ def pose_lines(solved: Solved, pose: FloatArray) -> str:
     solutions = solved.solutions
     found = safety(solutions, pose)
     force, about_x, about_y = solutions.stiffness @ pose
-    reaction = translate("plate", "Reaction {force:.1f} N; {x:.1f} and {y:.1f} N mm about x and y")
+    reaction = tr("Reaction {force:.1f} N; {x:.1f} and {y:.1f} N mm about x and y")
     lines = [reaction.format(force=force, x=1e3 * about_x, y=1e3 * about_y)]
     if np.any(pose):
         lines.insert(0, safety_text(found, solutions.held.plate))
@@ -43,9 +37,8 @@ def pose_lines(solved: Solved, pose: FloatArray) -> str:
 
 def safety_text(found: Safety, plate: Plate) -> str:
     """Say how safe the plate is, and whether it yields."""
-    text = translate(
-        "plate",
-        "{stress:.1f} MPa von Mises {place}; safety {factor:.2f} against yield at {limit:.0f} MPa",
+    text = tr(
+        "{stress:.1f} MPa von Mises {place}; safety {factor:.2f} against yield at {limit:.0f} MPa"
     )
     said = text.format(
         stress=1e-6 * found.point.stress,
@@ -54,18 +47,18 @@ def safety_text(found: Safety, plate: Plate) -> str:
         limit=1e-6 * plate.yield_stress,
     )
     if found.factor < 1.0:
-        return translate("plate", "THE PLATE YIELDS: {said}").format(said=said)
+        return tr("THE PLATE YIELDS: {said}").format(said=said)
     return said
 
 
 def place_text(point: StressPoint, plate: Plate) -> str:
     """Say where on the plate a place is."""
     share = (point.radius - plate.hub_radius) / (plate.rim_radius - plate.hub_radius)
-    text = translate("plate", "between, r {radius:.2f} mm, {degrees:.0f}°")
+    text = tr("between, r {radius:.2f} mm, {degrees:.0f}°")
     if share < _NEAR:
-        text = translate("plate", "at the hub, r {radius:.2f} mm, {degrees:.0f}°")
+        text = tr("at the hub, r {radius:.2f} mm, {degrees:.0f}°")
     elif share > 1.0 - _NEAR:
-        text = translate("plate", "at the rim, r {radius:.2f} mm, {degrees:.0f}°")
+        text = tr("at the rim, r {radius:.2f} mm, {degrees:.0f}°")
     degrees = np.degrees(point.direction) % 360.0
     return text.format(radius=1e3 * point.radius, degrees=degrees)
 
@@ -75,18 +68,16 @@ def plate_text(solved: Solved) -> str:
     solutions = solved.solutions
     axial, tilt_x, tilt_y = np.diag(solutions.stiffness)
     far = max(abs(entry.difference) for entry in agreement(solutions))
-    agrees = translate(
-        "plate",
+    agrees = tr(
         "{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they agree with the "
-        "shipped robot within {tolerance}",
+        "shipped robot within {tolerance}"
     )
-    differs = translate(
-        "plate",
+    differs = tr(
         "{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they do not agree "
-        "with the shipped robot within {tolerance}",
+        "with the shipped robot within {tolerance}"
     )
     stiff = agrees if far <= TOLERANCE else differs
-    whole = translate("plate", "Whole range: {safety}, at {pose}")
+    whole = tr("Whole range: {safety}, at {pose}")
     pose = ", ".join(
         f"{label(name)} {fixed(per_si * value, 1)} {unit}"
         for (name, unit, per_si), value in zip(AXES, solved.least.pose, strict=True)
@@ -94,10 +85,7 @@ def plate_text(solved: Solved) -> str:
     return "\n".join(
         [
             stiff.format(axial=1e-6 * axial, x=tilt_x, y=tilt_y, tolerance=percent(TOLERANCE)),
-            whole.format(
-                safety=safety_text(solved.least, solutions.held.plate),
-                pose=pose,
-            ),
+            whole.format(safety=safety_text(solved.least, solutions.held.plate), pose=pose),
         ]
     )
 
@@ -121,5 +109,5 @@ def yields(solved: Solved, pose: FloatArray) -> bool:
 def _mode(name: str) -> str:
     about = name.removeprefix(_TILTS)
     if about != name:
-        return translate("plate", "hub tilts about {angle}").format(angle=about)
-    return translate("plate", name)
+        return tr("hub tilts about {angle}").format(angle=about)
+    return tr(name)

@@ -6,17 +6,18 @@ from typing import NamedTuple
 
 import numpy as np
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.recent_history import LiveWindow
 from rotemina.app.shell.gap_words import live_gap, run_gap, size, small_print
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.plots import tr
 from rotemina.plugins.plots.cursor_text import Reading, Shown, loop_text, nearest, values_text
 from rotemina.plugins.plots.gap_strip import LEAST_HEIGHT, MOST_HEIGHT, GapStrip
 from rotemina.plugins.plots.history_signals import GapHistory
@@ -99,18 +100,8 @@ class AxisPlot(QWidget):
         self._course: tuple[GapHistory | None, float] = (None, 0.0)  # what the strip shows
         # Notices and the banner of a replay need room, too; the lowest has the times below it.
         self.plot.setMinimumHeight(62 if times else 36)
-        head = QHBoxLayout()
-        head.setContentsMargins(4, 0, 4, 0)
-        head.setSpacing(6)
-        head.addWidget(self._title)
-        head.addWidget(self._unit)
-        head.addWidget(self.figures, 1)
-        column_layout = QVBoxLayout(self)
-        column_layout.setContentsMargins(0, 0, 0, 0)
-        column_layout.setSpacing(1)
-        column_layout.addLayout(head)
-        column_layout.addWidget(self.plot, 1)
-        column_layout.addWidget(self.strip)
+        head = in_row(self._title, self._unit, (self.figures, 1), margins=(4, 0, 4, 0), spacing=6)
+        in_column(head, (self.plot, 1), self.strip, on=self, margins=0, spacing=1)
 
     def stand_in_strip(self, *, strip: bool) -> None:
         """Do without times below the plot where there is a strip's height only."""
@@ -213,13 +204,7 @@ class AxisPlot(QWidget):
         self._view = shown
         self._show_strip()
         spectral, loop = shown is Shown.SPECTRUM, shown is Shown.LOOP
-        across = (
-            translate("plots", "frequency [Hz]")
-            if spectral
-            else ""
-            if loop
-            else translate("plots", "time [s]")
-        )
+        across = tr("frequency [Hz]") if spectral else "" if loop else tr("time [s]")
         self.plot.show_scales(across, logarithmic=spectral, numbers=loop or self._times)
         unit = self._scale.symbol
         if shown is Shown.GAP:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rotemina.app.shell.language import translate
+from rotemina.plugins.plots import tr
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.quantities import rounded
 
@@ -38,7 +38,7 @@ def nearest(x: FloatArray, y: FloatArray, at: float) -> float | None:
 def across_text(shown: Shown, a: float, b: float) -> str:
     """Return what the cursors say of time or frequency, for all plots together."""
     if shown is Shown.LOOP:
-        return translate("plots", "Cursors: Δx and Δy of each loop appear above it.")
+        return tr("Cursors: Δx and Δy of each loop appear above it.")
     unit, inverse = ("Hz", "s") if shown is Shown.SPECTRUM else ("s", "Hz")
     difference = b - a
     text = f"A {rounded(a)} {unit}  B {rounded(b)} {unit}  Δ {rounded(difference)} {unit}"
@@ -48,10 +48,7 @@ def across_text(shown: Shown, a: float, b: float) -> str:
 def values_text(a: float | None, b: float | None, unit: str) -> Reading:
     """Return what a signal has at the cursors, and the difference."""
     if a is None or b is None:
-        return Reading(
-            translate("plots", "cursor outside"),
-            translate("plots", "a cursor is where nothing was measured"),
-        )
+        return Reading(tr("cursor outside"), tr("a cursor is where nothing was measured"))
     short = f"Δ {rounded(b - a)} {unit}"
     return Reading(short, f"A {rounded(a, 7)} {unit}, B {rounded(b, 7)} {unit}, {short}")
 

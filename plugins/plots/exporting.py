@@ -8,7 +8,7 @@ from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.files import write_text
-from rotemina.app.shell.language import translate
+from rotemina.plugins.plots import tr
 from rotemina.sim.whole_files import FileWriteError
 
 
@@ -35,7 +35,7 @@ def _save_svg(widget: QWidget, path: Path) -> None:
     generator.setOutputDevice(drawn)
     generator.setSize(QSize(widget.width(), widget.height()))
     generator.setViewBox(widget.rect())
-    generator.setTitle(translate("plots", "Plots of the axes"))
+    generator.setTitle(tr("Plots of the axes"))
     painter = QPainter(generator)
     widget.render(painter, QPoint())
     painter.end()

@@ -8,10 +8,10 @@ from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.display_units import label, noticeable
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.plot import AXIS_WIDTH, BAND, RIGHT_MARGIN
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.plots import tr
 from rotemina.plugins.plots.history_signals import SHORT_S
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.gap import gap_text
@@ -53,7 +53,7 @@ class GapStrip(QWidget):
         self._since_s = self._values = np.empty(0)
         self._span_s = 1.0
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(translate("plots", "Gap of {axis}").format(axis=label(name)))
+        self.setAccessibleName(tr("Gap of {axis}").format(axis=label(name)))
         self.setToolTip(plain_tip(*self._explained(noise, following)))
 
     def set_theme(self, theme: Theme) -> None:
@@ -157,10 +157,10 @@ class GapStrip(QWidget):
             gap_text(size, self._unit) for size in (self._floor, noise, bound)
         )
         return [
-            translate(
-                "plots", "Gap of the last {n} s, while an axis moves; logarithmic scale"
-            ).format(n=rounded(SHORT_S, 2)),
-            translate("plots", "Band: noise floor of the sensor, {floor}").format(floor=floor),
-            translate("plots", "Amber: above the noise, {noise}").format(noise=noise_text),
-            translate("plots", "Red: beyond the following bound, {bound}").format(bound=bound_text),
+            tr("Gap of the last {n} s, while an axis moves; logarithmic scale").format(
+                n=rounded(SHORT_S, 2)
+            ),
+            tr("Band: noise floor of the sensor, {floor}").format(floor=floor),
+            tr("Amber: above the noise, {noise}").format(noise=noise_text),
+            tr("Red: beyond the following bound, {bound}").format(bound=bound_text),
         ]

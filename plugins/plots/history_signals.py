@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.app.motion.recent_history import LiveWindow
-from rotemina.app.shell.language import translate
+from rotemina.plugins.plots import tr
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.comparison.gap import GapFigure, gap_course, gap_figure, moving
 from rotemina.sim.errors import InputError
@@ -78,7 +78,7 @@ def as_record(window: LiveWindow, robot: Robot) -> Record:
         If nothing is.
     """
     if len(window) == 0:
-        raise NothingShownError(translate("plots", "plots: there are no samples to save"))
+        raise NothingShownError(tr("plots: there are no samples to save"))
     time_s = window.device_time_s - window.device_time_s[0]
     signals: dict[tuple[str, Tap], FloatArray] = {}
     for column, axis in enumerate(window.axes):

@@ -9,10 +9,10 @@ from rotemina.app.motion.recent_history import LiveWindow
 from rotemina.app.panel import Panel
 from rotemina.app.records.entry import Entry
 from rotemina.app.records.library import read
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.record_chooser import ask_records
 from rotemina.app.shell.workbench import Level, Run
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.plots import tr
 from rotemina.plugins.plots.overlay_data import OtherRun, alignment
 from rotemina.sim.records.record import Record
 
@@ -41,18 +41,18 @@ class RunBeside(QComboBox):
         self._panel, self._shown, self._whole = panel, shown, whole
         self._workbench = panel.workbench
         for choice, text in (
-            (_ALONE, translate("plots", "No other run")),
-            (_KEPT, translate("plots", "Keep this run")),
-            (_IN_HAND, translate("plots", "Latest run")),
-            (_RECORD, translate("plots", "Record …")),
+            (_ALONE, tr("No other run")),
+            (_KEPT, tr("Keep this run")),
+            (_IN_HAND, tr("Latest run")),
+            (_RECORD, tr("Record …")),
         ):
             self.addItem(text, choice)
-        self.setAccessibleName(translate("plots", "Another run beside the present one"))
+        self.setAccessibleName(tr("Another run beside the present one"))
         self.setToolTip(
             plain_tip(
-                translate("plots", "Keep this run: displays it next to the following one."),
-                translate("plots", "Latest run: the record that was opened or played last."),
-                translate("plots", "Record …: one of the library."),
+                tr("Keep this run: displays it next to the following one."),
+                tr("Latest run: the record that was opened or played last."),
+                tr("Record …: one of the library."),
             )
         )
         self.activated.connect(lambda _: self._choose())
@@ -62,9 +62,7 @@ class RunBeside(QComboBox):
         """Move the other run in time to where its commands are those that are shown."""
         if self.other is None:
             self._workbench.notify(
-                Level.WARNING,
-                translate("plots", "There is no second run to align: choose one."),
-                about=self._panel,
+                Level.WARNING, tr("There is no second run to align: choose one."), about=self._panel
             )
             return
         window = self._whole()
@@ -72,9 +70,9 @@ class RunBeside(QComboBox):
         if shift is None and len(window):
             self._workbench.notify(
                 Level.INFO,
-                translate(
-                    "plots", "{name} has no motion to align by: the ends are aligned."
-                ).format(name=self.other.name),
+                tr("{name} has no motion to align by: the ends are aligned.").format(
+                    name=self.other.name
+                ),
             )
             shift = float(window.device_time_s[-1] - self.other.time_s[-1])
         self.shift_s = shift or 0.0
@@ -95,7 +93,7 @@ class RunBeside(QComboBox):
         self.changed.emit()
 
     def _keep(self, window: LiveWindow) -> None:
-        self.other = OtherRun.of_window(translate("plots", "The kept run"), window)
+        self.other = OtherRun.of_window(tr("The kept run"), window)
         self.shift_s = 0.0
 
     def _use(self, other: OtherRun) -> None:
@@ -111,9 +109,7 @@ class RunBeside(QComboBox):
         self.other = None
         if run is None:
             self._workbench.notify(
-                Level.WARNING,
-                translate("plots", "There is no latest run: open or play one."),
-                about=self._panel,
+                Level.WARNING, tr("There is no latest run: open or play one."), about=self._panel
             )
             self._show_choice()
             self.changed.emit()
@@ -135,16 +131,15 @@ def _ask_run(panel: Panel, use: Callable[[OtherRun], None]) -> None:
 
     def take(chosen: tuple[Entry, ...]) -> None:
         entry = chosen[0]
-        bench.work(
+        bench.read_file(
             "run beside",
-            translate("plots", "Reading {name} …").format(name=entry.name),
+            entry.name,
             lambda: read(entry, bench.robot),
             lambda record: done(entry, record),
         )
 
     def nothing_there() -> None:
-        text = translate("plots", "The library has no records: play or record a motion first.")
+        text = tr("The library has no records: play or record a motion first.")
         bench.notify(Level.WARNING, text, about=panel)
 
-    title = translate("plots", "Record beside the present run")
-    ask_records(panel.main_window, bench, title, take, nothing_there)
+    ask_records(panel.main_window, bench, tr("Record beside the present run"), take, nothing_there)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.app.motion.recent_history import LiveWindow
-from rotemina.app.shell.language import translate
+from rotemina.plugins.plots import tr
 from rotemina.plugins.plots.history_signals import NothingShownError
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.records.record import Channel, Record, Tap
@@ -58,9 +58,7 @@ class OtherRun:
             If nothing is.
         """
         if len(window) == 0:
-            raise NothingShownError(
-                translate("plots", "plots: there are no samples, so no run to keep")
-            )
+            raise NothingShownError(tr("plots: there are no samples, so no run to keep"))
         return cls(name, window.device_time_s, window.command, window.measured)
 
 

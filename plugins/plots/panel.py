@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QMenu,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,12 +22,14 @@ from rotemina.app.motion.recent_history import LiveWindow
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.gap_words import LIVE_S
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.legend import Entry, Legend
 from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.drivers.clock import Clock
+from rotemina.plugins.plots import mark, tr
 from rotemina.plugins.plots.axis_plot import AxisPlot, Picture
 from rotemina.plugins.plots.cursor_text import Shown, across_text
 from rotemina.plugins.plots.exporting import save_picture
@@ -45,19 +46,16 @@ _PARTS = 3  # of the plots that are drawn at a time
 FIGURES_S = 0.25  # nor are figures
 SPECTRUM_S = 0.25  # a spectrum is computed no oftener
 LEGEND = (
-    (marked("plots", "command"), LINES["command"]),
-    (marked("plots", "model in use"), LINES["model"]),
-    (marked("plots", "measured"), LINES["measured"]),
+    (mark("command"), LINES["command"]),
+    (mark("model in use"), LINES["model"]),
+    (mark("measured"), LINES["measured"]),
 )
-STRIP_LEGEND = (
-    (marked("plots", "gap, last {n} s"), LINES["gap"]),
-    (marked("plots", "noise floor"), None),
-)
+STRIP_LEGEND = ((mark("gap, last {n} s"), LINES["gap"]), (mark("noise floor"), None))
 VIEWS = {
-    Shown.POSITION: marked("plots", "Position"),
-    Shown.GAP: marked("plots", "Gap: measured − model"),
-    Shown.LOOP: marked("plots", "Loop: over command"),
-    Shown.SPECTRUM: marked("plots", "Spectrum"),
+    Shown.POSITION: mark("Position"),
+    Shown.GAP: mark("Gap: measured − model"),
+    Shown.LOOP: mark("Loop: over command"),
+    Shown.SPECTRUM: mark("Spectrum"),
 }
 
 
@@ -84,20 +82,10 @@ class PlotsPanel(Panel):
             for column, name in enumerate(workbench.robot.axes)
         }
         self.grid = PlotGrid(self.plots, [list(axes) for axes in stages(workbench.robot).values()])
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(3)
-        self._head = QWidget()
-        rows = QVBoxLayout(self._head)
-        rows.setContentsMargins(0, 0, 0, 0)
-        rows.setSpacing(3)
-        rows.addLayout(self._header())
-        below = QHBoxLayout()
-        below.addWidget(self._legend, 1)
-        below.addWidget(self.age)
-        rows.addLayout(below)
-        column.addWidget(self._head)
-        column.addWidget(self.grid, 1)
+        self._head, header = QWidget(), self._header()
+        below = in_row((self._legend, 1), self.age)
+        in_column(header, below, on=self._head, margins=0, spacing=3)
+        in_column(self._head, (self.grid, 1), on=self, margins=0, spacing=3)
         self._waiting: list[Sequence[AxisPlot]] = []  # to be drawn as the others are already
         self._next = QTimer(self, singleShot=True, interval=0)
         self._next.timeout.connect(self._draw_next)
@@ -134,8 +122,7 @@ class PlotsPanel(Panel):
         age_s = state.age_s
         stale = age_s is not None and age_s > STALE_S
         if age_s is not None and stale:
-            text = translate("plots", "The newest reading is {n} s old")
-            self.age.setText(text.format(n=max(1, round(age_s))))
+            self.age.setText(tr("The newest reading is {n} s old").format(n=max(1, round(age_s))))
         self.age.setVisible(stale)
         for plot in self.plots.values():
             plot.set_stale(stale)
@@ -160,30 +147,22 @@ class PlotsPanel(Panel):
     def save_data(self, path: Path) -> None:
         """Write what is shown as a record; a failure becomes a notice."""
         window, robot = self._stretch(), self.workbench.robot
-        self.workbench.work(
-            "save plots",
-            f"Writing {path.name} …",
-            lambda: write_record(as_record(window, robot), path),
-            lambda _: self.workbench.notify(
-                Level.GOOD, translate("plots", "Saved {path}").format(path=path)
-            ),
+        self.workbench.write_file(
+            "save plots", path, lambda: write_record(as_record(window, robot), path)
         )
 
     def save_picture(self, path: Path) -> None:
         """Write a picture of all plots, PNG or SVG by the name."""
         if self.workbench.ask(lambda: save_picture(self.grid, path)):
-            self.workbench.notify(Level.GOOD, translate("plots", "Saved {path}").format(path=path))
+            self.workbench.notify(Level.GOOD, tr("Saved {path}").format(path=path))
 
     # --- parts ------------------------------------------------------------------------------------
 
     def _header(self) -> QHBoxLayout:
         self.shown = _choice(
-            translate("plots", "Contents of the plots"),
-            ((key, translate("plots", text)) for key, text in VIEWS.items()),
+            tr("Contents of the plots"), ((key, tr(text)) for key, text in VIEWS.items())
         )
-        self.span = _choice(
-            translate("plots", "Time span of the plots"), ((s, f"{s} s") for s in SPANS_S)
-        )
+        self.span = _choice(tr("Time span of the plots"), ((s, f"{s} s") for s in SPANS_S))
         for box in (self.shown, self.span):
             box.setSizeAdjustPolicy(box.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.shown.setMinimumContentsLength(9)
@@ -193,51 +172,32 @@ class PlotsPanel(Panel):
         self.beside.changed.connect(self._draw_other)
         self.shown.currentIndexChanged.connect(lambda _: self._change_view())
         self.span.currentIndexChanged.connect(lambda _: self._draw_again())
-        self.cursors = QPushButton(translate("plots", "Cursors"))
+        self.cursors = QPushButton(tr("Cursors"))
         self.cursors.setCheckable(True)
-        self.cursors.setToolTip(
-            translate("plots", "Two lines to drag; their values appear above each plot")
-        )
+        self.cursors.setToolTip(tr("Two lines to drag; their values appear above each plot"))
         self.cursors.toggled.connect(lambda _: self._show_cursors())
-        self.pause = QPushButton(translate("plots", "Pause"))
+        self.pause = QPushButton(tr("Pause"))
         self.pause.setCheckable(True)
-        self.pause.setToolTip(
-            translate("plots", "Freeze the plots; motion, recording and replay continue")
-        )
+        self.pause.setToolTip(tr("Freeze the plots; motion, recording and replay continue"))
         self.pause.toggled.connect(self._hold)
-        self.more = QPushButton(translate("plots", "More"))
+        self.more = QPushButton(tr("More"))
         self.more.setMenu(self._menu())
-        self.more.setToolTip(translate("plots", "Alignment, and files of the plots"))
+        self.more.setToolTip(tr("Alignment, and files of the plots"))
         self._legend = Legend(self.workbench.theme)
         self.age = QLabel()
         self.age.setProperty("tone", "warning")
         self.age.hide()
         self._use_theme(self.workbench.theme)
-        row = QHBoxLayout()
-        row.setSpacing(4)
-        for widget, stretch in ((self.shown, 2), (self.beside, 1), (self.span, 0)):
-            row.addWidget(widget, stretch)
-        for widget in (self.cursors, self.pause, self.more):
-            row.addWidget(widget)
-        return row
+        parts = (self.shown, 2), (self.beside, 1), self.span, self.cursors, self.pause, self.more
+        return in_row(*parts, spacing=4)
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)
-        menu.addAction(translate("plots", "Align the other run"), self.beside.align)
+        menu.addAction(tr("Align the other run"), self.beside.align)
         menu.addSeparator()
         for text, name, kinds, save in (
-            (
-                translate("plots", "Save picture …"),
-                "plots.png",
-                translate("plots", "Pictures (*.png *.svg)"),
-                self.save_picture,
-            ),
-            (
-                translate("plots", "Save data …"),
-                "plots.csv",
-                translate("plots", "Records (*.csv *.csv.gz)"),
-                self.save_data,
-            ),
+            (tr("Save picture …"), "plots.png", tr("Pictures (*.png *.svg)"), self.save_picture),
+            (tr("Save data …"), "plots.csv", tr("Records (*.csv *.csv.gz)"), self.save_data),
         ):
             menu.addAction(text, partial(_ask_path, self, text, name, kinds, save))
         return menu
@@ -362,15 +322,15 @@ class PlotsPanel(Panel):
             plot.read_cursors()
 
     def _use_theme(self, theme: Theme) -> None:
-        entries = [Entry(translate("plots", name), line) for name, line in LEGEND]
+        entries = [Entry(tr(name), line) for name, line in LEGEND]
         if self.workbench.session.model.corrected:
-            entries.append(Entry(translate("plots", "nominal"), LINES["nominal"]))
+            entries.append(Entry(tr("nominal"), LINES["nominal"]))
         if (other := self.beside.other) is not None:
             entries.append(Entry(other.name, LINES["other"]))
         if self._shown() in (Shown.POSITION, Shown.GAP):
             short = rounded(SHORT_S, 2)
             for name, line in STRIP_LEGEND:
-                entries.append(Entry(translate("plots", name).format(n=short), line))
+                entries.append(Entry(tr(name).format(n=short), line))
         self._legend.show_entries(entries, theme)
         for plot in self.plots.values():
             plot.use_theme(theme)

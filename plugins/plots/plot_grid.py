@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 
-from PySide6.QtWidgets import QGridLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.plugins.plots.axis_plot import AxisPlot
 
 
@@ -16,9 +17,7 @@ class PlotGrid(QWidget):
     def __init__(self, plots: Mapping[str, AxisPlot], stacks: Sequence[Sequence[str]]) -> None:
         super().__init__()
         self._plots, self._stacks = plots, stacks
-        self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setSpacing(6)
+        self._grid = in_grid(on=self, margins=0, spacing=6)
         self._in_strip = True
         self.arrange(strip=False)
 

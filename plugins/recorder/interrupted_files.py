@@ -6,7 +6,7 @@ from pathlib import Path
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.recovery import being_recorded, recover, unfinished
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.language import translate
+from rotemina.plugins.recorder import tr
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ def look(folder: Path, own: frozenset[Path]) -> tuple[Unfinished, ...]:
         parts = [path for path in unfinished(folder) if path not in own]
     except OSError as error:
         raise RecordingError(
-            translate("recorder", "{folder}: cannot be read ({reason})").format(
+            tr("{folder}: cannot be read ({reason})").format(
                 folder=folder, reason=error.strerror or error
             )
         ) from error

@@ -1,16 +1,14 @@
 """The recorder: record a session, recover interrupted recordings, browse the library."""
 
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QVBoxLayout,
-)
 
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.background import Background
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Level, Workbench
+from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled, tabbed
+from rotemina.plugins.recorder import tr
 from rotemina.plugins.recorder.interrupted_files import Unfinished, look
 from rotemina.plugins.recorder.interrupted_view import UnfinishedBox
 from rotemina.plugins.recorder.recording_controls import RecordingSection
@@ -40,11 +38,7 @@ class RecorderPanel(Panel):
         self.recordings = RecordsView(workbench, self.unfinished)
         self.events = EventsView(workbench)
         self.tabs, self.views = tabbed(
-            translate("recorder", "View"),
-            {
-                translate("recorder", "Records"): self.recordings,
-                translate("recorder", "Events"): self.events,
-            },
+            tr("View"), {tr("Records"): self.recordings, tr("Events"): self.events}
         )
         self._lay_out()
         self.recording.changed.connect(self.look)
@@ -85,10 +79,9 @@ class RecorderPanel(Panel):
         if names:
             self.workbench.notify(
                 Level.WARNING,
-                translate(
-                    "recorder",
-                    "Interrupted recordings: {names}. Recover them in the panel {title}.",
-                ).format(names=listed(names), title=translate("panels", self.title)),
+                tr("Interrupted recordings: {names}. Recover them in the panel {title}.").format(
+                    names=listed(names), title=translate("panels", self.title)
+                ),
                 about=self,
             )
 
@@ -99,15 +92,7 @@ class RecorderPanel(Panel):
     def _lay_out(self) -> None:
         scroll = scrolled(self.recording)
         scroll.setFixedWidth(_WIDTH)
-        head = QHBoxLayout()
-        head.addWidget(self.tabs)
-        head.addWidget(self.recordings.filter, 1)
-        right = QVBoxLayout()
-        right.setSpacing(4)
-        right.addLayout(head)
-        right.addWidget(self.views, 1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(6, 6, 6, 6)
-        row.setSpacing(4)  # beside the control dock it just fits 1280 px, in German too
-        row.addWidget(scroll)
-        row.addLayout(right, 1)
+        head = in_row(self.tabs, (self.recordings.filter, 1))
+        right = in_column(head, (self.views, 1), spacing=4)
+        # Beside the control dock it just fits 1280 px, in German too.
+        in_row(scroll, (right, 1), on=self, margins=6, spacing=4)

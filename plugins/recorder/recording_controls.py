@@ -3,27 +3,19 @@
 import time
 from pathlib import Path
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit, QPushButton, QWidget
 
 from rotemina.app.display_units import duration_text, size_text
 from rotemina.app.motion.recording.recovery import UNFINISHED
 from rotemina.app.motion.run_labels import MOST_LETTERS, RunLabels
 from rotemina.app.shell.background import Background
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.record_library import free_bytes
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow
-from rotemina.app.widgets.labels import ElidedLabel
+from rotemina.app.widgets.controls import allow, named
+from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.layouts import in_column, in_grid, in_row
+from rotemina.plugins.recorder import tr
 
 AT_START = "recorder.at_start"
 _LOOK_S = 5.0  # between looks at how much room there is
@@ -38,27 +30,26 @@ _STEADY_S = 5.0  # of a recording, from which on its rate says something
 def room_text(free: int | None, written: int, since_s: float) -> str:
     """Return how much room is left, and for how long it lasts."""
     if free is None:
-        return translate("recorder", "unknown")
+        return tr("unknown")
     if since_s < _STEADY_S or written <= 0:
         return size_text(free)
     lasts_s = max(free - written, 0) / (2.0 * written / since_s)
     hours = lasts_s / 3600.0
     left = (
-        translate("recorder", "{n:.0f} days").format(n=hours / 24.0)
+        tr("{n:.0f} days").format(n=hours / 24.0)
         if hours > 72.0
-        else translate("recorder", "{hours:.1f} h").format(hours=hours)
+        else tr("{hours:.1f} h").format(hours=hours)
     )
-    return translate("recorder", "{size}, for {left}").format(size=size_text(free), left=left)
+    return tr("{size}, for {left}").format(size=size_text(free), left=left)
 
 
 def scarce(free: int | None, written: int) -> str | None:
     """Return the remedy for too little disk space, or None."""
     if free is None or free > written + _SPARE_BYTES:
         return None
-    return translate(
-        "recorder",
+    return tr(
         "Only {free} are free, but ending the recording needs {size}. Free disk "
-        "space; the motion continues in any case.",
+        "space; the motion continues in any case."
     ).format(free=size_text(free), size=size_text(written))
 
 
@@ -69,24 +60,15 @@ class LabelFields(QWidget):
         super().__init__()
         self._library = workbench.library
         self.run, self.operator, self.sample = QLineEdit(), QLineEdit(), QLineEdit()
-        named = {
-            translate("recorder", "Run"): self.run,
-            translate("recorder", "Operator"): self.operator,
-            translate("recorder", "Sample"): self.sample,
-        }
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(10)
-        grid.setVerticalSpacing(2)
+        named = {tr("Run"): self.run, tr("Operator"): self.operator, tr("Sample"): self.sample}
+        grid = in_grid(on=self, margins=0, spacing=(10, 2))
         for row, (name, field) in enumerate(named.items()):
             title = QLabel(name)
             title.setProperty("quiet", True)
             title.setBuddy(field)
             field.setAccessibleName(name)
             field.setMaxLength(MOST_LETTERS)
-            field.setToolTip(
-                translate("recorder", "Stored with every playback and recording from now on")
-            )
+            field.setToolTip(tr("Stored with every playback and recording from now on"))
             field.editingFinished.connect(self._use)
             grid.addWidget(title, row, 0)
             grid.addWidget(field, row, 1)
@@ -128,82 +110,49 @@ class RecordingSection(QWidget):
         self._lay_out()
 
     def _make_widgets(self) -> None:
-        self.record = QPushButton(translate("recorder", "● Record"))
+        self.record = QPushButton(tr("● Record"))
         self.record.setMinimumHeight(32)
         self.record.clicked.connect(self.toggle)
-        self.elapsed = QLabel("–")
+        self.elapsed = named(QLabel("–"), tr("Time since the recording began"))
         self.elapsed.setProperty("readout", True)
-        self.elapsed.setAccessibleName(translate("recorder", "Time since the recording began"))
         self.file, self.size, self.room = ElidedLabel(), ElidedLabel(), ElidedLabel()
-        self.complaint = QLabel()
-        self.complaint.setWordWrap(True)
-        self.complaint.setTextFormat(Qt.TextFormat.PlainText)
+        self.complaint = plain_text(quiet=False, wrap=True)
         self.complaint.setProperty("bad", True)
         self.complaint.hide()
         self.labels = LabelFields(self._workbench)
         self.note = QLineEdit()
-        self.note.setPlaceholderText(translate("recorder", "remark"))
-        self.note.setAccessibleName(translate("recorder", "Remark for the recording"))
-        self.note.setToolTip(
-            translate(
-                "recorder", "Enter writes the remark into the recording with the present time"
-            )
-        )
+        self.note.setPlaceholderText(tr("remark"))
+        self.note.setAccessibleName(tr("Remark for the recording"))
+        self.note.setToolTip(tr("Enter writes the remark into the recording with the present time"))
         self.note.setEnabled(False)  # until something is recorded
         self.note.returnPressed.connect(self.remark)
-        self.keep = QPushButton(translate("recorder", "Note"))
-        self.keep.setToolTip(translate("recorder", "Write the remark into the recording"))
+        self.keep = QPushButton(tr("Note"))
+        self.keep.setToolTip(tr("Write the remark into the recording"))
         self.keep.clicked.connect(self.remark)
-        self.at_start = QCheckBox(translate("recorder", "Record from program start"))
-        self.at_start.setToolTip(
-            translate("recorder", "Start a recording whenever the program starts")
-        )
+        self.at_start = QCheckBox(tr("Record from program start"))
+        self.at_start.setToolTip(tr("Start a recording whenever the program starts"))
         with QSignalBlocker(self.at_start):
             self.at_start.setChecked(self._wanted)
         self.at_start.toggled.connect(lambda on: self._workbench.settings.set(AT_START, on))
         self.folder = QLineEdit(str(self._operation.recordings))
         self.folder.setReadOnly(True)
         self.folder.setCursorPosition(0)
-        self.folder.setAccessibleName(translate("recorder", "Folder of recordings"))
-        self.folder.setToolTip(
-            translate("recorder", "Folder of the recordings; select the text to copy it")
-        )
+        self.folder.setAccessibleName(tr("Folder of recordings"))
+        self.folder.setToolTip(tr("Folder of the recordings; select the text to copy it"))
 
     def _lay_out(self) -> None:
-        top = QHBoxLayout()
-        top.addWidget(self.record, 1)
-        top.addWidget(self.elapsed)
-        figures = QGridLayout()
-        figures.setHorizontalSpacing(10)
-        figures.setVerticalSpacing(2)
-        figures.setColumnStretch(1, 1)
-        named = {
-            translate("recorder", "File"): self.file,
-            translate("recorder", "Size"): self.size,
-            translate("recorder", "Free"): self.room,
-        }
+        top = in_row((self.record, 1), self.elapsed)
+        figures = in_grid(spacing=(10, 2), stretched=1)
+        named = {tr("File"): self.file, tr("Size"): self.size, tr("Free"): self.room}
         for row, (name, value) in enumerate(named.items()):
             title = QLabel(name)
             title.setProperty("quiet", True)
-            value.setAccessibleName(
-                translate("recorder", "Recording: {what}").format(what=name.lower())
-            )
+            value.setAccessibleName(tr("Recording: {what}").format(what=name.lower()))
             figures.addWidget(title, row, 0)
             figures.addWidget(value, row, 1)
-        remark = QHBoxLayout()
-        remark.addWidget(self.note, 1)
-        remark.addWidget(self.keep)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 8, 0)
-        column.setSpacing(5)
-        column.addLayout(top)
-        column.addWidget(self.complaint)
-        column.addLayout(remark)
-        column.addWidget(self.labels)
-        column.addLayout(figures)
-        column.addWidget(self.at_start)
-        column.addWidget(self.folder)
-        column.addStretch(1)
+        remark = in_row((self.note, 1), self.keep)
+        parts = top, self.complaint, remark, self.labels, figures, self.at_start, self.folder, 1
+        in_column(*parts, on=self, margins=(0, 0, 8, 0), spacing=5)
 
     @property
     def busy(self) -> bool:
@@ -242,37 +191,20 @@ class RecordingSection(QWidget):
         self._look()
         recorder = self._operation.recording
         running = recorder is not None and not self._doing
-        self.record.setText(
-            self._doing
-            or (
-                translate("recorder", "■ End recording")
-                if running
-                else translate("recorder", "● Record")
-            )
-        )
+        self.record.setText(self._doing or (tr("■ End recording") if running else tr("● Record")))
         tip = (
-            translate("recorder", "End the recording and save it in one file")
+            tr("End the recording and save it in one file")
             if running
-            else translate("recorder", "Record all signals and events from now on")
+            else tr("Record all signals and events from now on")
         )
-        allow(
-            self.record,
-            translate("recorder", "wait for the running work") if self._doing else None,
-            tip,
-        )
-        why_not = None if running else translate("recorder", "nothing is being recorded")
+        allow(self.record, tr("wait for the running work") if self._doing else None, tip)
+        why_not = None if running else tr("nothing is being recorded")
         allow(
             self.note,
             why_not,
-            translate(
-                "recorder", "Enter writes the remark into the recording with the present time"
-            ),
+            tr("Enter writes the remark into the recording with the present time"),
         )
-        allow(
-            self.keep,
-            why_not,
-            translate("recorder", "Write the remark into the recording with the present time"),
-        )
+        allow(self.keep, why_not, tr("Write the remark into the recording with the present time"))
         if recorder is None:
             self._show("–", "–", "–", room_text(self._free, 0, 0.0), None)
             return
@@ -287,21 +219,20 @@ class RecordingSection(QWidget):
             room_text(self._free, written, since_s),
             scarce(self._free, written)
             if failure is None
-            else translate(
-                "recorder",
-                "The recording has failed: {failure}. Free disk space; the motion continues.",
+            else tr(
+                "The recording has failed: {failure}. Free disk space; the motion continues."
             ).format(failure=failure),
         )
 
     # --- inside -----------------------------------------------------------------------------------
 
     def _begin(self) -> None:
-        self._doing = translate("recorder", "Starting …")
+        self._doing = tr("Starting …")
         preferences = self._workbench.settings.values
         told = {key: each for key, each in preferences.items() if not key.startswith(_SCREEN)}
         self._workbench.work(
             "recording",
-            translate("recorder", "Starting the recording …"),
+            tr("Starting the recording …"),
             lambda: self._operation.start_recording(told),
             lambda _: self._settle(),
             self._settle,
@@ -311,22 +242,18 @@ class RecordingSection(QWidget):
         recorder = self._operation.recording
         if recorder is None:
             return
-        self._doing = translate("recorder", "Ending …")
+        self._doing = tr("Ending …")
         size = size_text(recorder.writer.bytes_written)
         self._workbench.work(
             "recording",
-            translate("recorder", "Ending the recording: {size} are being merged …").format(
-                size=size
-            ),
+            tr("Ending the recording: {size} are being merged …").format(size=size),
             self._operation.stop_recording,
             self._kept,
             self._settle,
         )
 
     def _kept(self, path: Path) -> None:
-        self._workbench.notify(
-            Level.GOOD, translate("recorder", "Saved the recording {path}").format(path=path)
-        )
+        self._workbench.notify(Level.GOOD, tr("Saved the recording {path}").format(path=path))
         self._settle()
 
     def _settle(self) -> None:

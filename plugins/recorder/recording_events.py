@@ -5,42 +5,36 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QCheckBox,
-    QHBoxLayout,
-    QHeaderView,
-    QLabel,
-    QTableView,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractItemView, QCheckBox, QHeaderView, QTableView, QWidget
 
 from rotemina.app.display_units import duration_text
 from rotemina.app.recorded_events import Severity, TimelineEvent, timeline_events
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.controls import named
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.recorder import mark, tr
 
-COLUMNS = (marked("recorder", "Time"), marked("recorder", "Event"), marked("recorder", "Text"))
+COLUMNS = (mark("Time"), mark("Event"), mark("Text"))
 Index = QModelIndex | QPersistentModelIndex
 _NONE = QModelIndex()
 _AFTER_S = 1e-6
 # Kinds of events, as the engine names them.
 KINDS = (
-    marked("recorder", "Fault"),
-    marked("recorder", "Stop"),
-    marked("recorder", "Refused"),
-    marked("recorder", "Recorder"),
-    marked("recorder", "Note"),
-    marked("recorder", "Action"),
-    marked("recorder", "Playback begins"),
-    marked("recorder", "Playback ends"),
-    marked("recorder", "Connection"),
-    marked("recorder", "State"),
-    marked("recorder", "Log"),
+    mark("Fault"),
+    mark("Stop"),
+    mark("Refused"),
+    mark("Recorder"),
+    mark("Note"),
+    mark("Action"),
+    mark("Playback begins"),
+    mark("Playback ends"),
+    mark("Connection"),
+    mark("State"),
+    mark("Log"),
 )
-_EMPTY = marked("recorder", "Open a recording to see what happened in it.")
+_EMPTY = mark("Open a recording to see what happened in it.")
 
 
 class EventsModel(QAbstractTableModel):
@@ -81,14 +75,13 @@ class EventsModel(QAbstractTableModel):
     ) -> object:
         """Return what a column is called."""
         shown = role == Qt.ItemDataRole.DisplayRole and orientation is Qt.Orientation.Horizontal
-        return translate("recorder", COLUMNS[section]) if shown else None
+        return tr(COLUMNS[section]) if shown else None
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> object:
         """Return text, tooltip and colour of a cell."""
         one = self.events[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            word = translate("recorder", one.word)
-            return (duration_text(one.at_s, 2), word, one.text)[index.column()]
+            return (duration_text(one.at_s, 2), tr(one.word), one.text)[index.column()]
         if role == Qt.ItemDataRole.ForegroundRole and index.column() == 1:
             return self._colours[one.weight]
         return None
@@ -105,22 +98,12 @@ class EventsView(QWidget):
         self.table = _table(self.model)
         self.table.clicked.connect(lambda index: self.jump(index.row()))
         self.table.activated.connect(lambda index: self.jump(index.row()))
-        self.details = QCheckBox(translate("recorder", "with states and log"))
-        self.details.setToolTip(
-            translate("recorder", "Also show states and log lines, not only actions and messages")
-        )
+        self.details = QCheckBox(tr("with states and log"))
+        self.details.setToolTip(tr("Also show states and log lines, not only actions and messages"))
         self.details.toggled.connect(self._choose)
-        self.title = QLabel(translate("recorder", _EMPTY))
-        self.title.setProperty("quiet", True)
-        self.title.setTextFormat(Qt.TextFormat.PlainText)
-        head = QHBoxLayout()
-        head.addWidget(self.title, 1)
-        head.addWidget(self.details)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        column.addLayout(head)
-        column.addWidget(self.table, 1)
+        self.title = plain_text(tr(_EMPTY))
+        head = in_row((self.title, 1), self.details)
+        in_column(head, (self.table, 1), on=self, margins=0, spacing=4)
         workbench.replaying.changed.connect(self._begin)
         workbench.shown.connect(lambda _: self._follow())
         workbench.theme_changed.connect(self.model.use_theme)
@@ -143,13 +126,13 @@ class EventsView(QWidget):
         chosen = [one for one in self._all if details or one.weight is not Severity.DETAIL]
         self.model.show_events(chosen)
         if self._replaying.paced is None:
-            self.title.setText(translate("recorder", _EMPTY))
+            self.title.setText(tr(_EMPTY))
         else:
             name = self._replaying.paced.replay.recording.path.name
             self.title.setText(
-                translate(
-                    "recorder", "{name}: {n} of {all} events; click one to jump there"
-                ).format(name=name, n=len(chosen), all=len(self._all))
+                tr("{name}: {n} of {all} events; click one to jump there").format(
+                    name=name, n=len(chosen), all=len(self._all)
+                )
             )
 
     def _follow(self) -> None:
@@ -165,9 +148,8 @@ class EventsView(QWidget):
 
 
 def _table(model: EventsModel) -> QTableView:
-    table = QTableView()
+    table = named(QTableView(), tr("Events of the displayed recording"))
     table.setModel(model)
-    table.setAccessibleName(translate("recorder", "Events of the displayed recording"))
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
     table.setTabKeyNavigation(False)

@@ -4,15 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QMenu,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QLineEdit, QMenu, QToolButton, QWidget
 
 from rotemina.app.display_units import size_text
 from rotemina.app.motion.recording import exporting
@@ -22,20 +14,22 @@ from rotemina.app.motion.recording.recovery import SUFFIX
 from rotemina.app.records.entry import Entry, Kind
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.file_dialog import ask_file, ask_where
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import translate
 from rotemina.app.shell.record_table import RecordTable
 from rotemina.app.shell.record_words import NAME, NOTE, state_text
 from rotemina.app.shell.report_files import RUN_REPORT, ask_run_report
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.inline_question import Question
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.recorder import mark, tr
 from rotemina.plugins.recorder.words import BEGIN, END, span
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record
 
-_NONE = marked("recorder", "choose one record in the table")
-_NO_STRETCH = marked("recorder", "it is already a record; only recordings can be exported")
+_NONE = mark("choose one record in the table")
+_NO_STRETCH = mark("it is already a record; only recordings can be exported")
 
 
 class RecordsView(QWidget):
@@ -81,9 +75,9 @@ class RecordsView(QWidget):
         def work() -> int:
             if target.exists() and target.samefile(one.path):
                 raise RecordingError(
-                    translate(
-                        "recorder", "{target}: it is the recording itself; name another file"
-                    ).format(target=target)
+                    tr("{target}: it is the recording itself; name another file").format(
+                        target=target
+                    )
                 )
             recording = Recording.open(one.path)
             begin_s, end_s = (recording.began_s + at_s for at_s in stretch)
@@ -91,13 +85,10 @@ class RecordsView(QWidget):
 
         def done(rows: int) -> None:
             self._workbench.notify(
-                Level.GOOD,
-                translate("recorder", "Exported {target}: {rows} rows").format(
-                    target=target, rows=rows
-                ),
+                Level.GOOD, tr("Exported {target}: {rows} rows").format(target=target, rows=rows)
             )
 
-        doing = translate("recorder", "Exporting {name} …").format(name=target.name)
+        doing = tr("Exporting {name} …").format(name=target.name)
         self._workbench.work(f"export {target}", doing, work, done)
 
     def take_in_hand(self, one: Entry) -> None:
@@ -116,41 +107,37 @@ class RecordsView(QWidget):
             return exporting.trajectory(recording, begin_s, end_s, period_s, robot).commands
 
         def done(commands: Record) -> None:
-            self._workbench.plan_trajectory(
-                translate("recorder", "{stem} again").format(stem=one.name), commands
-            )
+            self._workbench.plan_trajectory(tr("{stem} again").format(stem=one.name), commands)
 
-        doing = translate("recorder", "Reading the commands of {name} …").format(name=one.name)
+        doing = tr("Reading the commands of {name} …").format(name=one.name)
         self._workbench.work("recorded trajectory", doing, work, done)
 
     # --- parts ------------------------------------------------------------------------------------
 
     def _make_buttons(self) -> None:
-        self.open = button(translate("recorder", "Replay"), lambda: self._with_chosen(self._open))
-        self.to_record = button(translate("recorder", "Export …"), self._ask_export)
+        self.open = button(tr("Replay"), lambda: self._with_chosen(self._open))
+        self.to_record = button(tr("Export …"), self._ask_export)
         self.to_trajectory = button(
-            translate("recorder", "To trajectory"), lambda: self._with_chosen(self.take_in_hand)
+            tr("To trajectory"), lambda: self._with_chosen(self.take_in_hand)
         )
         self.begin, self.end = _field(BEGIN), _field(END)
-        self.begin_here = button(translate("recorder", "▏Here"), lambda: self._here(self.begin))
-        self.end_here = button(translate("recorder", "Here▕"), lambda: self._here(self.end))
+        self.begin_here = button(tr("▏Here"), lambda: self._here(self.begin))
+        self.end_here = button(tr("Here▕"), lambda: self._here(self.end))
         self.more = QToolButton()
-        self.more.setText(translate("recorder", "More"))
-        self.more.setToolTip(
-            translate("recorder", "Run report, change name or note, find or open a file, delete")
-        )
+        self.more.setText(tr("More"))
+        self.more.setToolTip(tr("Run report, change name or note, find or open a file, delete"))
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QMenu(self)
         self.report = menu.addAction(translate("shell", RUN_REPORT))
         menu.addSeparator()
-        self.rename = menu.addAction(translate("recorder", "Change name"))
-        self.annotate = menu.addAction(translate("recorder", "Change note"))
-        self.find = menu.addAction(translate("recorder", "Find file …"))
+        self.rename = menu.addAction(tr("Change name"))
+        self.annotate = menu.addAction(tr("Change note"))
+        self.find = menu.addAction(tr("Find file …"))
         menu.addSeparator()
-        self.other = menu.addAction(translate("recorder", "Replay other file …"))
-        self.again = menu.addAction(translate("recorder", "Refresh"))
+        self.other = menu.addAction(tr("Replay other file …"))
+        self.again = menu.addAction(tr("Refresh"))
         menu.addSeparator()
-        self.delete = menu.addAction(translate("recorder", "Delete …"))
+        self.delete = menu.addAction(tr("Delete …"))
         self.report.triggered.connect(
             lambda: self._with_chosen(lambda one: ask_run_report(self, self._workbench, one))
         )
@@ -167,76 +154,49 @@ class RecordsView(QWidget):
 
     def _lay_out(self, unfinished: QWidget) -> None:
         self.stretch = QWidget()
-        stretch = QHBoxLayout(self.stretch)
-        stretch.setContentsMargins(0, 0, 0, 0)
-        for widget in (
-            QLabel(translate("recorder", "From")),
+        # All of them fit beside the control dock, where that is wide.
+        in_row(
+            QLabel(tr("From")),
             self.begin,
             self.begin_here,
-            QLabel(translate("recorder", "to")),
+            QLabel(tr("to")),
             self.end,
             QLabel("s"),
             self.end_here,
-        ):
-            stretch.addWidget(widget)
-        below = QHBoxLayout()
-        for row in (stretch, below):  # all of them fit beside the control dock, where that is wide
-            row.setSpacing(4)
-        below.addWidget(self.stretch)
-        below.addStretch(1)
-        for widget in (self.open, self.to_record, self.to_trajectory, self.more):
-            below.addWidget(widget)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        column.addWidget(unfinished)
-        column.addWidget(self.question)
-        column.addWidget(self.table, 1)
-        column.addLayout(below)
+            on=self.stretch,
+            margins=0,
+            spacing=4,
+        )
+        buttons = self.open, self.to_record, self.to_trajectory, self.more
+        below = in_row(self.stretch, 1, *buttons, spacing=4)
+        in_column(unfinished, self.question, (self.table, 1), below, on=self, margins=0, spacing=4)
 
     def _allow(self) -> None:
         chosen, several = self.chosen, self.table.chosen
-        why_not = translate("recorder", _NONE) if chosen is None else None
+        why_not = tr(_NONE) if chosen is None else None
         if chosen is not None and not chosen.usable:
             why_not = state_text(chosen)
         replayed = chosen is None or chosen.path.suffix == SUFFIX
         self.stretch.setVisible(replayed)  # a playback is taken as a whole
-        self.open.setText(
-            translate("recorder", "Replay") if replayed else translate("recorder", "Compare")
-        )
+        self.open.setText(tr("Replay") if replayed else tr("Compare"))
         tip = (
-            translate("recorder", "Display the recording instead of the machine")
+            tr("Display the recording instead of the machine")
             if replayed
-            else translate("recorder", "Compare the record with the model in use")
+            else tr("Compare the record with the model in use")
         )
         allow(self.open, why_not, tip)
-        whole = why_not or (None if replayed else translate("recorder", _NO_STRETCH))
-        tip = translate(
-            "recorder", "Export the section as an ASCII record for comparison and diagnosis"
-        )
+        whole = why_not or (None if replayed else tr(_NO_STRETCH))
+        tip = tr("Export the section as an ASCII record for comparison and diagnosis")
         allow(self.to_record, whole, tip)
-        tip = translate(
-            "recorder",
+        tip = tr(
             "Use the commands of the section as a trajectory; every axis must be at "
-            "rest at both ends",
+            "rest at both ends"
         )
         allow(self.to_trajectory, why_not, tip)
         self.report.setEnabled(why_not is None)
-        here = (
-            None
-            if self._shown_s() is not None
-            else translate("recorder", "this recording is not displayed")
-        )
-        allow(
-            self.begin_here,
-            here,
-            translate("recorder", "Start the section at the present time of the replay"),
-        )
-        allow(
-            self.end_here,
-            here,
-            translate("recorder", "End the section at the present time of the replay"),
-        )
+        here = None if self._shown_s() is not None else tr("this recording is not displayed")
+        allow(self.begin_here, here, tr("Start the section at the present time of the replay"))
+        allow(self.end_here, here, tr("End the section at the present time of the replay"))
         self.rename.setEnabled(chosen is not None)
         self.annotate.setEnabled(chosen is not None)
         self.find.setEnabled(chosen is not None and chosen.missing)
@@ -278,10 +238,7 @@ class RecordsView(QWidget):
 
     def _ask_export(self) -> None:
         def ask(one: Entry) -> None:
-            title, kinds = (
-                translate("recorder", "Export a record"),
-                translate("recorder", "Records (*.csv *.csv.gz)"),
-            )
+            title, kinds = tr("Export a record"), tr("Records (*.csv *.csv.gz)")
             name = f"{one.path.stem}.csv"
             ask_where(
                 self.window(), self._workbench, title, kinds, name, lambda to: self.export(one, to)
@@ -290,14 +247,13 @@ class RecordsView(QWidget):
         self._with_chosen(ask)
 
     def _ask_other(self) -> None:
-        kinds = translate("recorder", "Recordings (*{suffix});;All files (*)").format(suffix=SUFFIX)
-        title = translate("recorder", "Replay")
-        ask_file(self.window(), self._workbench, title, kinds, self._workbench.open_replay)
+        kinds = tr("Recordings (*{suffix});;All files (*)").format(suffix=SUFFIX)
+        ask_file(self.window(), self._workbench, tr("Replay"), kinds, self._workbench.open_replay)
 
     def _ask_where_it_is(self) -> None:
         one = self.chosen
         if one is not None:
-            title = translate("recorder", "Where is {name}?").format(name=one.path.name)
+            title = tr("Where is {name}?").format(name=one.path.name)
             kinds = f"*{one.path.suffix} (*{one.path.suffix})"
             library = self._workbench.library
             ask_file(
@@ -312,32 +268,25 @@ class RecordsView(QWidget):
         own = [one for one in chosen if one.kind is not Kind.FILE and not one.missing]
         names = ", ".join(f'"{one.name}"' for one in chosen[:3])
         if len(chosen) > 3:
-            names = translate("recorder", "{names} and {n} more").format(
-                names=names, n=len(chosen) - 3
-            )
-        text = translate(
-            "recorder",
+            names = tr("{names} and {n} more").format(names=names, n=len(chosen) - 3)
+        text = tr(
             "Delete {names}? This permanently deletes {size} from the disk. Files in "
-            "other folders stay; only their entries are removed.",
+            "other folders stay; only their entries are removed."
         ).format(names=names, size=size_text(sum(one.size for one in own)))
         delete = self._workbench.library.delete
-        self.question.ask(text, translate("recorder", "Delete"), lambda: delete(chosen))
+        self.question.ask(text, tr("Delete"), lambda: delete(chosen))
 
 
 def _field(end: str) -> QLineEdit:
     field = QLineEdit()
-    what = translate("recorder", end)
+    what = tr(end)
     field.setPlaceholderText(what)
     room = field.fontMetrics().horizontalAdvance(what)
     field.setFixedWidth(max(60, room + 28))  # the frame and the cursor
     field.setAccessibleName(
-        translate("recorder", "{end} of the section in seconds").format(
-            end=what[:1].upper() + what[1:]
-        )
+        tr("{end} of the section in seconds").format(end=what[:1].upper() + what[1:])
     )
     field.setToolTip(
-        translate("recorder", "Seconds from the start of the recording; empty: its {end}").format(
-            end=what
-        )
+        tr("Seconds from the start of the recording; empty: its {end}").format(end=what)
     )
     return field

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 
 from rotemina.app.display_units import size_text
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.recorder import mark, tr
 from rotemina.plugins.recorder.interrupted_files import Unfinished
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import parsed
 
-BEGIN, END = marked("recorder", "start"), marked("recorder", "end")
+BEGIN, END = mark("start"), mark("end")
 
 
 class SpanError(InputError):
@@ -21,12 +21,12 @@ def unfinished_text(unfinished: Sequence[Unfinished]) -> str:
     waiting = [f"{one.path.name} ({size_text(one.size)})" for one in unfinished if not one.busy]
     if waiting:
         lines.append(
-            translate(
-                "recorder", "Interrupted because the program or the computer stopped: {names}."
-            ).format(names=listed(waiting))
+            tr("Interrupted because the program or the computer stopped: {names}.").format(
+                names=listed(waiting)
+            )
         )
     lines += [
-        translate("recorder", "Another program is recording {name}.").format(name=one.path.name)
+        tr("Another program is recording {name}.").format(name=one.path.name)
         for one in unfinished
         if one.busy
     ]
@@ -36,11 +36,7 @@ def unfinished_text(unfinished: Sequence[Unfinished]) -> str:
 def listed(names: Sequence[str]) -> str:
     """Return names one behind the other; of many, the first."""
     most = 3
-    more = (
-        translate("recorder", " and {n} more").format(n=len(names) - most)
-        if len(names) > most
-        else ""
-    )
+    more = tr(" and {n} more").format(n=len(names) - most) if len(names) > most else ""
     return ", ".join(names[:most]) + more
 
 
@@ -56,14 +52,13 @@ def span(begin: str, end: str, duration_s: float) -> tuple[float, float]:
     end_s = _seconds(end, duration_s, END)
     if not begin_s < end_s:
         raise SpanError(
-            translate(
-                "recorder",
-                "from {begin:g} s to {end:g} s: the end must be later than the start",
-            ).format(begin=begin_s, end=end_s)
+            tr("from {begin:g} s to {end:g} s: the end must be later than the start").format(
+                begin=begin_s, end=end_s
+            )
         )
     if begin_s >= duration_s:
         raise SpanError(
-            translate("recorder", "from {begin:g} s: the recording lasts {duration:.3f} s").format(
+            tr("from {begin:g} s: the recording lasts {duration:.3f} s").format(
                 begin=begin_s, duration=duration_s
             )
         )
@@ -77,10 +72,9 @@ def _seconds(text: str, otherwise: float, what: str) -> float:
     number = parsed(text)
     if number is None or not 0.0 <= number < float("inf"):
         raise SpanError(
-            translate(
-                "recorder",
+            tr(
                 "{what}: {text!r} is not valid. Enter seconds from the start of the "
-                "recording, 0 or more, with a decimal point, or leave the field empty.",
-            ).format(text=text, what=translate("recorder", what))
+                "recording, 0 or more, with a decimal point, or leave the field empty."
+            ).format(text=text, what=tr(what))
         )
     return number

@@ -2,18 +2,18 @@
 
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QFrame, QSizePolicy, QWidget
 
 from rotemina.app.display_units import Scale
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
 from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView, TeleoperationState
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import set_property
-from rotemina.app.widgets.labels import keep_lines, plain_text
+from rotemina.app.widgets.controls import named, set_property
+from rotemina.app.widgets.labels import heading, keep_lines, plain_text
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.section import Section
-from rotemina.plugins.teleoperation import wording
+from rotemina.plugins.teleoperation import tr, wording
 
 
 class CentreBar(QWidget):
@@ -65,48 +65,22 @@ class CoordinateRow(QFrame):
         super().__init__()
         self.setObjectName("axisRow")
         self._name, self._scale = name, scale
-        title = QLabel(name)
-        title.setTextFormat(Qt.TextFormat.PlainText)
-        title.setProperty("heading", True)
-        title.setToolTip(
-            translate("teleoperation", "Moved by {source} of the stick").format(source=source)
-        )
+        title = heading(name)
+        title.setToolTip(tr("Moved by {source} of the stick").format(source=source))
         self.position = plain_text(quiet=False)
         self.position.setAccessibleName(
-            translate("teleoperation", "{name} reference in {unit}").format(
-                name=name, unit=scale.symbol
-            )
+            tr("{name} reference in {unit}").format(name=name, unit=scale.symbol)
         )
-        self.position.setToolTip(
-            translate("teleoperation", "Reference that the stick commands and the axes follow")
-        )
+        self.position.setToolTip(tr("Reference that the stick commands and the axes follow"))
         self.bar = CentreBar(workbench)
-        self.bar.setAccessibleName(
-            translate("teleoperation", "{name} deflection of the stick").format(name=name)
-        )
-        self.bar.setToolTip(
-            translate(
-                "teleoperation", "Deflection of the stick, −100 % to 100 %; dashed: none is active"
-            )
-        )
-        self.law = plain_text(lines=1)
-        self.law.setAccessibleName(translate("teleoperation", "{name} scaling").format(name=name))
-        self.felt_title = QLabel(translate("teleoperation", "Force"))
-        self.felt_title.setProperty("quiet", True)
+        self.bar.setAccessibleName(tr("{name} deflection of the stick").format(name=name))
+        self.bar.setToolTip(tr("Deflection of the stick, −100 % to 100 %; dashed: none is active"))
+        self.law = named(plain_text(lines=1), tr("{name} scaling").format(name=name))
+        self.felt_title = plain_text(tr("Force"))
         self.felt = CentreBar(workbench, "warning")
-        self.felt.setAccessibleName(
-            translate("teleoperation", "{name} contact force at the stick").format(name=name)
-        )
-        self.felt.setToolTip(
-            translate(
-                "teleoperation",
-                "Force of a contact at the stick, −100 % to 100 % of its maximum",
-            )
-        )
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 2, 0, 5)
-        grid.setVerticalSpacing(2)
-        grid.setColumnStretch(1, 1)
+        self.felt.setAccessibleName(tr("{name} contact force at the stick").format(name=name))
+        self.felt.setToolTip(tr("Force of a contact at the stick, −100 % to 100 % of its maximum"))
+        grid = in_grid(on=self, margins=(0, 2, 0, 5), spacing=(-1, 2), stretched=1)
         grid.addWidget(title, 0, 0)
         grid.addWidget(self.position, 0, 1, Qt.AlignmentFlag.AlignRight)
         grid.addWidget(self.bar, 1, 0, 1, 2)
@@ -119,9 +93,9 @@ class CoordinateRow(QFrame):
         self.position.setText(self._scale.text(view.position))
         set_property(self.position, "stale", stale)
         self.bar.show_value(view.deflection, stale=stale)
-        what = translate("teleoperation", "tip") if view.unit == "m" else self._name
+        what = tr("tip") if view.unit == "m" else self._name
         scaling = wording.law_text(view, what, travel_m)
-        self.law.setText(translate("teleoperation", wording.WAITING) if view.waiting else scaling)
+        self.law.setText(tr(wording.WAITING) if view.waiting else scaling)
         set_property(self.law, "bad", view.waiting)
         set_property(self.law, "quiet", not view.waiting)
         felt = isinstance(view.law, Impedance)
@@ -135,16 +109,13 @@ class CoordinateSection(Section):
     """A row for each coordinate of the mode; the last ones stay, grey, while there are none."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("teleoperation", "Coordinates"))
+        super().__init__(tr("Coordinates"))
         self._workbench = workbench
         self._shown: tuple[str, ...] = ()
         self.rows: dict[str, CoordinateRow] = {}
         self.none = plain_text(lines=2)
         self.none.setText(
-            translate(
-                "teleoperation",
-                "Available when the positions of the axes are known and a device is connected.",
-            )
+            tr("Available when the positions of the axes are known and a device is connected.")
         )
         self.column.addWidget(self.none)
 

@@ -3,18 +3,18 @@
 from collections.abc import Callable, Iterable
 from typing import Generic, TypeVar
 
-from PySide6.QtWidgets import QButtonGroup, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QLabel, QPushButton, QWidget
 
 from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.scaling import STEP_PRESETS
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.controls import named, plain_tip
 from rotemina.app.widgets.labels import heading, plain_text
+from rotemina.app.widgets.layouts import in_grid, in_row
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
-from rotemina.plugins.teleoperation import wording
+from rotemina.plugins.teleoperation import tr, wording
 from rotemina.plugins.teleoperation.wording import Choice
 from rotemina.sim.quantities import rounded
 
@@ -28,16 +28,12 @@ class Buttons(QWidget, Generic[T]):
         self, what: str, choices: Iterable[tuple[T, Choice]], columns: int, use: Callable[[T], None]
     ) -> None:
         super().__init__()
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setSpacing(6)
+        grid = in_grid(on=self, margins=0, spacing=6)
         self.buttons: dict[T, QPushButton] = {}
         group = QButtonGroup(self)
         for number, (value, choice) in enumerate(choices):
-            one = QPushButton(choice.text)
+            one = named(QPushButton(choice.text), f"{what} {choice.text}", plain_tip(choice.tip))
             one.setCheckable(True)
-            one.setToolTip(plain_tip(choice.tip))
-            one.setAccessibleName(f"{what} {choice.text}")
             one.clicked.connect(lambda _, value=value: use(value))
             group.addButton(one)
             grid.addWidget(one, *divmod(number, columns))
@@ -52,38 +48,32 @@ class ChoiceSection(Section):
     """How the stick moves the robot."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("teleoperation", "Mode"))
+        super().__init__(tr("Mode"))
         steered = workbench.operation.teleoperator
         self.modes = Buttons(
-            translate("teleoperation", "Mode"),
+            tr("Mode"),
             [(name, wording.mode_choice(name)) for name in steered.modes.names],
             3,
             lambda name: workbench.ask(lambda: steered.use_mode(name)),
         )
         self.laws = Buttons(
-            translate("teleoperation", "Scaling"),
+            tr("Scaling"),
             wording.law_choices(),
             3,
             lambda kind: workbench.ask(lambda: steered.use_law(kind)),
         )
         self.preset = SteadyChoice(
-            translate("teleoperation", "Step preset"),
-            translate("teleoperation", "Factor on distance, speed and force of every coordinate"),
+            tr("Step preset"), tr("Factor on distance, speed and force of every coordinate")
         )
         for factor in STEP_PRESETS:
             self.preset.addItem(f"× {rounded(factor, 6)}", factor)
         self.preset.activated.connect(lambda _: steered.use_preset(self.preset.currentData()))
-        self.factor = plain_text()
-        self.factor.setAccessibleName(translate("teleoperation", "Present factor"))
+        self.factor = named(plain_text(), tr("Present factor"))
         self.clutch = plain_text(lines=2)
         self.column.addWidget(self.modes)
-        self.column.addWidget(heading(translate("teleoperation", "Scaling")))
+        self.column.addWidget(heading(tr("Scaling")))
         self.column.addWidget(self.laws)
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(QLabel(translate("teleoperation", "Step")))
-        row.addWidget(self.preset)
-        row.addWidget(self.factor, 1)
+        row = in_row(QLabel(tr("Step")), self.preset, (self.factor, 1), spacing=8)
         self.column.addLayout(row)
         self.column.addWidget(self.clutch)
 

@@ -1,17 +1,16 @@
 """The device in control, its trust, and reasons for no motion."""
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy
+from PySide6.QtWidgets import QSizePolicy
 
 from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.phase_words import Tone, set_tone
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import named, plain_tip, set_property
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.section import Section
-from rotemina.plugins.teleoperation import wording
+from rotemina.plugins.teleoperation import tr, wording
 
 
 class OverviewSection(Section):
@@ -19,23 +18,17 @@ class OverviewSection(Section):
 
     def __init__(self) -> None:
         super().__init__()
-        self.word = QLabel("–")
-        self.word.setTextFormat(Qt.TextFormat.PlainText)
-        self.word.setAccessibleName(translate("teleoperation", "State of teleoperation"))
+        self.word = named(plain_text("–", quiet=False), tr("State of teleoperation"))
         self.word.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self.word, Tone.QUIET)
         self.device, self.trust, self.refused = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.device.setProperty("heading", True)
-        self.device.setAccessibleName(translate("teleoperation", "Device in control"))
+        self.device.setAccessibleName(tr("Device in control"))
         self.trust.setProperty("quiet", True)
-        self.trust.setAccessibleName(translate("teleoperation", "Whether the stick is active"))
-        self.refused.setAccessibleName(translate("teleoperation", "Latest refusal or slowdown"))
-        self.reason = plain_text(lines=2)
-        self.reason.setAccessibleName(translate("teleoperation", "Reason for no motion"))
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(self.word)
-        row.addWidget(self.device, 1)
+        self.trust.setAccessibleName(tr("Whether the stick is active"))
+        self.refused.setAccessibleName(tr("Latest refusal or slowdown"))
+        self.reason = named(plain_text(lines=2), tr("Reason for no motion"))
+        row = in_row(self.word, (self.device, 1), spacing=8)
         self.column.setSpacing(3)
         self.column.addLayout(row)
         self.column.addWidget(self.trust)
@@ -55,8 +48,6 @@ class OverviewSection(Section):
             self.reason.setText(why)
             self.reason.setToolTip(plain_tip(why) if why else "")
         self.refused.show_text(
-            translate("teleoperation", "Last: {refused}").format(refused=spoken(state.refused))
-            if state.refused
-            else ""
+            tr("Last: {refused}").format(refused=spoken(state.refused)) if state.refused else ""
         )
         set_property(self.refused, "bad", state.refused is not None)

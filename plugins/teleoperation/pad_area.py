@@ -16,9 +16,9 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.motion.teleoperation.axis_calibration import DEAD_ZONE
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.teleoperation import mark, tr
 from rotemina.plugins.teleoperation.virtual_stick import Key, VirtualStick
 
 RENEW_MS = 100  # well within the lease of the pad
@@ -40,14 +40,10 @@ _LEFT = (QEvent.Type.WindowDeactivate, QEvent.Type.WindowBlocked, QEvent.Type.Un
 _SIDE, _SLIDER, _GAP, _KNOB = 124, 44, 8, 9
 _CAPTION = 18
 _TIP = (
-    marked(
-        "teleoperation",
-        "Press and drag: the cross moves x and y, the slider z; both spring back when released.",
-    ),
-    marked(
-        "teleoperation",
+    mark("Press and drag: the cross moves x and y, the slider z; both spring back when released."),
+    mark(
         "Keyboard, when the pad has the focus: arrows x and y, page up and down z, "
-        "shift coarse, ctrl fine, space clutch.",
+        "shift coarse, ctrl fine, space clutch."
     ),
 )
 
@@ -62,7 +58,7 @@ class PadArea(QWidget):
         self._names: Mapping[str, str] = {}
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(translate("teleoperation", "Pad for x, y and z"))
+        self.setAccessibleName(tr("Pad for x, y and z"))
         self._renewing = QTimer(self, interval=RENEW_MS)
         self._renewing.timeout.connect(self._renew)
 
@@ -76,10 +72,8 @@ class PadArea(QWidget):
             self._why_not, self._names = why_not, names
             self.setToolTip(
                 plain_tip(
-                    *(translate("teleoperation", line) for line in _TIP),
-                    translate("teleoperation", "Not now: {why_not}").format(why_not=why_not)
-                    if why_not
-                    else "",
+                    *(tr(line) for line in _TIP),
+                    tr("Not now: {why_not}").format(why_not=why_not) if why_not else "",
                 )
             )
             self.update()

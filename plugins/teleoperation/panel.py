@@ -1,11 +1,12 @@
 """Manual steering: control, mode, and a pad for use without a joystick."""
 
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
+from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.scroll_areas import least_width, scrolled
 from rotemina.plugins.teleoperation.coordinates import CoordinateSection
 from rotemina.plugins.teleoperation.mode_buttons import ChoiceSection
@@ -33,28 +34,12 @@ class TeleoperationPanel(Panel):
         self.reserve = ReserveSection(workbench)
         self.editor = ScaleEditor(workbench)
         content = QWidget()
-        column = QVBoxLayout(content)
-        column.setContentsMargins(10, 4, 10, 8)
-        column.setSpacing(4)
         # What is read at a glance stays in sight while the rest is scrolled.
-        for section in (
-            self.pad,
-            self.choices,
-            self.coordinates,
-            self.reserve,
-            self.editor,
-        ):
-            column.addWidget(section)
-        column.addStretch(1)
+        sections = self.pad, self.choices, self.coordinates, self.reserve, self.editor
+        in_column(*sections, 1, on=content, margins=(10, 4, 10, 8), spacing=4)
         scroll = scrolled(content)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
-        head = QVBoxLayout()
-        head.setContentsMargins(10, 4, 10, 0)
-        head.addWidget(self.head)
-        outer.addLayout(head)
-        outer.addWidget(scroll, 1)
+        head = in_column(self.head, margins=(10, 4, 10, 0))
+        in_column(head, (scroll, 1), on=self, margins=0, spacing=0)
         self.setMinimumWidth(max(least_width(scroll), 300))
         self.follow(self._refresh)
 

@@ -3,7 +3,7 @@
 from math import degrees
 
 from rotemina.app.motion.teleoperation.virtual_impedance import FeltDynamics
-from rotemina.app.shell.language import translate
+from rotemina.plugins.teleoperation import tr
 from rotemina.sim.quantities import exact, rounded
 
 _MM = 1e-3
@@ -21,12 +21,12 @@ def position_text(scale: float, unit: str, what: str, stick_travel_m: float) -> 
     of the stick's tip from the middle to full deflection.
     """
     way = exact(scale * _MM / stick_travel_m, unit)
-    return translate("teleoperation", "1 mm of stick = {way} of {what}").format(way=way, what=what)
+    return tr("1 mm of stick = {way} of {what}").format(way=way, what=what)
 
 
 def way_text(scale: float, unit: str) -> str:
     """Return ``"full stick = 2 µm"``, for a way (m or rad) or a speed at full deflection."""
-    return translate("teleoperation", "full deflection = {way}").format(way=exact(scale, unit))
+    return tr("full deflection = {way}").format(way=exact(scale, unit))
 
 
 def rate_text(scale: float, unit: str) -> str:
@@ -38,13 +38,11 @@ def felt_text(felt: FeltDynamics, unit: str, factor: float = 1.0) -> str:
     """Return where full deflection leads, and how soon; ``factor`` is the law's scale."""
     after_s = f"{rounded(felt.time_constant_s, 3)} s"
     if felt.terminal_speed is not None:
-        glide = translate("teleoperation", "full deflection: {speed}, time constant {after}")
+        glide = tr("full deflection: {speed}, time constant {after}")
         speed = exact(factor * felt.terminal_speed, f"{unit}/s")
         return glide.format(speed=speed, after=after_s)
-    swing = translate(
-        "teleoperation",
-        "full deflection: {travel}, {hz:.3g} Hz, damping ratio {damping:.3g}, time "
-        "constant {after}",
+    swing = tr(
+        "full deflection: {travel}, {hz:.3g} Hz, damping ratio {damping:.3g}, time constant {after}"
     )
     return swing.format(
         travel=exact(factor * (felt.travel or 0.0), unit),

@@ -1,20 +1,20 @@
 """Scales of the present mode: distance, speed and force at full deflection."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit
+from PySide6.QtWidgets import QLabel, QLineEdit
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.scales import Scale
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_grid
 from rotemina.app.widgets.section import Section
 from rotemina.app.widgets.wheel_safe import SteadyChoice
-from rotemina.plugins.teleoperation import wording
+from rotemina.plugins.teleoperation import tr, wording
 from rotemina.plugins.teleoperation.scale_fields import (
     FIELDS,
     bounds_text,
@@ -30,25 +30,21 @@ class ScaleEditor(Section):
     """Fields for one coordinate at a time; a value that is refused is put back."""
 
     def __init__(self, workbench: Workbench) -> None:
-        super().__init__(translate("teleoperation", "Scales"))
+        super().__init__(tr("Scales"))
         self._workbench = workbench
         self._steered = workbench.operation.teleoperator
         self._mode = ""
         self._coordinates: dict[str, Coordinate] = {}
         self._shown: tuple[str, str, Scale] | None = None
         self.choice = SteadyChoice(
-            translate("teleoperation", "Coordinate whose scale is shown"),
-            translate("teleoperation", "Coordinate whose scale is shown below"),
+            tr("Coordinate whose scale is shown"), tr("Coordinate whose scale is shown below")
         )
         self.choice.currentIndexChanged.connect(lambda _: self._show())
-        self.presets = button(translate("teleoperation", "Presets"), self._use_presets)
+        self.presets = button(tr("Presets"), self._use_presets)
         self.add_row(self.choice, self.presets, equal=False)
         self.fields: dict[str, QLineEdit] = {}
         self._units: dict[str, QLabel] = {}
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(4)
-        grid.setColumnStretch(1, 1)
+        grid = in_grid(spacing=(8, 4), stretched=1)
         for number, field in enumerate(FIELDS):
             title, unit, edit = plain_text(), plain_text(), QLineEdit()
             title.setText(field.shown_title)
@@ -66,20 +62,12 @@ class ScaleEditor(Section):
         """Show the scales of the present mode, as they are now."""
         if state.mode != self._mode:
             self._begin(machine, state.mode)
-        why = (
-            None
-            if self._coordinates
-            else translate("teleoperation", "the positions of the axes are unknown")
-        )
+        why = None if self._coordinates else tr("the positions of the axes are unknown")
         for edit in (*self.fields.values(), self.choice):
             edit.setEnabled(why is None)
         kept = self._mode in self._steered.scales.modes
-        why = why or (None if kept else translate("teleoperation", "all scales have their presets"))
-        allow(
-            self.presets,
-            why,
-            translate("teleoperation", "Reset all scales of this mode to their presets"),
-        )
+        why = why or (None if kept else tr("all scales have their presets"))
+        allow(self.presets, why, tr("Reset all scales of this mode to their presets"))
         self._show()
 
     def _begin(self, machine: SessionState, mode: str) -> None:
@@ -113,7 +101,7 @@ class ScaleEditor(Section):
             edit, unit = self.fields[field.name], shown(field, coordinate).unit
             self._units[field.name].setText(unit)
             edit.setAccessibleName(
-                translate("teleoperation", "{title} of {name} {unit}")
+                tr("{title} of {name} {unit}")
                 .format(title=field.shown_title, name=self.choice.currentText(), unit=unit)
                 .rstrip()
             )

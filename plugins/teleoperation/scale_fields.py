@@ -10,16 +10,16 @@ from pydantic import TypeAdapter, ValidationError
 from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scales import LawKind, Scale, Scales
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.teleoperation import mark, tr
 from rotemina.sim.quantities import exact, parsed, rounded
 from rotemina.sim.units import per_si, symbol
 
 _TABLE_M = 1e-4  # what has a longer way reads better in mm
 _BOUNDS = {
-    "gt": marked("teleoperation", "above {bound}"),
-    "ge": marked("teleoperation", "at least {bound}"),
-    "lt": marked("teleoperation", "below {bound}"),
-    "le": marked("teleoperation", "at most {bound}"),
+    "gt": mark("above {bound}"),
+    "ge": mark("at least {bound}"),
+    "lt": mark("below {bound}"),
+    "le": mark("at most {bound}"),
 }
 
 
@@ -37,59 +37,44 @@ class ScaleField(NamedTuple):
     @property
     def shown_title(self) -> str:
         """The title in the language in use."""
-        return translate("teleoperation", self.title)
+        return tr(self.title)
 
     @property
     def shown_tip(self) -> str:
         """What it means, in the language in use."""
-        return translate("teleoperation", self.tip)
+        return tr(self.tip)
 
 
 FIELDS = (
     ScaleField(
-        "way",
-        marked("teleoperation", "Distance at full stick"),
-        "way",
-        marked("teleoperation", "Position, and impedance with a spring"),
+        "way", mark("Distance at full stick"), "way", mark("Position, and impedance with a spring")
     ),
     ScaleField(
-        "speed",
-        marked("teleoperation", "Speed at full stick"),
-        "speed",
-        marked("teleoperation", "Rate, and impedance without a spring"),
+        "speed", mark("Speed at full stick"), "speed", mark("Rate, and impedance without a spring")
     ),
     ScaleField(
         "time_constant_s",
-        marked("teleoperation", "Time constant"),
+        mark("Time constant"),
         "s",
-        marked(
-            "teleoperation",
-            "Impedance without a spring: time in which the virtual mass reaches its speed",
-        ),
+        mark("Impedance without a spring: time in which the virtual mass reaches its speed"),
     ),
     ScaleField(
         "spring_hz",
-        marked("teleoperation", "Spring frequency"),
+        mark("Spring frequency"),
         "Hz",
-        marked(
-            "teleoperation",
-            "Impedance: frequency of the virtual mass; 0: no spring, the mass glides",
-        ),
+        mark("Impedance: frequency of the virtual mass; 0: no spring, the mass glides"),
     ),
     ScaleField(
         "damping_ratio",
-        marked("teleoperation", "Damping ratio"),
+        mark("Damping ratio"),
         "",
-        marked("teleoperation", "Impedance with a spring: overshoots below 1, creeps above 1"),
+        mark("Impedance with a spring: overshoots below 1, creeps above 1"),
     ),
     ScaleField(
         "contact_gain",
-        marked("teleoperation", "Contact gain"),
+        mark("Contact gain"),
         "%",
-        marked(
-            "teleoperation",
-            "Impedance: contact force relative to the largest safe force; 0: none",
-        ),
+        mark("Impedance: contact force relative to the largest safe force; 0: none"),
     ),
 )
 _BY_NAME = {field.name: field for field in FIELDS}
@@ -124,15 +109,11 @@ def bounds_text(field: ScaleField, coordinate: Coordinate) -> str:
     """Return what a field of a coordinate may hold, with its unit."""
     unit, bounds = shown(field, coordinate), coordinate.bounds
     if field.name == "way":
-        return translate("teleoperation", "above 0, up to {most}").format(
-            most=unit.text(bounds.high - bounds.low)
-        )
+        return tr("above 0, up to {most}").format(most=unit.text(bounds.high - bounds.low))
     if field.name == "speed":
-        return translate("teleoperation", "above 0, up to {most}").format(
-            most=unit.text(bounds.max_speed)
-        )
+        return tr("above 0, up to {most}").format(most=unit.text(bounds.max_speed))
     kept = _checked()[field.name]
-    return translate("teleoperation", "{least} to {most}").format(
+    return tr("{least} to {most}").format(
         least=unit.number(kept["minimum"]), most=unit.text(kept["maximum"])
     )
 
@@ -154,18 +135,15 @@ def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale
     """
     field = _BY_NAME[name]
     unit = shown(field, coordinate)
-    title = translate("teleoperation", "{title} of {name}").format(
-        title=field.shown_title, name=coordinate.name
-    )
+    title = tr("{title} of {name}").format(title=field.shown_title, name=coordinate.name)
     text = text.strip()
     number = parsed(text)
     if number is None:
         unit_text = f" in {unit.unit}" if unit.unit else ""
         raise ScalingError(
-            translate(
-                "teleoperation",
-                "{title}: {text!r} is not a number; enter one{unit} with a decimal point",
-            ).format(title=title, text=text, unit=unit_text)
+            tr("{title}: {text!r} is not a number; enter one{unit} with a decimal point").format(
+                title=title, text=text, unit=unit_text
+            )
         )
     value = number / unit.factor
     if unit.number(value) == unit.number(getattr(scale, name)):
@@ -176,9 +154,7 @@ def changed(scale: Scale, name: str, text: str, coordinate: Coordinate) -> Scale
         made = replace(scale, **{name: value})
     except ValidationError as error:
         raise ScalingError(
-            translate("teleoperation", "{typed}: must be {bound}").format(
-                typed=typed, bound=_bound(error, unit)
-            )
+            tr("{typed}: must be {bound}").format(typed=typed, bound=_bound(error, unit))
         ) from error
     for kind in LawKind:
         made.law(kind, coordinate, 0.0)
@@ -203,24 +179,22 @@ def _check_reach(typed: str, name: str, value: float, coordinate: Coordinate) ->
     if name == "way" and value > bounds.high - bounds.low:
         most = exact(bounds.high - bounds.low, unit)
         raise ScalingError(
-            translate("teleoperation", "{typed}: must be at most the range of {most}").format(
-                typed=typed, most=most
-            )
+            tr("{typed}: must be at most the range of {most}").format(typed=typed, most=most)
         )
     if name == "speed" and value > bounds.max_speed:
         most = exact(bounds.max_speed, f"{unit}/s")
         raise ScalingError(
-            translate(
-                "teleoperation", "{typed}: must be at most the maximum speed of {most}"
-            ).format(typed=typed, most=most)
+            tr("{typed}: must be at most the maximum speed of {most}").format(
+                typed=typed, most=most
+            )
         )
 
 
 def _bound(error: ValidationError, unit: Shown) -> str:
     context = error.errors(include_url=False)[0].get("ctx", {})
     told = (
-        translate("teleoperation", text).format(bound=unit.text(context[key]))
+        tr(text).format(bound=unit.text(context[key]))
         for key, text in _BOUNDS.items()
         if key in context
     )
-    return next(told, translate("teleoperation", "a finite number"))
+    return next(told, tr("a finite number"))

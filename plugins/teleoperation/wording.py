@@ -18,15 +18,14 @@ from rotemina.app.motion.teleoperation.profile_check import PluggedDevice
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.teleoperation_state import CoordinateView, TeleoperationState
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
 from rotemina.app.shell.phase_words import Tone
-from rotemina.plugins.teleoperation import plain_units
+from rotemina.plugins.teleoperation import mark, plain_units, tr
 from rotemina.sim.quantities import Scale, fixed, scale_in
 from rotemina.sim.robot.model import Robot
 
 PAD_SOURCE = "keys"
 
-WAITING = marked("teleoperation", "centre the stick first")
+WAITING = mark("centre the stick first")
 _LITTLE = 0.2  # of the range
 _TILT_DIGITS = 9  # of rad: what is less is rounding, and no tilt
 _TIP_SCALE = scale_in("mm", decimals=5)
@@ -41,57 +40,38 @@ class Choice(NamedTuple):
 
 _MODES = {
     "micro": Choice(
-        marked("teleoperation", "Micro"),
-        marked("teleoperation", "The stick moves the tables over millimetres in steps of 0.1 µm."),
+        mark("Micro"), mark("The stick moves the tables over millimetres in steps of 0.1 µm.")
     ),
     "nano": Choice(
-        marked("teleoperation", "Nano"),
-        marked(
-            "teleoperation", "The stick moves the piezos: two tilts and some micrometres along z."
-        ),
+        mark("Nano"), mark("The stick moves the piezos: two tilts and some micrometres along z.")
     ),
     "hybrid": Choice(
-        marked("teleoperation", "Hybrid z"),
-        marked(
-            "teleoperation",
+        mark("Hybrid z"),
+        mark(
             "The stick moves the tip; along z the piezo moves within its range, the "
-            "table does the rest.",
+            "table does the rest."
         ),
     ),
     "fine": Choice(
-        marked("teleoperation", "Fine x/y"),
-        marked(
-            "teleoperation",
-            "The stick moves the tip only by piezos: x and y by tilting the tool.",
-        ),
+        mark("Fine x/y"),
+        mark("The stick moves the tip only by piezos: x and y by tilting the tool."),
     ),
     "pivot": Choice(
-        marked("teleoperation", "Pivot"),
-        marked("teleoperation", "The stick tilts the tool while the tables hold its tip in place."),
+        mark("Pivot"), mark("The stick tilts the tool while the tables hold its tip in place.")
     ),
-    ALL_AXES: Choice(
-        marked("teleoperation", "All axes"),
-        marked("teleoperation", "The stick moves the robot's first three axes."),
-    ),
+    ALL_AXES: Choice(mark("All axes"), mark("The stick moves the robot's first three axes.")),
 }
 _LAWS = {
     LawKind.POSITION: Choice(
-        marked("teleoperation", "Position"),
-        marked(
-            "teleoperation",
-            "The stick's position sets the tip's position; when released, the tip returns.",
-        ),
+        mark("Position"),
+        mark("The stick's position sets the tip's position; when released, the tip returns."),
     ),
     LawKind.RATE: Choice(
-        marked("teleoperation", "Rate"),
-        marked("teleoperation", "The stick's position sets a speed; when released, the tip rests."),
+        mark("Rate"), mark("The stick's position sets a speed; when released, the tip rests.")
     ),
     LawKind.IMPEDANCE: Choice(
-        marked("teleoperation", "Impedance"),
-        marked(
-            "teleoperation",
-            "The stick pushes a virtual mass with or without a spring; a contact pushes back.",
-        ),
+        mark("Impedance"),
+        mark("The stick pushes a virtual mass with or without a spring; a contact pushes back."),
     ),
 }
 
@@ -100,7 +80,7 @@ def mode_choice(mode: str) -> Choice:
     """Return what to write on the button of a mode."""
     if mode in _MODES:
         return _shown(_MODES[mode])
-    tip = translate("teleoperation", "The stick moves the axes of stage {mode!r}.")
+    tip = tr("The stick moves the axes of stage {mode!r}.")
     return Choice(mode.capitalize(), tip.format(mode=mode))
 
 
@@ -110,7 +90,7 @@ def law_choices() -> tuple[tuple[LawKind, Choice], ...]:
 
 
 def _shown(choice: Choice) -> Choice:
-    return Choice(*(translate("teleoperation", text) for text in choice))
+    return Choice(*(tr(text) for text in choice))
 
 
 # --- who drives -----------------------------------------------------------------------------------
@@ -118,11 +98,7 @@ def _shown(choice: Choice) -> Choice:
 
 def device_name(device: PluggedDevice) -> str:
     """Return how an operator calls a device."""
-    return (
-        translate("teleoperation", "On-screen pad")
-        if device.identity.source == PAD_SOURCE
-        else device.identity.name
-    )
+    return tr("On-screen pad") if device.identity.source == PAD_SOURCE else device.identity.name
 
 
 def drivers(view: DevicesView) -> tuple[DeviceView, ...]:
@@ -133,9 +109,7 @@ def drivers(view: DevicesView) -> tuple[DeviceView, ...]:
 def driver_text(view: DevicesView) -> str:
     """Return what drives, by name."""
     names = [device_name(one.device) for one in drivers(view)]
-    return translate("teleoperation", " and ").join(names) or translate(
-        "teleoperation", "No device in control"
-    )
+    return tr(" and ").join(names) or tr("No device in control")
 
 
 def trust_text(view: DevicesView) -> str:
@@ -144,9 +118,7 @@ def trust_text(view: DevicesView) -> str:
     if not found:
         return next(
             map(spoken, view.problems),
-            translate(
-                "teleoperation", "Plug in a device, or choose a profile for a connected one."
-            ),
+            tr("Plug in a device, or choose a profile for a connected one."),
         )
     reasons: dict[str, list[str]] = {}
     for device in found:
@@ -159,57 +131,48 @@ def trust_text(view: DevicesView) -> str:
         f"{', '.join(label(axis) for axis in axes)}: {why}" if axes else why
         for why, axes in reasons.items()
     ]
-    return (
-        translate("teleoperation", "Not active: {parts}").format(parts="; ".join(parts))
-        if parts
-        else translate("teleoperation", "Active")
-    )
+    return tr("Not active: {parts}").format(parts="; ".join(parts)) if parts else tr("Active")
 
 
 def standing(view: DevicesView, state: TeleoperationState, *, stale: bool) -> tuple[str, Tone]:
     """Return the state in one word, and its severity."""
     if stale:
-        return translate("teleoperation", "no answer"), Tone.DANGER
+        return tr("no answer"), Tone.DANGER
     if state.driving:
-        return translate("teleoperation", "in control"), Tone.BUSY
+        return tr("in control"), Tone.BUSY
     if view.setting_up:
-        return translate("teleoperation", "setting up"), Tone.WARNING
+        return tr("setting up"), Tone.WARNING
     if state.reason is not None:
-        return translate("teleoperation", "blocked"), Tone.WARNING
+        return tr("blocked"), Tone.WARNING
     if any(one.waiting for one in state.coordinates):
-        return translate("teleoperation", "waiting"), Tone.WARNING
-    return translate("teleoperation", "ready"), Tone.GOOD
+        return tr("waiting"), Tone.WARNING
+    return tr("ready"), Tone.GOOD
 
 
 def reason_text(state: TeleoperationState, *, stale: bool) -> str:
     """Return why nothing moves now, or what would make it move."""
     if stale:
-        return translate(
-            "teleoperation",
-            "The input devices do not respond: stop the machine and restart the program.",
-        )
+        return tr("The input devices do not respond: stop the machine and restart the program.")
     if state.reason is not None:
-        return translate("teleoperation", "No motion: {reason}.").format(
-            reason=spoken(state.reason)
-        )
-    return "" if state.driving else translate("teleoperation", "Moves with the stick.")
+        return tr("No motion: {reason}.").format(reason=spoken(state.reason))
+    return "" if state.driving else tr("Moves with the stick.")
 
 
 def against_pad(view: DevicesView) -> str | None:
     """Why the pad on the screen moves nothing, whatever the machine does; None if it may."""
     pad = pad_of(view)
     if pad is None:
-        return translate("teleoperation", "the input devices are being opened")
+        return tr("the input devices are being opened")
     if view.setting_up:
-        return translate("teleoperation", "input devices are being set up")
+        return tr("input devices are being set up")
     if pad.problem is not None:
         return spoken(pad.problem)
     if pad.seat is None:
-        return translate("teleoperation", "the profile does not map the pad")
+        return tr("the profile does not map the pad")
     if not pad.drives:
-        return translate(
-            "teleoperation", "{driver} is in control; take over to use the pad"
-        ).format(driver=driver_text(view))
+        return tr("{driver} is in control; take over to use the pad").format(
+            driver=driver_text(view)
+        )
     return None
 
 
@@ -234,20 +197,17 @@ def _moving(device: DeviceView) -> tuple[AxisView, ...]:
 def factor_text(factor: float, held: Collection[Action]) -> str:
     """Return the factor on all scales that acts now."""
     names = ", ".join(spoken(one) for one in (Action.FINE, Action.COARSE) if one in held)
-    now = translate("teleoperation", "now × {factor:g}").format(factor=factor)
+    now = tr("now × {factor:g}").format(factor=factor)
     return f"{now} ({names})" if names else now
 
 
 def clutch_text(law: LawKind, held: Collection[Action]) -> str:
     """Return what the clutch does, or does at present."""
     if Action.CLUTCH in held:
-        return translate("teleoperation", "Clutch pressed: the stick moves without the robot.")
+        return tr("Clutch pressed: the stick moves without the robot.")
     if law is LawKind.RATE:
-        return translate("teleoperation", "Release the stick to stop the robot in place.")
-    return translate(
-        "teleoperation",
-        "Press the clutch (space on the pad) to return the stick without the robot.",
-    )
+        return tr("Release the stick to stop the robot in place.")
+    return tr("Press the clutch (space on the pad) to return the stick without the robot.")
 
 
 # --- coordinates ----------------------------------------------------------------------------------
@@ -255,11 +215,7 @@ def clutch_text(law: LawKind, held: Collection[Action]) -> str:
 
 def coordinate_name(mode: str, name: str, unit: str) -> str:
     """Return what a coordinate is called: in some modes it is the tip's, and no axis."""
-    return (
-        translate("teleoperation", "Tip {name}").format(name=name)
-        if mode in TIP_MODES and unit == "m"
-        else label(name)
-    )
+    return tr("Tip {name}").format(name=name) if mode in TIP_MODES and unit == "m" else label(name)
 
 
 def coordinate_scale(robot: Robot, mode: str, name: str, unit: str) -> Scale:
@@ -296,17 +252,17 @@ def law_text(view: CoordinateView, what: str, travel_m: float | None) -> str:
 def reserve_text(state: TeleoperationState) -> str:
     """Return how much of a piezo's range is left, and what to do where that is little."""
     if state.reserve is None:
-        return translate("teleoperation", "not shared in this mode") if state.coordinates else "–"
+        return tr("not shared in this mode") if state.coordinates else "–"
     left = f"{fixed(100.0 * state.reserve, 0)} %"
     if state.reserve < _LITTLE:
-        left = translate("teleoperation", "{left} – re-centre").format(left=left)
+        left = tr("{left} – re-centre").format(left=left)
     return left
 
 
 def tilt_shown(state: TeleoperationState) -> str:
     """Return by how much the tool was turned."""
     if state.tilt is None:
-        return translate("teleoperation", "not in this mode") if state.coordinates else "–"
+        return tr("not in this mode") if state.coordinates else "–"
     return plain_units.tilt_text(round(state.tilt, _TILT_DIGITS))
 
 

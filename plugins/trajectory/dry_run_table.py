@@ -3,19 +3,19 @@
 from typing import NamedTuple
 
 from rotemina.app.motion.model_deviation_watch import Gap
-from rotemina.app.shell.language import marked, translate
+from rotemina.plugins.trajectory import mark, tr
 from rotemina.sim.errors import InputError
 from rotemina.sim.quantities import Scale, fixed, parsed, scale_in, scale_of
 from rotemina.sim.trajectory.dry_run import AxisFigures
 from rotemina.sim.units import from_unit, symbol
 
 COLUMNS = (
-    marked("trajectory", "lowest"),
-    marked("trajectory", "highest"),
-    marked("trajectory", "speed"),
-    marked("trajectory", "acceleration"),
-    marked("trajectory", "predicted error"),
-    marked("trajectory", "stop beyond"),
+    mark("lowest"),
+    mark("highest"),
+    mark("speed"),
+    mark("acceleration"),
+    mark("predicted error"),
+    mark("stop beyond"),
 )
 BOUND = len(COLUMNS) - 1  # the column that may be edited
 _OF_STROKE, _OF_RANGE = 0.25, 0.005  # what is taken for excessive until somebody says otherwise
@@ -31,9 +31,7 @@ class Cell(NamedTuple):
 def cells(axis: AxisFigures, scale: Scale) -> tuple[Cell, ...]:
     """Return one cell for each of :data:`COLUMNS` but the last one, which is the operator's."""
     low, high = axis.bounds.range
-    bounds = translate("trajectory", "range {low} … {high}").format(
-        low=scale.text(low), high=scale.text(high)
-    )
+    bounds = tr("range {low} … {high}").format(low=scale.text(low), high=scale.text(high))
     return (
         Cell(scale.text(axis.lowest), bounds),
         Cell(scale.text(axis.highest), bounds),
@@ -56,7 +54,7 @@ def bound_text(bound: float | None, si_unit: str) -> str:
 
 def gap_text(gap: Gap, si_unit: str) -> str:
     """Return how far model and real are apart."""
-    return translate("trajectory", "{rms} rms, {peak} peak").format(
+    return tr("{rms} rms, {peak} peak").format(
         rms=_small(gap.rms, si_unit, 3), peak=_small(gap.peak, si_unit, 3)
     )
 
@@ -76,10 +74,9 @@ def read_bound(text: str, si_unit: str) -> float | None:
     number = parsed(plain)
     if number is None or number <= 0.0:
         raise InputError(
-            translate(
-                "trajectory",
+            tr(
                 "{text!r} is not a bound: enter a number above 0 in {unit} with a decimal "
-                "point, or leave it empty",
+                "point, or leave it empty"
             ).format(text=text, unit=symbol(unit))
         )
     return float(from_unit(number, unit))
@@ -93,21 +90,17 @@ def _rate(value: float, bound: float | None, si_unit: str, per: str) -> Cell:
     scale = scale_of(f"{si_unit}{per}", max(value, bound or 0.0))
     text = scale.text(value)
     if bound is None:
-        return Cell(text, translate("trajectory", "the robot file states no bound"))
+        return Cell(text, tr("the robot file states no bound"))
     share = f"{fixed(100.0 * value / bound, 0)} %"
-    of_bound = translate("trajectory", "{share} of {bound}")
+    of_bound = tr("{share} of {bound}")
     return Cell(f"{text} · {share}", of_bound.format(share=share, bound=scale.text(bound)))
 
 
 def _error(axis: AxisFigures) -> Cell:
     if axis.tracking_rms is None or axis.tracking_peak is None:
-        return Cell(
-            "–", translate("trajectory", "the model gives no prediction for this trajectory")
-        )
+        return Cell("–", tr("the model gives no prediction for this trajectory"))
     rms, peak = (_small(each, axis.unit, 3) for each in (axis.tracking_rms, axis.tracking_peak))
     return Cell(
-        translate("trajectory", "{rms} rms").format(rms=rms),
-        translate(
-            "trajectory", "the model predicts up to {peak} between command and position"
-        ).format(peak=peak),
+        tr("{rms} rms").format(rms=rms),
+        tr("the model predicts up to {peak} between command and position").format(peak=peak),
     )

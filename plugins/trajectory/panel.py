@@ -6,13 +6,10 @@ from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDoubleSpinBox,
-    QHBoxLayout,
     QHeaderView,
-    QLabel,
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -20,10 +17,13 @@ from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.engine_words import spoken
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import set_property
+from rotemina.app.widgets.labels import heading, plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.trajectory import mark, tr
 from rotemina.plugins.trajectory.dry_run_table import (
     BOUND,
     COLUMNS,
@@ -41,14 +41,10 @@ from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.trajectory.section_and_repeat import MOST_TIMES, part
 
-EMPTY = marked(
-    "trajectory",
-    "No trajectory is loaded. Load one to see its demands on each axis before playing it.",
-)
-BOUND_TIP = marked(
-    "trajectory",
+EMPTY = mark("No trajectory is loaded. Load one to see its demands on each axis before playing it.")
+BOUND_TIP = mark(
     "The playback pauses when readings differ from the model by more than this "
-    "for 20 ms; double-click to change it, empty: no bound",
+    "for 20 ms; double-click to change it, empty: no bound"
 )
 
 
@@ -62,37 +58,25 @@ class TrajectoryPanel(Panel):
 
     def __init__(self, workbench: Workbench) -> None:
         super().__init__(workbench)
-        self.load = QPushButton(translate("trajectory", "Load …"))
+        self.load = QPushButton(tr("Load …"))
         self.load.setToolTip(
-            translate(
-                "trajectory",
-                "Load a trajectory from a text file and check it on the model (Ctrl+T)",
-            )
+            tr("Load a trajectory from a text file and check it on the model (Ctrl+T)")
         )
         self.load.clicked.connect(lambda: self.main_window.ask_trajectory())
-        self.resample = QPushButton(translate("trajectory", "Resample …"))
-        self.resample.setToolTip(
-            translate("trajectory", "Resample the loaded trajectory to another rate, in Hz")
-        )
+        self.resample = QPushButton(tr("Resample …"))
+        self.resample.setToolTip(tr("Resample the loaded trajectory to another rate, in Hz"))
         self.resample.setEnabled(False)
         self.resample.clicked.connect(self._resample)
-        self.teach = QPushButton(translate("trajectory", "Teach"))
-        self.teach.setToolTip(translate("trajectory", "Make a trajectory from taught points"))
+        self.teach = QPushButton(tr("Teach"))
+        self.teach.setToolTip(tr("Make a trajectory from taught points"))
         self.teach.setCheckable(True)
         self.teach.toggled.connect(self._show_points)
         self.points = TeachView(workbench)
         self.points.hide()
         self.transport = Transport(workbench)
-        self.name = QLabel("")
-        self.name.setProperty("heading", True)
-        self.verdict = QLabel(translate("trajectory", EMPTY))
-        self.verdict.setWordWrap(True)
-        self.name.setTextFormat(Qt.TextFormat.PlainText)
-        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
-        self.gaps = QLabel("")
-        self.gaps.setProperty("quiet", True)
-        self.gaps.setTextFormat(Qt.TextFormat.PlainText)
-        self.gaps.setWordWrap(True)
+        self.name = heading("")
+        self.verdict = plain_text(tr(EMPTY), quiet=False, wrap=True)
+        self.gaps = plain_text(wrap=True)
         self.begin, self.times = QDoubleSpinBox(), QDoubleSpinBox()
         self._make_parts()
         self.table = _table()
@@ -109,30 +93,12 @@ class TrajectoryPanel(Panel):
         self.follow(self._refresh)
 
     def _lay_out(self) -> None:
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.load)
-        buttons.addWidget(self.resample)
-        buttons.addWidget(self.teach)
-        buttons.addWidget(self.transport, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 8, 10, 8)
-        column.addLayout(buttons)
-        heading = QHBoxLayout()
-        heading.setSpacing(12)
-        heading.addWidget(self.name)
-        heading.addWidget(self.verdict, 1)
-        heading.addWidget(self.begin)
-        heading.addWidget(self.times)
-        column.addLayout(heading)
-        column.addWidget(self.gaps)
-        row = QHBoxLayout()
-        row.addWidget(self.table, 1)
-        row.addWidget(self.path)
+        buttons = in_row(self.load, self.resample, self.teach, (self.transport, 1))
+        heading = in_row(self.name, (self.verdict, 1), self.begin, self.times, spacing=12)
         self.tried = QWidget()
-        self.tried.setLayout(row)
-        row.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self.tried, 1)
-        column.addWidget(self.points, 1)
+        in_row((self.table, 1), self.path, on=self.tried, margins=0)
+        parts = buttons, heading, self.gaps, (self.tried, 1), (self.points, 1)
+        in_column(*parts, on=self, margins=(10, 8, 10, 8))
         self.name.hide()
         self.gaps.hide()
 
@@ -145,7 +111,7 @@ class TrajectoryPanel(Panel):
         self.teach.setChecked(False)
         run = plan.dry_run
         self.name.setText(
-            translate("trajectory", "{name} – {seconds:.3f} s, {rows} rows").format(
+            tr("{name} – {seconds:.3f} s, {rows} rows").format(
                 name=plan.name, seconds=run.duration_s, rows=run.rows
             )
         )
@@ -166,25 +132,18 @@ class TrajectoryPanel(Panel):
         run = plan.dry_run
         if plan.refusal:
             self.verdict.setText(
-                translate("trajectory", "Not playable from here: {why}").format(
-                    why=spoken(plan.refusal)
-                )
+                tr("Not playable from here: {why}").format(why=spoken(plan.refusal))
             )
         elif run.allowed:
-            self.verdict.setText(
-                translate(
-                    "trajectory",
-                    "Dry run: within all limits of the axes and of the tip.",
-                )
-            )
+            self.verdict.setText(tr("Dry run: within all limits of the axes and of the tip."))
         else:
             more = (
-                translate("trajectory", " (and {n} more)").format(n=len(run.objections) - 1)
+                tr(" (and {n} more)").format(n=len(run.objections) - 1)
                 if len(run.objections) > 1
                 else ""
             )
             self.verdict.setText(
-                translate("trajectory", "Not playable: {objection}{more}").format(
+                tr("Not playable: {objection}{more}").format(
                     objection=spoken(run.objections[0]), more=more
                 )
             )
@@ -194,19 +153,18 @@ class TrajectoryPanel(Panel):
     def _make_parts(self) -> None:
         """Offer where it begins, and how often it is played; a key alone changes nothing yet."""
         self.begin.setDecimals(3)
-        self.begin.setPrefix(translate("trajectory", "from "))
+        self.begin.setPrefix(tr("from "))
         self.begin.setSuffix(" s")
-        self.begin.setAccessibleName(translate("trajectory", "Start of the playback in seconds"))
+        self.begin.setAccessibleName(tr("Start of the playback in seconds"))
         self._bound_begin(0.0)
         self.times.setDecimals(0)
         self.times.setRange(1, MOST_TIMES)
         self.times.setSuffix(" ×")
-        self.times.setAccessibleName(translate("trajectory", "Passes"))
+        self.times.setAccessibleName(tr("Passes"))
         self.times.setToolTip(
-            translate(
-                "trajectory",
-                "Number of passes, 1 to {most}; the trajectory must end where it starts",
-            ).format(most=MOST_TIMES)
+            tr("Number of passes, 1 to {most}; the trajectory must end where it starts").format(
+                most=MOST_TIMES
+            )
         )
         for field in (self.begin, self.times):
             field.setKeyboardTracking(False)
@@ -219,9 +177,9 @@ class TrajectoryPanel(Panel):
     def _bound_begin(self, last_s: float) -> None:
         self.begin.setRange(0.0, last_s)
         self.begin.setToolTip(
-            translate(
-                "trajectory", "Start of the first pass, 0 to {last:.7g} s, before the last row"
-            ).format(last=last_s)
+            tr("Start of the first pass, 0 to {last:.7g} s, before the last row").format(
+                last=last_s
+            )
         )
 
     def _take_part(self) -> None:
@@ -237,7 +195,7 @@ class TrajectoryPanel(Panel):
             self._part = whole
             self._show_part(whole)
         if self._part is not whole:
-            begun = translate("trajectory", "from {begin:.6g} s").format(begin=begin_s)
+            begun = tr("from {begin:.6g} s").format(begin=begin_s)
             name = ", ".join([name, *([begun] * (begin_s > 0.0)), *([f"{times} ×"] * (times > 1))])
         self.workbench.plan_trajectory(name, self._part)
 
@@ -260,8 +218,7 @@ class TrajectoryPanel(Panel):
         def use() -> None:
             if dialog.resampled is not None:
                 self.workbench.plan_trajectory(
-                    translate("trajectory", "{name}, resampled").format(name=plan.name),
-                    dialog.resampled,
+                    tr("{name}, resampled").format(name=plan.name), dialog.resampled
                 )
 
         dialog.accepted.connect(use)
@@ -281,7 +238,7 @@ class TrajectoryPanel(Panel):
                     item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
                     self.table.setItem(row, column, item)
                 item = QTableWidgetItem(bound_text(bounds.get(name), axis.unit))
-                item.setToolTip(translate("trajectory", BOUND_TIP))
+                item.setToolTip(tr(BOUND_TIP))
                 self.table.setItem(row, BOUND, item)
 
     def _bound_typed(self, item: QTableWidgetItem) -> None:
@@ -317,16 +274,12 @@ class TrajectoryPanel(Panel):
                 for name, axis in plan.dry_run.axes.items()
                 if name in gaps
             ]
-            self.gaps.setText(
-                translate("trajectory", "Model and real apart: {parts}").format(
-                    parts=" · ".join(parts)
-                )
-            )
+            self.gaps.setText(tr("Model and real apart: {parts}").format(parts=" · ".join(parts)))
 
 
 def _table() -> QTableWidget:
     table = QTableWidget(0, len(COLUMNS))
-    table.setHorizontalHeaderLabels([translate("trajectory", one) for one in COLUMNS])
+    table.setHorizontalHeaderLabels([tr(one) for one in COLUMNS])
     triggers = QAbstractItemView.EditTrigger
     table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed)
     table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)

@@ -2,21 +2,14 @@
 
 import numpy as np
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt
-from PySide6.QtGui import (
-    QColor,
-    QMouseEvent,
-    QPainter,
-    QPaintEvent,
-    QPen,
-    QPixmap,
-)
+from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.motion.guard import TipPath
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.tip_frame import TipFrame, draw_scale, forbidden
+from rotemina.plugins.trajectory import tr
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.workspace import Workspace
 
@@ -37,16 +30,15 @@ class PathView(QWidget):
         self._drawn: QPixmap | None = None
         self.whole = False
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName(translate("trajectory", "Path of the tip"))
+        self.setAccessibleName(tr("Path of the tip"))
         self.setToolTip(
             plain_tip(
-                translate(
-                    "trajectory",
+                tr(
                     "Path of the tip from above and from the side; dashed: approach to the "
                     "first row; red: forbidden by floor, objective or radius; frame: reach of "
-                    "the axes.",
+                    "the axes."
                 ),
-                translate("trajectory", "Click to switch between the whole reach and the path."),
+                tr("Click to switch between the whole reach and the path."),
             )
         )
 
@@ -63,7 +55,7 @@ class PathView(QWidget):
             self._rows = path.rows[::step]
             self._out = path.zone.outside(self._rows)
             self.setAccessibleDescription(
-                translate("trajectory", "{share:.0f} % of the rows are forbidden").format(
+                tr("{share:.0f} % of the rows are forbidden").format(
                     share=100.0 * float(path.zone.outside(path.rows).mean())
                 )
             )
@@ -117,11 +109,7 @@ class PathView(QWidget):
             area = QRectF(left, _CAPTION, width, height)
             self._draw_view(painter, path, TipFrame(area, middle, scale, up))
             painter.setPen(QColor(self._theme.quiet))
-            caption = (
-                translate("trajectory", "above: x, y")
-                if up == 1
-                else translate("trajectory", "side: x, z")
-            )
+            caption = tr("above: x, y") if up == 1 else tr("side: x, z")
             painter.drawText(QRectF(left, 0, width, _CAPTION), Qt.AlignmentFlag.AlignLeft, caption)
         draw_scale(painter, QRectF(self.rect()), scale, QColor(self._theme.text))
         painter.end()

@@ -13,16 +13,17 @@ from PySide6.QtWidgets import (
 
 from rotemina.app.display_units import speed_changes
 from rotemina.app.shell.engine_words import error_text
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.widgets.controls import named
+from rotemina.plugins.trajectory import mark, tr
 from rotemina.sim.errors import InputError
 from rotemina.sim.records.record import Record
 from rotemina.sim.records.resampling import resample
 
 PAUSE_MS = 250
 METHODS = {
-    marked("trajectory", "hold – as a device does between rows"): "hold",
-    marked("trajectory", "linear – straight lines between rows"): "linear",
-    marked("trajectory", "cubic – smooth, may overshoot the rows"): "cubic",
+    mark("hold – as a device does between rows"): "hold",
+    mark("linear – straight lines between rows"): "linear",
+    mark("cubic – smooth, may overshoot the rows"): "cubic",
 }
 
 
@@ -31,16 +32,14 @@ class ResamplingDialog(QDialog):
 
     def __init__(self, trajectory: Record, parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle(translate("trajectory", "Resample the trajectory"))
+        self.setWindowTitle(tr("Resample the trajectory"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._trajectory = trajectory
         self.resampled: Record | None = None
-        self.rate = QLineEdit("1000")
-        self.rate.setAccessibleName(translate("trajectory", "Rate in Hz"))
-        self.rate.setToolTip(translate("trajectory", "Rows per second, Hz; above 0"))
+        self.rate = named(QLineEdit("1000"), tr("Rate in Hz"), tr("Rows per second, Hz; above 0"))
         self.method = QComboBox()
         for text, name in METHODS.items():
-            self.method.addItem(translate("trajectory", text), name)
+            self.method.addItem(tr(text), name)
         self.outcome = QLabel()
         self.outcome.setMinimumWidth(360)
         self.buttons = QDialogButtonBox(
@@ -49,9 +48,9 @@ class ResamplingDialog(QDialog):
         self.buttons.accepted.connect(self.accept)
         self.buttons.rejected.connect(self.reject)
         form = QFormLayout(self)
-        form.addRow(translate("trajectory", "Rate [Hz]"), self.rate)
-        form.addRow(translate("trajectory", "Between rows"), self.method)
-        form.addRow(translate("trajectory", "Fastest command"), self.outcome)
+        form.addRow(tr("Rate [Hz]"), self.rate)
+        form.addRow(tr("Between rows"), self.method)
+        form.addRow(tr("Fastest command"), self.outcome)
         form.addRow(self.buttons)
         # Not at every key: resampling a long trajectory takes its time.
         self._pause = QTimer(self, singleShot=True, interval=PAUSE_MS)

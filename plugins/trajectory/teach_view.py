@@ -5,19 +5,18 @@ from dataclasses import replace
 from PySide6.QtCore import QSignalBlocker
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
     QHeaderView,
     QTableWidget,
     QTableWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.state import SessionState
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, button
+from rotemina.app.widgets.controls import allow, button, named
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.trajectory import tr
 from rotemina.plugins.trajectory.taught_trajectory import LONGEST_PAUSE_S, TaughtPoint, taught
 from rotemina.sim.quantities import parsed, rounded
 from rotemina.sim.records.record import Record
@@ -39,9 +38,8 @@ class TeachView(QWidget):
             f"{label(axis)} [{scale.symbol}]"
             for axis, scale in zip(self._axes, self._scales, strict=True)
         ]
-        heads += [translate("trajectory", "speed [%]"), translate("trajectory", "pause [s]")]
-        self.table = QTableWidget(0, len(heads))
-        self.table.setAccessibleName(translate("trajectory", "Taught points"))
+        heads += [tr("speed [%]"), tr("pause [s]")]
+        self.table = named(QTableWidget(0, len(heads)), tr("Taught points"))
         self.table.setHorizontalHeaderLabels(heads)
         triggers = QAbstractItemView.EditTrigger
         self.table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed)
@@ -52,48 +50,28 @@ class TeachView(QWidget):
         header.setFixedHeight(23)
         self.table.verticalHeader().setDefaultSectionSize(21)
         self.table.itemChanged.connect(self._typed)
-        self.take = button(translate("trajectory", "Add point"), self._take)
-        self.again = button(translate("trajectory", "Replace"), self._again)
-        self.remove = button(translate("trajectory", "Remove"), self._remove)
-        self.use = button(translate("trajectory", "Make trajectory"), self._use)
-        buttons = QVBoxLayout()
-        for one in (self.take, self.again, self.remove, self.use):
-            buttons.addWidget(one)
-        buttons.addStretch(1)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.table, 1)
-        row.addLayout(buttons)
+        self.take = button(tr("Add point"), self._take)
+        self.again = button(tr("Replace"), self._again)
+        self.remove = button(tr("Remove"), self._remove)
+        self.use = button(tr("Make trajectory"), self._use)
+        buttons = in_column(self.take, self.again, self.remove, self.use, 1)
+        in_row((self.table, 1), buttons, on=self, margins=0)
 
     def refresh(self, state: SessionState) -> None:
         """Allow what can be done now."""
-        known = None if state.position_known else translate("trajectory", "the position is unknown")
-        chosen = (
-            None
-            if self.table.currentRow() >= 0
-            else translate("trajectory", "select a point first")
-        )
-        few = None if len(self.points) > 1 else translate("trajectory", "add two points or more")
+        known = None if state.position_known else tr("the position is unknown")
+        chosen = None if self.table.currentRow() >= 0 else tr("select a point first")
+        few = None if len(self.points) > 1 else tr("add two points or more")
         allow(
-            self.take,
-            known,
-            translate(
-                "trajectory", "Add the present target of the machine after the selected point"
-            ),
+            self.take, known, tr("Add the present target of the machine after the selected point")
         )
         allow(
             self.again,
             known or chosen,
-            translate(
-                "trajectory", "Replace the selected point by the present target of the machine"
-            ),
+            tr("Replace the selected point by the present target of the machine"),
         )
-        allow(self.remove, chosen, translate("trajectory", "Remove the selected point"))
-        allow(
-            self.use,
-            few,
-            translate("trajectory", "Make a trajectory from the points and check it in a dry run"),
-        )
+        allow(self.remove, chosen, tr("Remove the selected point"))
+        allow(self.use, few, tr("Make a trajectory from the points and check it in a dry run"))
 
     def _take(self) -> None:
         row = self.table.currentRow()
@@ -116,7 +94,7 @@ class TeachView(QWidget):
             self._fill(min(row, len(self.points) - 1))
 
     def _use(self) -> None:
-        name = translate("trajectory", "{n} taught points").format(n=len(self.points))
+        name = tr("{n} taught points").format(n=len(self.points))
         found: list[Record] = []
         points, robot = tuple(self.points), self._workbench.robot
         if self._workbench.ask(lambda: found.append(taught(robot, points, name))):
@@ -152,17 +130,13 @@ class TeachView(QWidget):
         if column < count:
             scale = self._scales[column]
             low, high = self._workbench.session.ranges.of(self._axes[column])
-            bound = translate("trajectory", "must be {low} to {high}").format(
-                low=scale.text(low), high=scale.text(high)
-            )
+            bound = tr("must be {low} to {high}").format(low=scale.text(low), high=scale.text(high))
         elif column == count:
-            bound = translate("trajectory", "must be above 0 and at most 100 %")
+            bound = tr("must be above 0 and at most 100 %")
         else:
-            bound = translate("trajectory", "must be 0 to {most} s").format(
-                most=rounded(LONGEST_PAUSE_S)
-            )
+            bound = tr("must be 0 to {most} s").format(most=rounded(LONGEST_PAUSE_S))
         head = self.table.horizontalHeaderItem(column).text()
-        return translate("trajectory", "Point {number}, {column}: {text!r}: {bound}").format(
+        return tr("Point {number}, {column}: {text!r}: {bound}").format(
             number=row + 1, column=head, text=text, bound=bound
         )
 

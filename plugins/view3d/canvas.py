@@ -21,9 +21,9 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from rotemina.app.scene.camera import Camera
 from rotemina.app.scene.projected_picture import Drawn, Picture
 from rotemina.app.scene.scene import Scene
-from rotemina.app.shell.language import translate
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.plugins.view3d import tr
 
 _INTERVAL_S = 0.04  # between two pictures, at least
 _LEAST_PX = 0.2  # a picture in which no corner has moved farther is not drawn
@@ -54,13 +54,12 @@ class Canvas(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(200, 120)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
-        self.setAccessibleName(translate("view3d", "The robot in three dimensions"))
+        self.setAccessibleName(tr("The robot in three dimensions"))
         self.setToolTip(
             plain_tip(
-                translate(
-                    "view3d",
+                tr(
                     "Drag to rotate, drag with the right button to shift, use the wheel to zoom, "
-                    "double-click to reset.",
+                    "double-click to reset."
                 )
             )
         )
@@ -124,7 +123,7 @@ class Canvas(QWidget):
         if event.buttons() & Qt.MouseButton.RightButton:
             self._see(lambda camera: camera.shifted(-way.x(), way.y(), self.height()))
         else:
-            right, up = (-_RADIANS_PER_PIXEL * way.x(), _RADIANS_PER_PIXEL * way.y())
+            right, up = -_RADIANS_PER_PIXEL * way.x(), _RADIANS_PER_PIXEL * way.y()
             self._see(lambda camera: camera.turned(right, up))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)

@@ -6,23 +6,20 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QGuiApplication
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-)
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton
 
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.scene.robot_scene import Colours, Ghost, Reading, RobotScene
 from rotemina.app.scene.scale_notes import Words
 from rotemina.app.scene.views import View
-from rotemina.app.shell.language import marked, translate
+from rotemina.app.shell.language import marked
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow
+from rotemina.app.widgets.labels import plain_text
+from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.plugins.view3d import mark, tr
 from rotemina.plugins.view3d.canvas import Canvas
 from rotemina.plugins.view3d.scene_server import Serving
 from rotemina.sim.kinematics.chain import ChainError
@@ -32,51 +29,46 @@ if TYPE_CHECKING:
     from rotemina.app.scene.server import ViewServer
 
 VIEWS = {
-    View.BELOW: (marked("view3d", "From below"), marked("view3d", "View of the objective")),
-    View.FRONT: (marked("view3d", "Front"), marked("view3d", "Along +y, z up")),
-    View.TOP: (marked("view3d", "Top"), marked("view3d", "Along −z")),
-    View.ISO: (marked("view3d", "Iso"), marked("view3d", "The whole robot from the side")),
-    View.CELL: (
-        marked("view3d", "Cell"),
-        marked("view3d", "The cell, with the tip 0.3 mm beside it, to scale"),
-    ),
+    View.BELOW: (mark("From below"), mark("View of the objective")),
+    View.FRONT: (mark("Front"), mark("Along +y, z up")),
+    View.TOP: (mark("Top"), mark("Along −z")),
+    View.ISO: (mark("Iso"), mark("The whole robot from the side")),
+    View.CELL: (mark("Cell"), mark("The cell, with the tip 0.3 mm beside it, to scale")),
 }
 GHOSTS = {
-    marked("view3d", "Model and real"): (Ghost.MODEL, Ghost.REAL),
-    marked("view3d", "Model"): (Ghost.MODEL,),
-    marked("view3d", "Real"): (Ghost.REAL,),
+    mark("Model and real"): (Ghost.MODEL, Ghost.REAL),
+    mark("Model"): (Ghost.MODEL,),
+    mark("Real"): (Ghost.REAL,),
 }
 FACTORS = (1, 10, 50, 100, 200)
-STARTING = marked("view3d", "Starting the 3-D view …")
-NO_BROWSER = marked(
-    "view3d",
+STARTING = mark("Starting the 3-D view …")
+NO_BROWSER = mark(
     "No browser could be opened. The address is on the clipboard: paste it into a browser on this "
-    "computer.",
+    "computer."
 )
 
 
 def factor_text(factor: int) -> str:
     """Return how an exaggeration is offered."""
     return (
-        translate("view3d", "Nano motion to scale")
+        tr("Nano motion to scale")
         if factor == 1
-        else translate("view3d", "Nano motion × {factor}").format(factor=factor)
+        else tr("Nano motion × {factor}").format(factor=factor)
     )
 
 
 def written() -> Words:
     """Return what is written over the picture."""
     return Words(
-        model=translate("view3d", "model"),
-        real=translate("view3d", "real"),
-        unknown=translate("view3d", "{ghost}: position unknown, not drawn"),
-        old=translate("view3d", "outdated: the last reading is {age_s:.1f} s old"),
-        enlarged=translate(
-            "view3d",
-            "thx, thy, zn enlarged {factor:g} × about mid-range; the tip is not drawn in its place",
+        model=tr("model"),
+        real=tr("real"),
+        unknown=tr("{ghost}: position unknown, not drawn"),
+        old=tr("outdated: the last reading is {age_s:.1f} s old"),
+        enlarged=tr(
+            "thx, thy, zn enlarged {factor:g} × about mid-range; the tip is not drawn in its place"
         ),
-        silent=translate("view3d", "The program does not answer: the drawing is out of date."),
-        quiet=translate("view3d", "No data from the program: the drawing is out of date."),
+        silent=tr("The program does not answer: the drawing is out of date."),
+        quiet=tr("No data from the program: the drawing is out of date."),
     )
 
 
@@ -131,9 +123,7 @@ class View3dPanel(Panel):
         def failed() -> None:
             self._set_busy(False)
 
-        self.workbench.work(
-            "view3d", translate("view3d", STARTING), self.serving.start, done, failed
-        )
+        self.workbench.work("view3d", tr(STARTING), self.serving.start, done, failed)
 
     def look(self, view: View) -> None:
         """Look from there, in every viewer."""
@@ -169,7 +159,7 @@ class View3dPanel(Panel):
         if not QDesktopServices.openUrl(QUrl(server.url)):
             # The address is a secret: neither in a notice nor in the log.
             QGuiApplication.clipboard().setText(server.url)
-            self.workbench.notify(Level.WARNING, translate("view3d", NO_BROWSER), about=self)
+            self.workbench.notify(Level.WARNING, tr(NO_BROWSER), about=self)
 
     def _close(self) -> None:
         if self.serving is not None:
@@ -189,31 +179,21 @@ class View3dPanel(Panel):
 
     def show_state(self) -> None:
         """Show what can be done now, and why not."""
-        busy = translate("view3d", "the view is being opened") if self.busy else None
-        allow(
-            self.browser,
-            self._unfit or busy,
-            translate("view3d", "Show the view in the browser of this desktop"),
-        )
+        busy = tr("the view is being opened") if self.busy else None
+        allow(self.browser, self._unfit or busy, tr("Show the view in the browser of this desktop"))
         for view, button in self.views.items():
-            allow(button, self._unfit, translate("view3d", VIEWS[view][1]))
-        allow(self.ghosts, self._unfit, translate("view3d", "Robots to draw"))
-        allow(
-            self.factor,
-            self._unfit,
-            translate("view3d", "Enlarge the motion of thx, thy and zn about mid-range"),
-        )
+            allow(button, self._unfit, tr(VIEWS[view][1]))
+        allow(self.ghosts, self._unfit, tr("Robots to draw"))
+        allow(self.factor, self._unfit, tr("Enlarge the motion of thx, thy and zn about mid-range"))
 
     def _make_widgets(self) -> None:
-        self.views = {
-            view: QPushButton(translate("view3d", text)) for view, (text, _) in VIEWS.items()
-        }
+        self.views = {view: QPushButton(tr(text)) for view, (text, _) in VIEWS.items()}
         for view, button in self.views.items():
             button.clicked.connect(lambda _=False, view=view: self.look(view))
         self.ghosts = QComboBox()
         for name in GHOSTS:
-            self.ghosts.addItem(translate("view3d", name))
-        self.ghosts.setAccessibleName(translate("view3d", "Robots to draw"))
+            self.ghosts.addItem(tr(name))
+        self.ghosts.setAccessibleName(tr("Robots to draw"))
         drawn = tuple(GHOSTS.values())
         self.ghosts.currentIndexChanged.connect(
             lambda at: self._change(lambda scene: scene.choose(*drawn[at]))
@@ -221,32 +201,20 @@ class View3dPanel(Panel):
         self.factor = QComboBox()
         for factor in FACTORS:
             self.factor.addItem(factor_text(factor), factor)
-        self.factor.setAccessibleName(translate("view3d", "Magnification of nano motion"))
+        self.factor.setAccessibleName(tr("Magnification of nano motion"))
         self.factor.currentIndexChanged.connect(
             lambda at: self._change(lambda scene: scene.exaggerate(float(FACTORS[at])))
         )
-        self.browser = QPushButton(translate("view3d", "Open in the browser"))
+        self.browser = QPushButton(tr("Open in the browser"))
         self.browser.clicked.connect(self.open_in_browser)
 
     def _lay_out(self) -> None:
-        above, below = QHBoxLayout(), QHBoxLayout()  # one row would widen a small window
-        for button in self.views.values():
-            above.addWidget(button)
-        above.addStretch(1)
-        for widget in (self.ghosts, self.factor):
-            below.addWidget(widget)
-        below.addStretch(1)
-        below.addWidget(self.browser)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(10, 6, 10, 6)
-        outer.addLayout(above)
-        outer.addLayout(below)
-        outer.addWidget(self.canvas or self._reason(), 1)
+        above = in_row(*self.views.values(), 1)  # one row would widen a small window
+        below = in_row(self.ghosts, self.factor, 1, self.browser)
+        in_column(above, below, (self.canvas or self._reason(), 1), on=self, margins=(10, 6, 10, 6))
 
     def _reason(self) -> QLabel:
-        words = QLabel(self._unfit)
-        words.setTextFormat(Qt.TextFormat.PlainText)
-        words.setWordWrap(True)
+        words = plain_text(self._unfit, quiet=False, wrap=True)
         words.setAlignment(Qt.AlignmentFlag.AlignCenter)
         return words
 
@@ -262,4 +230,4 @@ def scene_of(robot: Robot, theme: Theme) -> tuple[RobotScene | None, str | None]
         colours, said = colours_of(theme), written()
         return RobotScene(robot, colours, old_s=STALE_S, words=said), None
     except ChainError as error:
-        return None, translate("view3d", "There is nothing to draw. {error}").format(error=error)
+        return None, tr("There is nothing to draw. {error}").format(error=error)

@@ -116,18 +116,6 @@
         <translation>Abstimmung</translation>
     </message>
     <message>
-        <source>Reading {name} …</source>
-        <translation>{name} wird gelesen …</translation>
-    </message>
-    <message>
-        <source>Saved {path}</source>
-        <translation>Gespeichert: {path}</translation>
-    </message>
-    <message>
-        <source>Writing {name} …</source>
-        <translation>{name} wird geschrieben …</translation>
-    </message>
-    <message>
         <source>Stopped; nothing was replaced.</source>
         <translation>Abgebrochen; nichts wurde ersetzt.</translation>
     </message>

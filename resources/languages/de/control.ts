@@ -144,10 +144,6 @@
         <translation>Stufe {name}</translation>
     </message>
     <message>
-        <source>Phase of the penetration</source>
-        <translation>Phase der Penetration</translation>
-    </message>
-    <message>
         <source>Axis {axis}; parameters: see the Penetration panel.</source>
         <translation>Achse {axis}; Parameter: siehe Panel Penetration.</translation>
     </message>
@@ -559,10 +555,6 @@
     <message>
         <source>Start the armed penetration</source>
         <translation>Die vorbereitete Penetration starten</translation>
-    </message>
-    <message>
-        <source>the penetration is running ({phase}); stop it first</source>
-        <translation>die Penetration läuft ({phase}); erst anhalten</translation>
     </message>
     <message>
         <source>State of the joystick</source>

@@ -64,18 +64,6 @@
         <translation>Effekte, die sich nicht laden lassen:</translation>
     </message>
     <message>
-        <source>Reading {name} …</source>
-        <translation>{name} wird gelesen …</translation>
-    </message>
-    <message>
-        <source>Writing {name} …</source>
-        <translation>{name} wird geschrieben …</translation>
-    </message>
-    <message>
-        <source>Saved {path}</source>
-        <translation>Gespeichert: {path}</translation>
-    </message>
-    <message>
         <source>Load effects from a robot file</source>
         <translation>Effekte aus einer Roboterdatei laden</translation>
     </message>

@@ -256,14 +256,6 @@
         <translation>Speichern …</translation>
     </message>
     <message>
-        <source>Writing {name} …</source>
-        <translation>{name} wird geschrieben …</translation>
-    </message>
-    <message>
-        <source>Saved {path}</source>
-        <translation>Gespeichert: {path}</translation>
-    </message>
-    <message>
         <source>Acknowledge the device&apos;s fault</source>
         <translation>Den Fehler des Geräts quittieren</translation>
     </message>

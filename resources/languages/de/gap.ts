@@ -24,14 +24,6 @@
         <translation>JSON (*.json)</translation>
     </message>
     <message>
-        <source>Saved {path}</source>
-        <translation>Gespeichert: {path}</translation>
-    </message>
-    <message>
-        <source>Writing {name} …</source>
-        <translation>{name} wird geschrieben …</translation>
-    </message>
-    <message>
         <source>One record is chosen.</source>
         <translation>Eine Aufzeichnung ist gewählt.</translation>
     </message>
@@ -401,10 +393,6 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     <message>
         <source>gap</source>
         <translation>Abweichung</translation>
-    </message>
-    <message>
-        <source>Reading {name} …</source>
-        <translation>{name} wird gelesen …</translation>
     </message>
     <message>
         <source>Add files …</source>

@@ -393,10 +393,6 @@
         <translation>Kennwerte</translation>
     </message>
     <message>
-        <source>Reading {name} …</source>
-        <translation>{name} wird gelesen …</translation>
-    </message>
-    <message>
         <source>Open record</source>
         <translation>Aufzeichnung öffnen</translation>
     </message>
@@ -419,14 +415,6 @@
     <message>
         <source>Tables (*.csv)</source>
         <translation>Tabellen (*.csv)</translation>
-    </message>
-    <message>
-        <source>Writing {name} …</source>
-        <translation>{name} wird geschrieben …</translation>
-    </message>
-    <message>
-        <source>Saved {path}</source>
-        <translation>Gespeichert: {path}</translation>
     </message>
     <message>
         <source>{axis}: the record has no {axis}.{tap}; it has {columns}</source>

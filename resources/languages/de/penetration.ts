@@ -163,10 +163,6 @@
         <translation>Simulierte Zelle</translation>
     </message>
     <message>
-        <source>Reading {name} …</source>
-        <translation>{name} wird gelesen …</translation>
-    </message>
-    <message>
         <source>waiting</source>
         <translation>wartet</translation>
     </message>
@@ -229,14 +225,6 @@
     <message>
         <source>the list is empty</source>
         <translation>die Liste ist leer</translation>
-    </message>
-    <message>
-        <source>Writing {name} …</source>
-        <translation>{name} wird geschrieben …</translation>
-    </message>
-    <message>
-        <source>Saved {path}</source>
-        <translation>{path} gespeichert</translation>
     </message>
     <message>
         <source>Export cells</source>

@@ -147,10 +147,6 @@
         <translation>Rot: über der Schleppgrenze, {bound}</translation>
     </message>
     <message>
-        <source>Reading {name} …</source>
-        <translation>{name} wird gelesen …</translation>
-    </message>
-    <message>
         <source>Record beside the present run</source>
         <translation>Aufzeichnung neben dem jetzigen Lauf</translation>
     </message>

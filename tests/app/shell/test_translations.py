@@ -14,6 +14,7 @@ from PySide6.QtCore import QTranslator
 
 from rotemina.app.cli.translated_help import CONTEXT as HELP
 from rotemina.app.records.run_report import TEXTS as RUN_TEXTS
+from rotemina.plugins.effects.words import catalogue
 from rotemina.sim.gap.report.texts import TEXTS as GAP_TEXTS
 
 ROOT = Path(__file__).parents[3]
@@ -32,7 +33,7 @@ SHOWN_BY = (
     *("setText", "setToolTip", "setStatusTip", "setWindowTitle", "setPlaceholderText", "setTitle"),
     *("setAccessibleName", "setAccessibleDescription", "setSpecialValueText", "setTabText"),
     *("addItem", "addAction", "addMenu", "addTab", "addRow", "setLabelText"),
-    *("notify", "allow", "plain_tip", "show_text", "setHorizontalHeaderLabels", "setHtml"),
+    *("notify", "named", "allow", "plain_tip", "show_text", "setHorizontalHeaderLabels", "setHtml"),
 )
 # What no operator sees: self-tests, a board's own program, what stands in for a window.
 FOREIGN = {*dir(builtins), "ArgumentTypeError"}  # errors of Python
@@ -71,8 +72,23 @@ def german():
     return found
 
 
+def with_contexts(path, folder):
+    """A copy, in a folder, of a panel's module: each text with its context, as lupdate wants it."""
+    context = path.parent.name
+    text = path.read_text("utf-8")
+    for short, full in (("tr", "translate"), ("mark", "marked")):
+        text = re.sub(rf"(?<![\w.]){short}\(", f'{full}("{context}", ', text)
+    copy = folder / context / path.name
+    copy.parent.mkdir(exist_ok=True)
+    copy.write_text(text, "utf-8")
+    return copy
+
+
 def test_every_text_of_the_window_is_translated(german, tmp_path):
     shown = {path for folder in WINDOW for path in ROOT.glob(folder)}
+    shown = {
+        with_contexts(path, tmp_path) if path.parts[-3] == "plugins" else path for path in shown
+    }
     engine = {*(ROOT / "sim").rglob("*.py"), *(ROOT / "drivers").rglob("*.py")}
     engine |= {*(ROOT / "app").glob("*.py")}
     for folder in (
@@ -80,7 +96,10 @@ def test_every_text_of_the_window_is_translated(german, tmp_path):
         *("scene", "plugin_kit"),
     ):
         engine |= {*(ROOT / "app" / folder).rglob("*.py")}
-    sources = sorted(shown | engine)
+    model = tmp_path / "effects" / "catalogue.py"
+    words = (f'translate("effects", {text!r})' for text in catalogue())
+    model.write_text("\n".join(words), "utf-8")
+    sources = sorted({*shown, *engine, model})
     found = tmp_path / "found.ts"
     program = Path(PySide6.__file__).parent / "lupdate"
     done = subprocess.run(
