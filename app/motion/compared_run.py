@@ -150,7 +150,7 @@ def _answers_anew(
 ) -> RunAnswers | None:
     """Return what another model says of a record; None where nothing is known of before."""
     if not model.corrected:
-        return replace(told, in_use=told.nominal, doubt=np.zeros(told.nominal.shape))
+        return replace(told, in_use=told.nominal)
     time_s, command = memory.history()
     before = time_s < told.began_s
     if memory.number != told.memory or not before.any():
@@ -161,9 +161,9 @@ def _answers_anew(
         rows[:, order.index(axis)] = record.signal(axis, Tap.CMD)
     run = BracketedModel(model.robot, model.offsets)
     run.answer(time_s[before], command[before])
-    in_use, doubt = run.answer(told.began_s + record.time_s - record.time_s[0], rows)
+    in_use, _ = run.answer(told.began_s + record.time_s - record.time_s[0], rows)
     own = [order.index(axis) for axis in told.axes]
-    return replace(told, in_use=in_use[:, own], doubt=doubt[:, own])
+    return replace(told, in_use=in_use[:, own])
 
 
 def _with_readings(response: Response, readings: Mapping[str, FloatArray]) -> Response:

@@ -24,16 +24,6 @@ class Gap:
     peak: float
 
 
-@dataclass(frozen=True, slots=True)
-class Excess:
-    """An axis beyond its bound for too long; m or rad."""
-
-    axis: str
-    deviation: float
-    bound: float
-    text: str
-
-
 class DeviationWatch:
     """Compares readings with the nominal model's, portion by portion, while something plays.
 
@@ -92,8 +82,8 @@ class DeviationWatch:
 
     def add(
         self, samples: Samples, model: FloatArray, nominal: FloatArray | None = None
-    ) -> Excess | None:
-        """Add samples and the models' answers (n, axes); return the axis that exceeds its bound.
+    ) -> str | None:
+        """Add samples and the models' answers (n, axes); say which axis exceeds its bound, if any.
 
         The gap is that of the model in use. The bound also holds against the nominal model, so
         another model never widens it.
@@ -119,10 +109,10 @@ class DeviationWatch:
                 return self._excess(int(lasting[0]), float(deviation[row, lasting[0]]))
         return None
 
-    def _excess(self, column: int, deviation: float) -> Excess:
+    def _excess(self, column: int, deviation: float) -> str:
         axis, bound = self._axes[column], float(self._bounds[column])
         unit = self._robot.unit(axis) or ""
-        text = message(
+        return message(
             "engine",
             "axis {axis} deviates from the model by {deviation} for more than {time} ms; the "
             "bound is {bound}",
@@ -132,4 +122,3 @@ class DeviationWatch:
             time=1e3 * self._lasting_s,
             bound=exact(bound, unit),
         )
-        return Excess(axis, deviation, bound, text)

@@ -23,7 +23,6 @@ from rotemina.app.motion.penetration.run_log import RunLog
 from rotemina.app.motion.recording.arrow_tables import prepare
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
-from rotemina.app.motion.recording.writer import RecorderNotice
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.teleoperation.input_devices import InputDevices, InputSnapshot
 from rotemina.app.motion.teleoperation.intent import Action, Intent
@@ -389,8 +388,8 @@ class Operation:
                     recorder.record_reading(device, reading)
         recorder.record_intent(snapshot.intent)
 
-    def _recorder_told(self, notice: RecorderNotice) -> None:
-        self._told(message("engine", "Recorder: {message}").fill(message=notice.message))
+    def _recorder_told(self, notice: str) -> None:
+        self._told(message("engine", "Recorder: {message}").fill(message=notice))
 
     def _step_failed(self, error: Exception) -> None:
         self._told(

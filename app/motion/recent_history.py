@@ -2,7 +2,6 @@
 
 import threading
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 
@@ -23,7 +22,7 @@ class LiveWindow:
     axes : tuple of str
         What the columns are.
     device_time_s : (n,)
-        Increasing; not to be compared with times of another ``connection``.
+        Increasing; not to be compared with times of another connection to the device.
     command, model, measured : (n, axes)
         What was commanded, what the model in use answers to it, what the sensors said; m or rad.
         The model is NaN where it has no finite answer.
@@ -32,8 +31,6 @@ class LiveWindow:
         machine's past is unknown.
     gap_since_s : float
         Device time from which on the model was in use: the gap begins there.
-    connection : int
-        Counts up whenever the history starts again, after each connection to the device.
     """
 
     axes: tuple[str, ...]
@@ -41,7 +38,6 @@ class LiveWindow:
     command: FloatArray
     model: FloatArray
     measured: FloatArray
-    connection: int
     nominal: FloatArray = field(default_factory=_nothing)
     doubt: FloatArray = field(default_factory=_nothing)
     gap_since_s: float = float("-inf")
@@ -69,14 +65,12 @@ class LiveHistory:
         self._values = np.empty((self.capacity, 5, len(axes)))
         self._gap_since_s = float("-inf")
         self._written = 0
-        self._connection = 0
         self._lock = threading.Lock()
 
     def clear(self) -> None:
         """Forget everything: a new connection has its own device time."""
         with self._lock:
             self._written = 0
-            self._connection += 1
             self._gap_since_s = float("-inf")
 
     def restart_gap(self) -> None:
@@ -108,27 +102,23 @@ class LiveHistory:
             self._values[slots] = values[-count:]
             self._written += count
 
-    def tail(self, seconds: float | None = None, *, since_s: float | None = None) -> LiveWindow:
-        """Return the latest ``seconds``, or samples later than ``since_s``, or all.
-
-        ``since_s`` is a device time; with both, the shorter section counts.
-        """
+    def tail(self, seconds: float | None = None) -> LiveWindow:
+        """Return the latest ``seconds``, or all."""
         with self._lock:
             count = min(self._written, self.capacity)
             first = self._written - count
-            if count and (seconds is not None or since_s is not None):
-                first += self._skipped(first, count, seconds, since_s)
+            if count and seconds is not None:
+                first += self._skipped(first, seconds)
             time_s = self._ordered(self._time_s, first)
             values = self._ordered(self._values, first)
-            connection, gap_since_s = self._connection, self._gap_since_s
+            gap_since_s = self._gap_since_s
         command, model, measured, nominal, doubt = (
             read_only(np.ascontiguousarray(values[:, part])) for part in range(5)
         )
-        time_s = read_only(time_s)
-        parts = (command, model, measured, connection, nominal, doubt, gap_since_s)
-        return LiveWindow(self.axes, time_s, *parts)
+        parts = (command, model, measured, nominal, doubt, gap_since_s)
+        return LiveWindow(self.axes, read_only(time_s), *parts)
 
-    def _skipped(self, first: int, count: int, seconds: float | None, since_s: float | None) -> int:
+    def _skipped(self, first: int, seconds: float) -> int:
         """Return how many of the oldest samples are too old."""
         begin, end = first % self.capacity, self._written % self.capacity
         older, newer = (
@@ -136,16 +126,9 @@ class LiveHistory:
             if begin < end
             else (self._time_s[begin:], self._time_s[:end])
         )
-
-        def place(at_s: float, side: Literal["left", "right"]) -> int:
-            in_older = int(older.searchsorted(at_s, side))
-            return in_older + (int(newer.searchsorted(at_s, side)) if in_older == len(older) else 0)
-
-        skipped = 0 if since_s is None else place(since_s, "right")
-        if seconds is not None:
-            newest_s = float(self._time_s[(self._written - 1) % self.capacity])
-            skipped = max(skipped, place(newest_s - seconds, "left"))
-        return min(skipped, count)
+        begin_s = self._time_s[(self._written - 1) % self.capacity] - seconds
+        skipped = int(older.searchsorted(begin_s))
+        return skipped + (int(newer.searchsorted(begin_s)) if skipped == len(older) else 0)
 
     def _ordered(self, ring: FloatArray, first: int) -> FloatArray:
         """Copy a ring from sample number ``first`` to the latest, oldest first."""

@@ -31,7 +31,7 @@ class RunAnswers:
     ----------
     axes : tuple of str
         The record's.
-    in_use, nominal, doubt : (n, axes)
+    in_use, nominal : (n, axes)
         As :class:`~rotemina.app.motion.live_models.ModelOutputs`.
     began_s : float
         Device time of the first row.
@@ -42,7 +42,6 @@ class RunAnswers:
     axes: tuple[str, ...]
     in_use: FloatArray
     nominal: FloatArray
-    doubt: FloatArray
     began_s: float
     memory: int
 
@@ -143,7 +142,7 @@ class PlaybackRecorder:
         order, axes = tuple(self._trajectory.robot.axes), self._trajectory.commands.axes
         own = [order.index(axis) for axis in axes]
         alike = answers.in_use is answers.nominal
-        parts = (answers.in_use,) if alike else (answers.in_use, answers.nominal, answers.doubt)
+        parts = (answers.in_use,) if alike else (answers.in_use, answers.nominal)
         table = np.concatenate([part[first:, own] for part in parts], axis=1)
         if self._answers is None:
             self._answers = _Samples(table.shape[1])
@@ -155,10 +154,8 @@ class PlaybackRecorder:
         columns = np.arange(kept.columns - 1)
         values = np.column_stack(kept.drained(self._rows, columns))
         in_use = np.ascontiguousarray(values[:, :count])
-        if kept.columns == count:
-            return RunAnswers(axes, in_use, in_use, np.zeros(in_use.shape), began_s, self._memory)
-        nominal, doubt = values[:, count : 2 * count], values[:, 2 * count :]
-        return RunAnswers(axes, in_use, nominal, doubt, began_s, self._memory)
+        nominal = in_use if kept.columns == count else values[:, count:]
+        return RunAnswers(axes, in_use, nominal, began_s, self._memory)
 
     def _check_rows(self, samples: Samples, began: IntArray) -> None:
         rows = np.concatenate([[self._row], samples.playback_row[began]])

@@ -74,12 +74,9 @@ class Penetration(PenetrationSequence):
             self._feed = AxisFeed(self._session, parameters.axis)
             self._permit = permit
             self._armed_until_s = now_s + parameters.armed_s
-            plan = self._attempt.plan
             self._status = PenetrationStatus(
                 Phase.ARMED,
                 armed_left_s=parameters.armed_s,
-                average_speed=plan.average_speed,
-                peak_speed=plan.peak_speed,
                 run=self._status.run,
                 trace=self._status.trace,
             )

@@ -12,7 +12,7 @@ from pathlib import Path
 from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.recording.arrow_tables import units_of
 from rotemina.app.motion.recording.segments import Opener, new_file
-from rotemina.app.motion.recording.writer import RecorderNotice, RecordingWriter
+from rotemina.app.motion.recording.writer import RecordingWriter
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (
     Alarmed,
@@ -69,7 +69,7 @@ class SessionRecorder:
         settings: Mapping[str, object] | None = None,
         began: str = "",
         clock: Clock = time.monotonic,
-        tell: Callable[[RecorderNotice], None] = lambda _: None,
+        tell: Callable[[str], None] = lambda _: None,
         opener: Opener = new_file,
     ) -> None:
         self._session = session

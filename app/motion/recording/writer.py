@@ -4,7 +4,6 @@ import json
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from uuid import uuid4
 
@@ -35,14 +34,6 @@ CAPACITY_BYTES = 64_000_000  # of what waits: 14 s at 20 kHz and 24 channels, 5 
 _LONGEST_S = 60.0  # that a close waits for a disk that hangs
 
 
-@dataclass(frozen=True, slots=True)
-class RecorderNotice:
-    """A message to the operator about the recording; motion is unaffected."""
-
-    message: str
-    problem: bool
-
-
 class RecordingWriter:
     """Writes data to ``PATH.part``, one segment at a time, and merges it on close.
 
@@ -64,7 +55,7 @@ class RecordingWriter:
     clock : callable
         The host's monotonic time, s.
     tell : callable
-        Gets notices, on the thread that writes.
+        Gets what the operator must know, on the thread that writes; motion is unaffected.
     capacity_bytes : int
         Of what may wait to be written.
     opener : callable
@@ -83,7 +74,7 @@ class RecordingWriter:
         metadata: Mapping[str, str],
         *,
         clock: Clock = time.monotonic,
-        tell: Callable[[RecorderNotice], None] = lambda _: None,
+        tell: Callable[[str], None] = lambda _: None,
         capacity_bytes: int = CAPACITY_BYTES,
         opener: Opener = new_file,
     ) -> None:
@@ -218,13 +209,9 @@ class RecordingWriter:
         self._file.close()
         if self._failure is not None:
             self._tell(
-                RecorderNotice(
-                    message(
-                        "engine",
-                        "{name}: the end of the recording could not be written ({failure})",
-                    ).fill(name=self.path.name, failure=self._failure),
-                    problem=True,
-                )
+                message(
+                    "engine", "{name}: the end of the recording could not be written ({failure})"
+                ).fill(name=self.path.name, failure=self._failure)
             )
         return merged(self._file.path, self.path)
 
@@ -278,8 +265,7 @@ class RecordingWriter:
                     "engine",
                     "{name}: the recording has failed ({reason}); the data so far are safe in "
                     "{path}. Free disk space; the motion continues",
-                ).fill(name=self.path.name, reason=reason, path=self._file.path),
-                problem=True,
+                ).fill(name=self.path.name, reason=reason, path=self._file.path)
             )
         self._failure = reason
 
@@ -291,8 +277,7 @@ class RecordingWriter:
             self._notice(
                 message("engine", "{file}: the recording continues; {what}").fill(
                     file=self.path.name, what=what
-                ),
-                problem=bool(gap),
+                )
             )
 
     def _note_speed(self, took_s: float) -> None:
@@ -303,10 +288,9 @@ class RecordingWriter:
                     "engine",
                     "{name}: the disk took {took_s} s for a segment: a crash or a power cut now "
                     "could lose more than a second; record to a faster one",
-                ).fill(name=self.path.name, took_s=fixed(took_s, 1)),
-                problem=True,
+                ).fill(name=self.path.name, took_s=fixed(took_s, 1))
             )
 
-    def _notice(self, message: str, *, problem: bool) -> None:
+    def _notice(self, message: str) -> None:
         self.event("recorder", message)
-        self._tell(RecorderNotice(message, problem))
+        self._tell(message)

@@ -21,8 +21,6 @@ class DevicesView:
     setting_up : bool
         Whether nothing is sent but stops.
     profile : Profile or None
-    automatic : bool
-        Whether the profile was made for what is plugged in.
     problems : tuple of str
         What is wrong with the profile, and with devices as it uses them.
     """
@@ -32,5 +30,4 @@ class DevicesView:
     driving: OperatorRole = OperatorRole.TRAINER
     setting_up: bool = False
     profile: Profile | None = None
-    automatic: bool = True
     problems: tuple[str, ...] = ()

@@ -43,7 +43,6 @@ class DeviceView:
     problem : str or None
         Why it cannot be used at all.
     axes : tuple of AxisView
-    held : frozenset of Action
     newest : InputReading or None
         What it said last, as long as that holds.
     calibration : Calibration
@@ -54,7 +53,6 @@ class DeviceView:
     drives: bool
     problem: str | None
     axes: tuple[AxisView, ...]
-    held: frozenset[Action]
     newest: InputReading | None
     calibration: Calibration
 
@@ -228,7 +226,6 @@ class InputArbiter:
                 self._drives(device),
                 self._unusable.get(key) or device.problem,
                 device.axes,
-                device.held,
                 device.newest,
                 self._calibrations[key],
             )

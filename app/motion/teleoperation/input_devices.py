@@ -88,11 +88,6 @@ class InputDevices:
         return self._used
 
     @property
-    def automatic(self) -> bool:
-        """Whether the profile was made for what is plugged in, and changes with that."""
-        return self._chosen is None
-
-    @property
     def profiles(self) -> tuple[ListedProfile, ...]:
         """The user's saved profiles, invalid ones with their problem."""
         return listed_profiles(self._profiles)
@@ -141,12 +136,6 @@ class InputDevices:
     # --- devices ----------------------------------------------------------------------------------
 
     @property
-    def plugged(self) -> tuple[PluggedDevice, ...]:
-        """The devices that are open."""
-        with self._lock:
-            return tuple(_plugged(device) for device in self._open.values())
-
-    @property
     def view(self) -> DevicesView:
         """The state for display, at most ``VIEW_S`` old; never waits.
 
@@ -167,12 +156,6 @@ class InputDevices:
                 self._listeners = tuple(one for one in self._listeners if one is not tell)
 
         return leave
-
-    @property
-    def problems(self) -> tuple[str, ...]:
-        """Problems of sources, devices and the profile, as text."""
-        with self._lock:
-            return (*self.hub.problems.values(), *self.arbiter.problems)
 
     def look(self) -> None:
         """Detect connected and removed devices; the next step handles them."""
@@ -247,7 +230,6 @@ class InputDevices:
             arbiter.driving,
             arbiter.mapping_open,
             self._used,
-            self._chosen is None,
             arbiter.problems,
         )
 

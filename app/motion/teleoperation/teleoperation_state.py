@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.scales import LawKind
@@ -21,7 +20,7 @@ class CoordinateView:
         What of the operator's devices moves it.
     deflection : float or None
         Of its stick, in its own direction; None: there is none that is trusted.
-    position, velocity : float
+    position : float
         Of the reference, m or rad.
     waiting : bool
         Whether its stick must be seen in the middle before it counts.
@@ -35,7 +34,6 @@ class CoordinateView:
     source: str
     deflection: float | None
     position: float
-    velocity: float
     waiting: bool
     law: ScalingLaw
     felt: float = 0.0
@@ -77,23 +75,18 @@ class TeleoperationState:
     tilt: float | None = None
 
 
-class Shown(NamedTuple):
-    """The last three of :class:`TeleoperationState`."""
-
-    coordinates: tuple[CoordinateView, ...]
-    reserve: float | None
-    tilt: float | None
-
-
 def shown(
     steering: Steering, deflections: Mapping[str, float], reactions: Mapping[str, float]
-) -> Shown:
-    """Return the view of a steering; ``reactions`` are contact readings by coordinate."""
+) -> tuple[tuple[CoordinateView, ...], float | None, float | None]:
+    """Return the last three of :class:`TeleoperationState`.
+
+    ``reactions`` are contact readings by coordinate.
+    """
     views = tuple(
         _viewed(steering, name, deflections, reactions.get(name, 0.0)) for name in steering.laws
     )
     places = steering.coordinates
-    return Shown(views, steering.frame.reserve(places), steering.frame.tilt(places))
+    return views, steering.frame.reserve(places), steering.frame.tilt(places)
 
 
 def _viewed(
@@ -108,7 +101,7 @@ def _viewed(
         steering.frame.coordinates[name].unit,
         steering.sources[name],
         steering.deflection_of(name, deflections),
-        *law.motion,
+        law.motion.position,
         name in steering.waiting,
         law,
         felt,

@@ -43,9 +43,8 @@ def test_a_deviation_that_lasts_is_told_with_axis_value_and_bound():
     watch = DeviationWatch(ROBOT, {"x": 5e-6}, lasting_s=0.02)
     excess = watch.add(*samples([0.0] * 10 + [7e-6] * 30))
     assert excess is not None
-    assert (excess.axis, excess.deviation, excess.bound) == ("x", 7e-6, 5e-6)
-    assert "axis x deviates from the model by 7 µm" in excess.text
-    assert "the bound is 5 µm" in excess.text
+    assert "axis x deviates from the model by 7 µm" in excess
+    assert "the bound is 5 µm" in excess
 
 
 def test_it_counts_over_portions_and_starts_anew_within_the_bound():

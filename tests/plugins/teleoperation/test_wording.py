@@ -32,9 +32,7 @@ def device(source="hid", seat=OperatorRole.TRAINER, drives=True, problem=None, *
     axes = tuple(AxisView(a.upper(), 0.0, 0.0, a, reasons.get(a)) for a in "xyz")
     axes += (AxisView("slider", 0.0, 0.0, None, "not at rest yet"),)
     plugged = PluggedDevice(identity, ("X", "Y", "Z", "slider"), ())
-    return DeviceView(
-        plugged, seat, drives, problem, axes, frozenset(), None, Calibration(device=identity.key)
-    )
+    return DeviceView(plugged, seat, drives, problem, axes, None, Calibration(device=identity.key))
 
 
 STICK = DevicesView(1.0, (device(), device("keys", OperatorRole.TRAINEE, drives=False)))
@@ -44,7 +42,7 @@ PAD = DevicesView(1.0, (device("keys"),))
 def view(kind, *, factor=1.0, waiting=False, **scale):
     law = replace(Scale.preset(TABLE), **scale).law(kind, TABLE, 0.0)
     law.rescale(factor)
-    return CoordinateView("x", "m", "x", 0.0, 0.0275, 0.0, waiting, law)
+    return CoordinateView("x", "m", "x", 0.0, 0.0275, waiting, law)
 
 
 def test_the_device_that_drives_is_named():
