@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,6 +77,18 @@ def frame_facts(frame: Frame) -> dict[str, object]:
     }
 
 
+def tiff_tags(frame: Frame, about: Circumstances) -> dict[str, Any]:
+    """Return what tifffile is told of a picture beside its description."""
+    per_cm = 0.01 / about.pixel_m if about.pixel_m else None
+    return {
+        "photometric": "rgb" if frame.colour else "minisblack",
+        "metadata": None,
+        "software": program(),
+        "resolution": None if per_cm is None else (per_cm, per_cm),
+        "resolutionunit": None if per_cm is None else "CENTIMETER",
+    }
+
+
 def write_tiff(path: Path, frame: Frame, about: Circumstances) -> None:
     """Write the camera's own numbers, 8 or 16 bits, completely or not at all.
 
@@ -86,17 +99,9 @@ def write_tiff(path: Path, frame: Frame, about: Circumstances) -> None:
     """
     import tifffile  # takes a tenth of a second, for which no start of the window waits
 
-    per_cm = 0.01 / about.pixel_m if about.pixel_m else None
     with replaced(path) as file:
         tifffile.imwrite(
-            file,
-            frame.pixels,
-            photometric="rgb" if frame.colour else "minisblack",
-            description=description(frame, about),
-            metadata=None,
-            software=program(),
-            resolution=None if per_cm is None else (per_cm, per_cm),
-            resolutionunit=None if per_cm is None else "CENTIMETER",
+            file, frame.pixels, description=description(frame, about), **tiff_tags(frame, about)
         )
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from rotemina.app.cameras.snapshot import Circumstances, description, program
+from rotemina.app.cameras.snapshot import Circumstances, description, tiff_tags
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.whole_files import replaced
 
@@ -33,7 +33,6 @@ def write_stack(path: Path, pages: Sequence[Page], axis: str, about: Circumstanc
     """
     import tifffile  # takes a tenth of a second, for which no start of the window waits
 
-    per_cm = 0.01 / about.pixel_m if about.pixel_m else None
     with replaced(path) as file, tifffile.TiffWriter(file) as writer:
         for number, page in enumerate(pages, 1):
             own = replace(about, command=page.command, measured=page.measured)
@@ -42,11 +41,7 @@ def write_stack(path: Path, pages: Sequence[Page], axis: str, about: Circumstanc
             facts |= {"page": number, "pages": len(pages)}
             writer.write(
                 page.frame.pixels,
-                photometric="rgb" if page.frame.colour else "minisblack",
                 description=json.dumps(facts),
-                metadata=None,
                 contiguous=False,
-                software=program(),
-                resolution=None if per_cm is None else (per_cm, per_cm),
-                resolutionunit=None if per_cm is None else "CENTIMETER",
+                **tiff_tags(page.frame, about),
             )

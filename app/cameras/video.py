@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
-from rotemina.app.cameras.video_file import Opener, VideoFile, new_file
+from rotemina.app.cameras.video_file import VideoFile
+from rotemina.app.files import Opener, new_file
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message

@@ -10,29 +10,17 @@ import json
 import struct
 from collections.abc import Mapping
 from pathlib import Path
-from typing import BinaryIO, Protocol
 
 import numpy as np
 
 from rotemina.app.cameras.snapshot import frame_facts, program
+from rotemina.app.files import Opener, new_file, write_all
 from rotemina.drivers.cameras.frame import Frame
 
 _ASCII, _SHORT, _LONG, _RATIONAL, _LONG8 = 2, 3, 4, 5, 16
 _HEADER = struct.pack("<2sHHHQ", b"II", 43, 8, 0, 0)
 _FIRST = 8  # where the header points to the first page
 _CENTIMETRE = 3
-
-
-class Opener(Protocol):
-    """Makes a new file; tests let it fail."""
-
-    def __call__(self, path: Path) -> BinaryIO:
-        """Return the file, open, empty and without a buffer."""
-
-
-def new_file(path: Path) -> BinaryIO:
-    """Make a file that was not there."""
-    return path.open("xb", buffering=0)
 
 
 class VideoFile:
@@ -86,7 +74,7 @@ class VideoFile:
             start, directory, link = self._directory(frame, data)
             self._put(directory)
             self._file.seek(self._link)
-            self._write(struct.pack("<Q", start))
+            write_all(self._file, struct.pack("<Q", start))
         except OSError:
             self._end = before
             self._file.truncate(before)
@@ -136,13 +124,8 @@ class VideoFile:
     def _put(self, data: bytes) -> None:
         """Write at the end."""
         self._file.seek(self._end)
-        self._write(data)
+        write_all(self._file, data)
         self._end += len(data)
-
-    def _write(self, data: bytes) -> None:
-        rest = memoryview(data)
-        while rest:  # without a buffer, a disk may take a part
-            rest = rest[self._file.write(rest) :]
 
 
 def _ratio(pixel_m: float | None) -> bytes:

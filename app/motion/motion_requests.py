@@ -410,7 +410,7 @@ class Moves:
         """Return the latest accepted target of an axis, or its present position."""
         target = self._link.mailbox.target_of(axis)
         if target is None:
-            target = self._link.worker.ends.get(axis)
+            target = self._link.worker.executor.ends.get(axis)
         if target is None:
             target = self._link.worker.state.command.get(axis, float("nan"))
         return target

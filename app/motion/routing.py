@@ -99,8 +99,8 @@ class Routing:
 
         Whoever sends another axis meanwhile takes them along: the rest of their move ends with it.
         """
-        worker = self._link.worker
-        ends = dict(worker.ends) if worker.between_segments else {}
+        executor = self._link.worker.executor
+        ends = dict(executor.ends) if executor.between_segments else {}
         for each in self._link.mailbox.pending():
             ends |= each
         return {axis: at for axis, at in ends.items() if axis in self._backlash.applied}

@@ -10,11 +10,12 @@ import os
 import struct
 import threading
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
-from typing import BinaryIO, NamedTuple, Self
+from typing import NamedTuple, Self
 
+from rotemina.app.files import Opener, new_file, write_all
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.locking import locked
 from rotemina.sim.input_files import open_file
@@ -25,13 +26,6 @@ _PROGRAM = MAGIC[:6]
 _HEADER = struct.Struct("<8sQQI")
 _COUNTED = struct.Struct("<QQ")
 _MOST_UNCONFIRMED = 64_000_000  # bytes
-
-Opener = Callable[[Path], BinaryIO]
-
-
-def new_file(path: Path) -> BinaryIO:
-    """Open a file that is not there yet, without a buffer of our own."""
-    return path.open("xb", buffering=0)
 
 
 class ByteRange(NamedTuple):
@@ -111,7 +105,7 @@ class SegmentFile:
             )
             try:
                 self._file.seek(self._end)
-                self._write(written)
+                write_all(self._file, written)
             except OSError:
                 with suppress(OSError):  # what is left is no whole segment, or will be written over
                     self._file.truncate(self._end)
@@ -148,11 +142,6 @@ class SegmentFile:
     def close(self) -> None:
         """Release the file; safe to call twice."""
         self._file.close()
-
-    def _write(self, data: bytes) -> None:
-        rest = memoryview(data)
-        while rest:  # a disk that fills up takes a part, and refuses the next
-            rest = rest[self._file.write(rest) :]
 
 
 def _header(number: int, content: bytes) -> bytes:

@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping
 from importlib.metadata import version
 from pathlib import Path
 
+from rotemina.app.files import Opener, new_file
 from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.recording.arrow_tables import units_of
-from rotemina.app.motion.recording.segments import Opener, new_file
 from rotemina.app.motion.recording.writer import RecordingWriter
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (

@@ -9,6 +9,7 @@ from uuid import uuid4
 
 import numpy as np
 
+from rotemina.app.files import Opener, new_file
 from rotemina.app.motion.recording.arrow_tables import (
     CLOCK,
     header,
@@ -20,7 +21,7 @@ from rotemina.app.motion.recording.backlog import Backlog, Block, Lost, Recorded
 from rotemina.app.motion.recording.device_clock import DeviceClock
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.recovery import UNFINISHED, merged
-from rotemina.app.motion.recording.segments import Opener, SegmentFile, new_file
+from rotemina.app.motion.recording.segments import SegmentFile
 from rotemina.app.motion.ticker import Ticker
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import Samples
