@@ -4,7 +4,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from rotemina.app.motion.guard import PathSegment
 from rotemina.drivers.driver import Driver
@@ -13,13 +13,28 @@ from rotemina.drivers.profile import Profile
 from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.regulation import Regulation
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Message, message
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
+
+A = TypeVar("A")
 
 
 class RefusedError(InputError):
     """A refused command; the message gives reason and remedy."""
+
+
+def able(driver: Driver, ability: type[A], refusal: Message) -> A:
+    """Return a driver that has an ability.
+
+    Raises
+    ------
+    RefusedError
+        With the ``refusal`` and in it the driver's ``name``, if it has not.
+    """
+    if not isinstance(driver, ability):
+        raise RefusedError(refusal.fill(name=repr(driver.name)))
+    return driver
 
 
 def refuse_overtaken(permit: Permit) -> None:
