@@ -1,6 +1,7 @@
 """Writing files completely or not at all, and files that grow."""
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -20,6 +21,11 @@ def write_all(file: BinaryIO, data: bytes) -> None:
     rest = memoryview(data)
     while rest:
         rest = rest[file.write(rest) :]
+
+
+def plain_name(name: str) -> str:
+    """Return a name in letters that a file's may have."""
+    return re.sub(r"[^\w.+-]+", "-", name).strip("-") or "_"
 
 
 def json_text(value: dict[str, Any]) -> str:

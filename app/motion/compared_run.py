@@ -14,7 +14,7 @@ from rotemina.app.motion.recorder import RunAnswers
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.comparison import Comparison, compare
 from rotemina.sim.comparison.gap import GapFigure, gap_figure, moving
-from rotemina.sim.plant.response import Response, nominal_response
+from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 
@@ -123,7 +123,8 @@ def compared(
                 readings[axis] = answers.in_use[:, column]
                 if model.corrected:
                     nominal[axis] = answers.nominal[:, column]
-    answered = _with_readings(response, readings)
+    signals = {**response.signals, **{(axis, Tap.MEAS): one for axis, one in readings.items()}}
+    answered = replace(response, signals=signals)
     comparison = compare(model.robot, record, response=answered)
     return Run(name, comparison, completed, model.id, MappingProxyType(nominal), answers)
 
@@ -164,9 +165,3 @@ def _answers_anew(
     in_use, _ = run.answer(told.began_s + record.time_s - record.time_s[0], rows)
     own = [order.index(axis) for axis in told.axes]
     return replace(told, in_use=in_use[:, own])
-
-
-def _with_readings(response: Response, readings: Mapping[str, FloatArray]) -> Response:
-    signals = dict(response.signals)
-    signals |= {(axis, Tap.MEAS): reading for axis, reading in readings.items()}
-    return replace(response, signals=signals)

@@ -177,13 +177,17 @@ class Worker:
         self._release_device()
         self._publish()
 
-    def _release_device(self) -> None:
+    def _let_go(self) -> None:
+        """Forget all requests, and stop as far as possible; there is nobody left to tell."""
         self._gate.reconnected()
         self._mailbox.clear()
         self.executor.forget()
         self.ownership.release()
-        with suppress(Exception):  # the link may be gone; there is nobody left to tell
+        with suppress(Exception):  # the link may be gone
             self.driver.stop()
+
+    def _release_device(self) -> None:
+        self._let_go()
         self._end_recording(completed=False)
         with suppress(Exception):
             self.driver.close()
@@ -368,12 +372,7 @@ class Worker:
     def _fail(self, message: str) -> None:
         """Lock motion; only an explicit reconnection ends this."""
         self.notes.add(message)
-        self._gate.reconnected()
-        self._mailbox.clear()
-        self.executor.forget()
-        self.ownership.release()
-        with suppress(Exception):  # best effort: the device is expected not to answer
-            self.driver.stop()
+        self._let_go()
         with suppress(Exception):
             self.driver.close()
         self._set_disconnected(Connection.FAILED, message)

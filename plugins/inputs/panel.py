@@ -15,8 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.motion.teleoperation.device_state import DevicesView
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.language import marked, translate

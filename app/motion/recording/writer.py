@@ -3,8 +3,11 @@
 import json
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from statistics import median
+from typing import NamedTuple
 from uuid import uuid4
 
 import numpy as np
@@ -18,7 +21,6 @@ from rotemina.app.motion.recording.arrow_tables import (
     streams,
 )
 from rotemina.app.motion.recording.backlog import Backlog, Block, Lost, RecordedEvent, Row
-from rotemina.app.motion.recording.device_clock import DeviceClock
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.recovery import UNFINISHED, merged
 from rotemina.app.motion.recording.segments import SegmentFile
@@ -32,7 +34,36 @@ from rotemina.sim.quantities import fixed
 SEGMENT_S = 0.25  # what a crash can lose, with the time that it takes to write so much
 SLOW_S = 0.7  # a disk that takes longer for a segment endangers the promise of one second
 CAPACITY_BYTES = 64_000_000  # of what waits: 14 s at 20 kHz and 24 channels, 5 min at 1 kHz
+_PORTIONS = 512  # eight seconds of them: a clock that is 50 ppm off drifts by 0.4 ms meanwhile
 _LONGEST_S = 60.0  # that a close waits for a disk that hangs
+
+
+class ClockFit(NamedTuple):
+    """``host_time_s`` = device time + ``offset_s``.
+
+    ``uncertainty_s`` is how much later than the soonest samples typically come in. A delay that
+    all of them share cannot be told from the offset: it is not in there.
+    """
+
+    offset_s: float
+    uncertainty_s: float
+
+
+class DeviceClock:
+    """Follows the clock of a device through one connection.
+
+    No sample comes in before it was taken, so the least of (host time of arrival) − (device time)
+    over the last seconds is the best guess of the offset.
+    """
+
+    def __init__(self) -> None:
+        self._delays_s: deque[float] = deque(maxlen=_PORTIONS)
+
+    def observe(self, received_s: float, device_time_s: float) -> ClockFit:
+        """Take in that the sample of a device time came in at a host time; return the fit."""
+        self._delays_s.append(received_s - device_time_s)
+        least_s = min(self._delays_s)
+        return ClockFit(least_s, median(self._delays_s) - least_s)
 
 
 class RecordingWriter:

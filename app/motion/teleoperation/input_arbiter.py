@@ -6,6 +6,7 @@ It has neither threads nor a clock: whoever reads the devices tells it what came
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import compress
+from math import inf
 from types import MappingProxyType
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration, CalibrationError
@@ -61,6 +62,32 @@ class DeviceView:
         """The buttons that are down."""
         said = () if self.newest is None else self.newest.buttons
         return frozenset(compress(self.device.buttons, said))
+
+
+@dataclass(frozen=True, slots=True)
+class DevicesView:
+    """All input devices for the screen, as they were at one step.
+
+    Attributes
+    ----------
+    host_time_s : float
+        Of the step; −inf before the first.
+    devices : tuple of DeviceView
+        Those that are open.
+    driving : OperatorRole
+    setting_up : bool
+        Whether nothing is sent but stops.
+    profile : Profile or None
+    problems : tuple of str
+        What is wrong with the profile, and with devices as it uses them.
+    """
+
+    host_time_s: float = -inf
+    devices: tuple[DeviceView, ...] = ()
+    driving: OperatorRole = OperatorRole.TRAINER
+    setting_up: bool = False
+    profile: Profile | None = None
+    problems: tuple[str, ...] = ()
 
 
 class InputArbiter:

@@ -10,8 +10,7 @@ from types import MappingProxyType
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration, CalibrationFolder
 from rotemina.app.motion.teleoperation.default_profile import default_profile
-from rotemina.app.motion.teleoperation.device_state import DevicesView
-from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, InputArbiter
 from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.profile import (
     DeviceMapping,

@@ -5,9 +5,8 @@ from dataclasses import replace
 import pytest
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration
-from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.frames import Coordinate
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.motion.teleoperation.profile import OperatorRole
