@@ -1,6 +1,7 @@
 """Motion requests: single axes, speeds, safe paths, homing, trajectories, voltages."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
 
 from rotemina.app.motion.admission import Admission
@@ -27,24 +28,16 @@ from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory, accept
 LEASE_S = 0.15  # of a speed that nobody renews
 
 
+@dataclass(eq=False)
 class Moves:
     """What moves axes; ranges, the tip's bounds and owners hold on every path."""
 
-    def __init__(
-        self,
-        link: DeviceLink,
-        admission: Admission,
-        guard: Guard,
-        inverses: Inverses,
-        loops: Loops,
-        routing: Routing,
-    ) -> None:
-        self._link = link
-        self._admission = admission
-        self._guard = guard
-        self._inverses = inverses
-        self._loops = loops
-        self._routing = routing
+    _link: DeviceLink
+    _admission: Admission
+    _guard: Guard
+    _inverses: Inverses
+    _loops: Loops
+    _routing: Routing
 
     def go_to(
         self,

@@ -1,5 +1,7 @@
 """Profiles that a device executes: upload, trigger and abort."""
 
+from dataclasses import dataclass
+
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.compensation import Inverses
 from rotemina.app.motion.device_link import DeviceLink
@@ -15,23 +17,16 @@ from rotemina.sim.messages import AxisName, message
 _NO_PROFILES = message("engine", "driver {name} cannot execute profiles")
 
 
+@dataclass(eq=False)
 class Profiles:
     """One profile at a time, of one axis, checked and owned like a move."""
 
-    def __init__(
-        self,
-        link: DeviceLink,
-        admission: Admission,
-        guard: Guard,
-        inverses: Inverses,
-        reservations: Reservations,
-    ) -> None:
-        self._link = link
-        self._admission = admission
-        self._guard = guard
-        self._inverses = inverses
-        self._reservations = reservations
-        self._loaded: tuple[Profile, float] | None = None  # and where its axis was
+    _link: DeviceLink
+    _admission: Admission
+    _guard: Guard
+    _inverses: Inverses
+    _reservations: Reservations
+    _loaded: tuple[Profile, float] | None = None  # and where its axis was
 
     def upload(
         self, profile: Profile, owner: str = OPERATOR, *, permit: Permit | None = None

@@ -13,7 +13,7 @@ from rotemina.app.motion.penetration.arming import armed, check_now
 from rotemina.app.motion.penetration.attempt import Attempt
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import RunLog, Verdict
-from rotemina.app.motion.penetration.sample_feed import AxisFeed, AxisSamples
+from rotemina.app.motion.penetration.sample_feed import AxisFeed
 from rotemina.app.motion.penetration.sequence import OWNER, PenetrationSequence
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.penetration.thrust import ThrustPlan
@@ -45,7 +45,6 @@ class Penetration(PenetrationSequence):
     ) -> None:
         super().__init__(session, today)
         self._log = log
-        self._armed_until_s = 0.0
 
     @property
     def status(self) -> PenetrationStatus:
@@ -158,21 +157,6 @@ class Penetration(PenetrationSequence):
             if attempt is not None and phase in self._steps.keys() | {Phase.ARMED}:
                 self._go_on(phase, attempt, now_s)
         self._write()
-
-    # --- armed ----------------------------------------------------------------------------------
-
-    def _wait(
-        self, attempt: Attempt, samples: AxisSamples, broken: str | None, now_s: float
-    ) -> None:
-        """Listen to the noise; disarm when time is up, or something has happened."""
-        super()._wait(attempt, samples, broken, now_s)
-        if broken is None and now_s < self._armed_until_s:
-            self._status = replace(self._status, armed_left_s=self._armed_until_s - now_s)
-            return
-        self._release()
-        self._enter(
-            Phase.DISARMED, now_s, broken or message("engine", "it was not started in time")
-        )
 
     def _start(self, attempt: Attempt, now_s: float) -> None:
         state = self._session.snapshot()

@@ -200,8 +200,3 @@ def _require_kinds(run: PenetrationRun) -> None:
             value = getattr(part, one.name)
             if not isinstance(value, kinds.get(one.name, figure)):
                 raise TypeError(f"{one.name} = {str(value)[:40]!r}: of the wrong kind")
-
-
-def as_table(parameters: Any) -> dict[str, Any]:
-    """Return a flat dataclass as JSON holds it."""
-    return {field.name: getattr(parameters, field.name) for field in fields(parameters)}

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import datetime
 
 import numpy as np
 
@@ -51,9 +51,7 @@ class PenetrationSequence:
         Return date and time, for the log.
     """
 
-    def __init__(
-        self, session: MotionSession, today: Callable[[], datetime] = lambda: datetime.now(UTC)
-    ) -> None:
+    def __init__(self, session: MotionSession, today: Callable[[], datetime]) -> None:
         self._session = session
         self._today = today
         self._lock = threading.RLock()
@@ -64,7 +62,7 @@ class PenetrationSequence:
         self._unwritten: deque[PenetrationRun] = deque()
         self._end = session.subscribe(self._hear)
         self._permit = session.permit()  # of the run, or of the button that goes on with it
-        self._since_s = self._renewed_s = 0.0
+        self._since_s = self._renewed_s = self._armed_until_s = 0.0
         self._rested_s: float | None = None  # since when the axis rests, on the membrane
         # Whether the device was told what the phase is about, and to capture.
         self._told = self._capturing = False
@@ -102,8 +100,15 @@ class PenetrationSequence:
     def _wait(
         self, attempt: Attempt, samples: AxisSamples, broken: str | None, now_s: float
     ) -> None:
-        """Measure the noise until the button is pressed."""
+        """Measure the noise; disarm when time is up, or something has happened."""
         self._listen(attempt, samples)
+        if broken is None and now_s < self._armed_until_s:
+            self._status = replace(self._status, armed_left_s=self._armed_until_s - now_s)
+            return
+        self._release()
+        self._enter(
+            Phase.DISARMED, now_s, broken or message("engine", "it was not started in time")
+        )
 
     # --- phases ---------------------------------------------------------------------------------
 
