@@ -1,12 +1,12 @@
-"""A picture saved with its data."""
+"""A picture, or a z-stack of them, saved with its data."""
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,3 +130,39 @@ def write_png(path: Path, shown: NDArray[np.uint8], frame: Frame, about: Circums
     scale = {"dpi": (0.0254 / about.pixel_m,) * 2} if about.pixel_m else {}
     with replaced(path) as file:
         Image.fromarray(np.ascontiguousarray(shown)).save(file, "PNG", pnginfo=text, **scale)
+
+
+class Page(NamedTuple):
+    """A picture, the place of the focus, m, and all axes as commanded and measured, m and rad."""
+
+    place: float
+    frame: Frame
+    command: Mapping[str, float]
+    measured: Mapping[str, float]
+
+
+def write_stack(path: Path, pages: Sequence[Page], axis: str, about: Circumstances) -> None:
+    """Write the camera's own numbers, a page for each place, completely or not at all.
+
+    A page's description is JSON as that of a snapshot, with ``focus_axis``, ``focus_m``, ``page``
+    and ``pages``.
+
+    Raises
+    ------
+    FileWriteError
+        If it cannot be written.
+    """
+    import tifffile  # as slow
+
+    with replaced(path) as file, tifffile.TiffWriter(file) as writer:
+        for number, page in enumerate(pages, 1):
+            own = replace(about, command=page.command, measured=page.measured)
+            facts = json.loads(description(page.frame, own))
+            facts |= {"focus_axis": axis, "focus_m": page.place}
+            facts |= {"page": number, "pages": len(pages)}
+            writer.write(
+                page.frame.pixels,
+                description=json.dumps(facts),
+                contiguous=False,
+                **tiff_tags(page.frame, about),
+            )

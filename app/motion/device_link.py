@@ -3,10 +3,9 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from rotemina.app.motion.lock_reasons import NOT_CONNECTED
 from rotemina.app.motion.mailbox import A, Ask, ConnectionRequest, Mailbox, RefusedError, able
 from rotemina.app.motion.recent_history import LiveHistory
-from rotemina.app.motion.state import Connection, SessionState
+from rotemina.app.motion.state import NOT_CONNECTED, Connection, SessionState
 from rotemina.app.motion.stop import StopRequest
 from rotemina.app.motion.subscribers import Subscribers
 from rotemina.app.motion.worker import Worker

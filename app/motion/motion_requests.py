@@ -14,7 +14,7 @@ from rotemina.app.motion.position_envelope import PositionEnvelope
 from rotemina.app.motion.ranges import check_rows
 from rotemina.app.motion.regulation import Loops
 from rotemina.app.motion.routing import Routing
-from rotemina.app.motion.safe_path import safe_path
+from rotemina.app.motion.undo import safe_path
 from rotemina.drivers.abilities import Homer, TrajectoryPlayer, VelocityMover, VoltageOutput
 from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.samples import DeviceState

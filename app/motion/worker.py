@@ -12,7 +12,6 @@ from rotemina.app.motion.device_report import with_samples, with_status
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.held_inverses import HeldInverses
 from rotemina.app.motion.live_models import LiveModels, ModelOutputs, PreparedModel
-from rotemina.app.motion.lock_reasons import NOT_CONNECTED, lock_reason
 from rotemina.app.motion.mailbox import (
     ClearFault,
     Drive,
@@ -33,6 +32,7 @@ from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.sample_portions import SamplePortions
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
+    NOT_CONNECTED,
     Alarmed,
     CommandRefused,
     Connection,
@@ -42,6 +42,7 @@ from rotemina.app.motion.state import (
     SessionState,
     StateChanged,
     Stopped,
+    lock_reason,
 )
 from rotemina.app.motion.stop import StopRequest
 from rotemina.app.motion.stop_progress import StopTracking

@@ -19,8 +19,7 @@ from rotemina.app.motion.recording.arrow_tables import (
     samples_schema,
 )
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.locking import locked
-from rotemina.app.motion.recording.segments import ByteRange, WholeSegments
+from rotemina.app.motion.recording.segments import ByteRange, WholeSegments, locked
 from rotemina.sim.messages import message
 from rotemina.sim.whole_files import FileWriteError, replaced
 
