@@ -50,14 +50,10 @@ class VideoFile:
         self._pixel_m = pixel_m
         self._file = opener(path)
         self._link = _FIRST  # where the next page has to be linked
-        self._end = 0
+        #: How many bytes it has.
+        self.size = 0
         self.pages = 0
         self._put(_HEADER)
-
-    @property
-    def size(self) -> int:
-        """How many bytes it has."""
-        return self._end
 
     def append(self, frame: Frame) -> None:
         """Write a picture.
@@ -67,16 +63,16 @@ class VideoFile:
         OSError
             If the disk does not take it.
         """
-        before = self._end
+        before = self.size
         try:
-            data = self._end
+            data = self.size
             self._put(np.ascontiguousarray(frame.pixels).tobytes())
             start, directory, link = self._directory(frame, data)
             self._put(directory)
             self._file.seek(self._link)
             write_all(self._file, struct.pack("<Q", start))
         except OSError:
-            self._end = before
+            self.size = before
             self._file.truncate(before)
             raise
         self._link = link
@@ -96,15 +92,15 @@ class VideoFile:
         depth = 8 * frame.pixels.dtype.itemsize
         resolution = _ratio(self._pixel_m)
         # Texts stand before the directory, which must begin at an even place.
-        texts = text + software + b"\0" * ((self._end + len(text) + len(software)) % 2)
-        start = self._end + len(texts)
+        texts = text + software + b"\0" * ((self.size + len(text) + len(software)) % 2)
+        start = self.size + len(texts)
         tags = [
             (256, _LONG, 1, struct.pack("<I", columns)),
             (257, _LONG, 1, struct.pack("<I", rows)),
             (258, _SHORT, samples, struct.pack(f"<{samples}H", *[depth] * samples)),
             (259, _SHORT, 1, struct.pack("<H", 1)),  # no compression
             (262, _SHORT, 1, struct.pack("<H", 2 if frame.colour else 1)),
-            (270, _ASCII, len(text), struct.pack("<Q", self._end)),
+            (270, _ASCII, len(text), struct.pack("<Q", self.size)),
             (273, _LONG8, 1, struct.pack("<Q", data)),
             (277, _SHORT, 1, struct.pack("<H", samples)),
             (278, _LONG, 1, struct.pack("<I", rows)),
@@ -112,7 +108,7 @@ class VideoFile:
             (282, _RATIONAL, 1, resolution),
             (283, _RATIONAL, 1, resolution),
             (296, _SHORT, 1, struct.pack("<H", _CENTIMETRE if self._pixel_m else 1)),
-            (305, _ASCII, len(software), struct.pack("<Q", self._end + len(text))),
+            (305, _ASCII, len(software), struct.pack("<Q", self.size + len(text))),
         ]
         entries = b"".join(
             struct.pack("<HHQ", tag, kind, count) + value.ljust(8, b"\0")
@@ -123,9 +119,9 @@ class VideoFile:
 
     def _put(self, data: bytes) -> None:
         """Write at the end."""
-        self._file.seek(self._end)
+        self._file.seek(self.size)
         write_all(self._file, data)
-        self._end += len(data)
+        self.size += len(data)
 
 
 def _ratio(pixel_m: float | None) -> bytes:

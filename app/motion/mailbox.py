@@ -247,10 +247,6 @@ class Mailbox:
         with self._lock:
             return any(isinstance(one.command, Play | RunProfile) for one in self._commands)
 
-    def target_of(self, axis: str) -> float | None:
-        """Return the target of the latest queued or executing move of an axis."""
-        return next((each[axis] for each in reversed(self.pending()) if axis in each), None)
-
     def pending(self) -> list[Mapping[str, float]]:
         """Return the targets of all queued or executing moves, oldest first."""
         found: list[Mapping[str, float]] = []

@@ -384,9 +384,6 @@ class Moves:
 
     def _target_of(self, axis: str) -> float:
         """Return the latest accepted target of an axis, or its present position."""
-        target = self._link.mailbox.target_of(axis)
-        if target is None:
-            target = self._link.worker.executor.ends.get(axis)
-        if target is None:
-            target = self._link.worker.state.command.get(axis, float("nan"))
-        return target
+        pending, worker = self._link.mailbox.pending(), self._link.worker
+        places = (*reversed(pending), worker.executor.ends, worker.state.command)
+        return next((place[axis] for place in places if axis in place), float("nan"))

@@ -81,7 +81,8 @@ class PlaybackRecorder:
         self._told = np.ones(len(self._channels), dtype=np.bool_)
         self._samples = _Samples(1 + len(self._channels))
         self._answers: _Samples | None = None
-        self._answered: RunAnswers | None = None
+        #: The models' answers for each row; None before its end or without models.
+        self.answers: RunAnswers | None = None
         self._memory = 0
         self._rows = 0  # samples up to the latest row that began
         self._row = -1
@@ -90,11 +91,6 @@ class PlaybackRecorder:
     def complete(self) -> bool:
         """Whether the last row of the trajectory was sampled."""
         return self._row == len(self._trajectory.commands.time_s) - 1
-
-    @property
-    def answers(self) -> RunAnswers | None:
-        """The models' answers for each row; None before its end or without models."""
-        return self._answered
 
     def say(self, name: str, text: str) -> None:
         """Put something into the record's metadata."""
@@ -133,7 +129,7 @@ class PlaybackRecorder:
         device_time_s, values = self._samples.drained(self._rows, told)
         if self._answers is not None:
             began_s = float(device_time_s[0])
-            self._answered = self._drained_answers(self._answers, began_s)
+            self.answers = self._drained_answers(self._answers, began_s)
         time_s = np.rint((device_time_s - device_time_s[0]) * _PER_SECOND) / _PER_SECOND
         channels = tuple(self._channels[column] for column in told)
         return Record(time_s, channels, values, self._trajectory.commands.units, self._metadata)

@@ -46,11 +46,6 @@ class Penetration(PenetrationSequence):
         super().__init__(session, today)
         self._log = log
 
-    @property
-    def status(self) -> PenetrationStatus:
-        """The present state, available at once."""
-        return self._status
-
     def arm(self, parameters: PenetrationParameters, now_s: float) -> None:
         """Check everything, and reserve every axis; nothing moves until the button is pressed.
 
@@ -61,10 +56,10 @@ class Penetration(PenetrationSequence):
             or the tip's bounds do not allow it, or someone else drives an axis.
         """
         with self._lock:
-            if self._status.phase in UNDER_WAY | {Phase.HELD}:
+            if self.status.phase in UNDER_WAY | {Phase.HELD}:
                 raise RefusedError(
                     message("engine", "a penetration is {phase}; end it first").fill(
-                        phase=self._status.phase
+                        phase=self.status.phase
                     )
                 )
             self._release()
@@ -73,11 +68,11 @@ class Penetration(PenetrationSequence):
             self._feed = AxisFeed(self._session, parameters.axis)
             self._permit = permit
             self._armed_until_s = now_s + parameters.armed_s
-            self._status = PenetrationStatus(
+            self.status = PenetrationStatus(
                 Phase.ARMED,
                 armed_left_s=parameters.armed_s,
-                run=self._status.run,
-                trace=self._status.trace,
+                run=self.status.run,
+                trace=self.status.trace,
             )
 
     def why_not(self, parameters: PenetrationParameters, plan: ThrustPlan) -> str | None:
@@ -85,7 +80,7 @@ class Penetration(PenetrationSequence):
 
         Nothing is reserved, and nothing waited for.
         """
-        phase = self._status.phase
+        phase = self.status.phase
         if phase in UNDER_WAY | {Phase.HELD}:
             return message("engine", "a penetration is {phase}; end it first").fill(phase=phase)
         try:
@@ -103,10 +98,10 @@ class Penetration(PenetrationSequence):
             While a run is under way: press the button first.
         """
         with self._lock:
-            if self._status.phase in UNDER_WAY:
+            if self.status.phase in UNDER_WAY:
                 raise RefusedError(
                     message("engine", "a penetration is in {phase}; stop it first").fill(
-                        phase=self._status.phase
+                        phase=self.status.phase
                     )
                 )
             self._release()
@@ -115,7 +110,7 @@ class Penetration(PenetrationSequence):
     def close(self) -> None:
         """Have nothing more to do with the session; a run under way is held where it is."""
         with self._lock:
-            if self._status.phase in UNDER_WAY:
+            if self.status.phase in UNDER_WAY:
                 self._halt()
                 self._hold_here(marked("engine", "the program released it"), self._since_s)
             self._release()
@@ -131,7 +126,7 @@ class Penetration(PenetrationSequence):
             If it is not armed, or the held tip cannot be moved now.
         """
         with self._lock:
-            phase, attempt = self._status.phase, self._attempt
+            phase, attempt = self.status.phase, self._attempt
             if attempt is None or phase not in UNDER_WAY | {Phase.ARMED, Phase.HELD}:
                 raise RefusedError(message("engine", "the penetration is not armed; arm it first"))
             if phase is Phase.ARMED:
@@ -153,7 +148,7 @@ class Penetration(PenetrationSequence):
     def step(self, now_s: float) -> None:
         """Advance; ``now_s`` is the host's time. Never raises for errors of a device."""
         with self._lock:
-            phase, attempt = self._status.phase, self._attempt
+            phase, attempt = self.status.phase, self._attempt
             if attempt is not None and phase in self._steps.keys() | {Phase.ARMED}:
                 self._go_on(phase, attempt, now_s)
         self._write()
@@ -189,7 +184,7 @@ class Penetration(PenetrationSequence):
         self._outcome = (
             Verdict.ABORTED,
             message("engine", "retracted by the button; before: {reason}").fill(
-                reason=self._status.reason
+                reason=self.status.reason
             ),
         )
         self._refusals.clear()
@@ -204,4 +199,4 @@ class Penetration(PenetrationSequence):
                     self._log.append(run)
             except InputError as error:
                 with self._lock:
-                    self._status = replace(self._status, problem=str(error))
+                    self.status = replace(self.status, problem=str(error))

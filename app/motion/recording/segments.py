@@ -80,7 +80,8 @@ class SegmentFile:
 
     def __init__(self, path: Path, opener: Opener = new_file) -> None:
         self.path = path
-        self._end = 0
+        #: Bytes of whole segments.
+        self.size = 0
         self._number = 0
         self._unconfirmed: list[bytes] = []  # contents
         self._again: list[bytes] = []  # contents that were lost when a sync failed
@@ -109,11 +110,6 @@ class SegmentFile:
                 )
             )
 
-    @property
-    def size(self) -> int:
-        """Bytes of whole segments."""
-        return self._end
-
     def append(self, *contents: bytes) -> None:
         """Write segments.
 
@@ -132,13 +128,13 @@ class SegmentFile:
                 for piece in (_header(number, content), content)
             )
             try:
-                self._file.seek(self._end)
+                self._file.seek(self.size)
                 write_all(self._file, written)
             except OSError:
                 with suppress(OSError):  # what is left is no whole segment, or will be written over
-                    self._file.truncate(self._end)
+                    self._file.truncate(self.size)
                 raise
-            self._end += len(written)
+            self.size += len(written)
             self._number += len(due)
             self._again = []
             self._unconfirmed += due
@@ -162,7 +158,7 @@ class SegmentFile:
                 lost, self._unconfirmed = self._unconfirmed, []
                 self._again = lost + self._again
                 self._number -= len(lost)
-                self._end -= sum(_HEADER.size + len(content) for content in lost)
+                self.size -= sum(_HEADER.size + len(content) for content in lost)
             raise
         with self._lock:
             del self._unconfirmed[:count]

@@ -123,7 +123,8 @@ class RecordingWriter:
         self._tell = tell
         self._backlog = Backlog(capacity_bytes)
         self._waiting: list[bytes] = []  # a segment that the disk has not taken yet
-        self._failure: str | None = None
+        #: Why nothing can be written at present.
+        self.failure: str | None = None
         self._gap = ""  # what is missing and was not told yet
         self._slow = False
         self._closed = False
@@ -153,11 +154,6 @@ class RecordingWriter:
                     "{path}: cannot be written ({reason}); make room, or choose another folder",
                 ).fill(path=path, reason=str(error.strerror or error))
             ) from error
-
-    @property
-    def failure(self) -> str | None:
-        """Why nothing can be written at present."""
-        return self._failure
 
     @property
     def bytes_written(self) -> int:
@@ -239,11 +235,11 @@ class RecordingWriter:
             self.run_once()
         self._closed = True
         self._file.close()
-        if self._failure is not None:
+        if self.failure is not None:
             self._tell(
                 message(
                     "engine", "{name}: the end of the recording could not be written ({failure})"
-                ).fill(name=self.path.name, failure=self._failure)
+                ).fill(name=self.path.name, failure=self.failure)
             )
         return merged(self._file.path, self.path)
 
@@ -291,7 +287,7 @@ class RecordingWriter:
         return True
 
     def _note_failure(self, reason: str) -> None:
-        if self._failure is None:
+        if self.failure is None:
             self._notice(
                 message(
                     "engine",
@@ -299,12 +295,12 @@ class RecordingWriter:
                     "{path}. Free disk space; the motion continues",
                 ).fill(name=self.path.name, reason=reason, path=self._file.path)
             )
-        self._failure = reason
+        self.failure = reason
 
     def _note_success(self) -> None:
         gap, self._gap = self._gap, ""
-        if self._failure is not None or gap:
-            self._failure = None
+        if self.failure is not None or gap:
+            self.failure = None
             what = gap or marked("engine", "nothing is missing")
             self._notice(
                 message("engine", "{file}: the recording continues; {what}").fill(

@@ -114,7 +114,8 @@ class InputArbiter:
         self._devices: dict[str, MappedDevice] = {}
         self._unusable: dict[str, str] = {}
         self._takeover = Takeover()
-        self._mapping_open = False
+        #: Whether devices are being set up: only stops are sent.
+        self.mapping_open = False
         self._lost: list[str] = []
         if profile is not None:
             check_profile(profile, self._robot_axes)
@@ -184,21 +185,16 @@ class InputArbiter:
         self._lose(key, message("engine", "recalibrated"))
         self._arrange({key})
 
-    @property
-    def mapping_open(self) -> bool:
-        """Whether devices are being set up: only stops are sent."""
-        return self._mapping_open
-
     def open_mapping(self) -> None:
         """Send only stops from now on; the device in control loses it."""
-        if not self._mapping_open:
-            self._mapping_open = True
+        if not self.mapping_open:
+            self.mapping_open = True
             self._lost.append(marked("engine", "input devices are being set up"))
 
     def close_mapping(self) -> None:
         """Send again, after every stick was seen at rest and every button release."""
-        if self._mapping_open:
-            self._mapping_open = False
+        if self.mapping_open:
+            self.mapping_open = False
             self._arrange(set(self._plugged))
 
     # What the operator wants
@@ -217,7 +213,7 @@ class InputArbiter:
             device.step(readings.get(key, ()), now_s)
             if device.lost is not None:
                 self._lose(key, device.lost)
-        if not self._mapping_open:
+        if not self.mapping_open:
             self._hand_over()
         lost, self._lost = "; ".join(self._lost) or None, []
         pressed, held = self._actions()
@@ -333,13 +329,13 @@ class InputArbiter:
         pressed: set[Action] = set()
         held: set[Action] = set()
         for device in self._devices.values():
-            heard = self._drives(device) and not self._mapping_open
+            heard = self._drives(device) and not self.mapping_open
             pressed |= device.pressed if heard else device.pressed & STOPS
             held |= device.held if heard else device.held & STOPS
         return frozenset(pressed), frozenset(held)
 
     def _deflections(self, held: Collection[Action]) -> dict[str, float]:
-        if self._mapping_open or (self._guarded() and Action.DEAD_MAN not in held):
+        if self.mapping_open or (self._guarded() and Action.DEAD_MAN not in held):
             return {}
         devices = self._of(self.driving)
         return {axis: d for device in devices for axis, d in device.deflections.items()}

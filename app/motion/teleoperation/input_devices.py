@@ -70,7 +70,8 @@ class InputDevices:
         self.calibrations = CalibrationFolder(folder / "calibrations")
         self._profiles = folder / "profiles"
         self._chosen: Profile | None = None  # None: one is made for what is plugged in
-        self._used: Profile | None = None
+        #: The profile in use, or None.
+        self.profile: Profile | None = None
         self._open: dict[str, InputDevice] = {}
         self._changes: deque[Changes] = deque()
         self._listeners: tuple[Callable[[InputSnapshot], None], ...] = ()
@@ -80,11 +81,6 @@ class InputDevices:
         self._lock = threading.RLock()
 
     # --- profiles and calibrations ----------------------------------------------------------------
-
-    @property
-    def profile(self) -> Profile | None:
-        """The profile in use, or None."""
-        return self._used
 
     @property
     def profiles(self) -> tuple[ListedProfile, ...]:
@@ -228,7 +224,7 @@ class InputDevices:
             arbiter.views,
             arbiter.driving,
             arbiter.mapping_open,
-            self._used,
+            self.profile,
             arbiter.problems,
         )
 
@@ -269,7 +265,7 @@ class InputDevices:
         What is used now stays if it fits, unless one is to be found ``again``.
         """
         plugged = tuple(_plugged(device) for device in self._open.values())
-        if not anew and self._used is not None and _fits(self._used, plugged):
+        if not anew and self.profile is not None and _fits(self.profile, plugged):
             return
         kept = (listed.profile for listed in self.profiles if listed.profile is not None)
         for profile in (*kept, automatic_profile(plugged)):
@@ -284,7 +280,7 @@ class InputDevices:
 
     def _hand_to_arbiter(self, profile: Profile) -> None:
         self.arbiter.use(profile)
-        self._used = profile
+        self.profile = profile
 
 
 def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:

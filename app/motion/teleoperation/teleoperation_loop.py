@@ -64,7 +64,8 @@ class Teleoperator:
         self.modes = Modes(session.robot)
         self._session = session
         self._robot = session.robot
-        self._scales = Scales() if scales is None else scales
+        #: How far and fast sticks move the coordinates.
+        self.scales = Scales() if scales is None else scales
         self._mode = self.modes.names[0]
         self._law = LawKind.RATE
         self._preset = 1.0
@@ -81,11 +82,6 @@ class Teleoperator:
         self.state = TeleoperationState(self._mode, self._law)
 
     # --- requests ---------------------------------------------------------------------------------
-
-    @property
-    def scales(self) -> Scales:
-        """How far and fast sticks move the coordinates."""
-        return self._scales
 
     def use_mode(self, name: str) -> None:
         """Steer in another mode; also in mid-move, without a jump.
@@ -130,7 +126,7 @@ class Teleoperator:
                     scales.of(frame.name, coordinate).law(kind, coordinate, 0.0)
 
         def change() -> None:
-            self._scales = scales
+            self.scales = scales
             self._release_axes(
                 marked("engine", "the scales were changed") if self.state.driving else None
             )
@@ -347,7 +343,7 @@ class Teleoperator:
 
     def _channel(self, frame: Frame, kind: LawKind, *, engaged: bool = False) -> _Channel:
         def law(coordinate: Coordinate) -> ScalingLaw:
-            scale = self._scales.of(frame.name, coordinate)
+            scale = self.scales.of(frame.name, coordinate)
             return scale.law(kind, coordinate, self._noise(coordinate))
 
         return _Channel(
