@@ -360,18 +360,17 @@ class Operation:
     # --- inside -----------------------------------------------------------------------------------
 
     def _act(self, intent: Intent, now_s: float) -> None:
-        requests: list[Callable[[], object]] = []
-        if Action.PENETRATION in intent.pressed:
-            requests.append(lambda: self.penetration.press(now_s))
-        if Action.TOOL in intent.pressed:
-            requests.append(self.toggle_tool)
-        if Action.RECENTRE in intent.pressed:
-            requests.append(self.recentre)
-        for request in requests:
-            try:
-                request()
-            except InputError as error:
-                self._told(str(error))
+        requests: dict[Action, Callable[[], None]] = {
+            Action.PENETRATION: lambda: self.penetration.press(now_s),
+            Action.TOOL: self.toggle_tool,
+            Action.RECENTRE: self.recentre,
+        }
+        for action, request in requests.items():
+            if action in intent.pressed:
+                try:
+                    request()
+                except InputError as error:
+                    self._told(str(error))
 
     def _rumble(self) -> None:
         strength = max((abs(one.felt) for one in self.teleoperator.state.coordinates), default=0.0)

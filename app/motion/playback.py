@@ -22,6 +22,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 
 _ROUNDING_S = 1e-6  # of times that came from a device
+_PLAYING = message("engine", "a trajectory is playing; pause or stop it first")
 
 
 class PlaybackPhase(StrEnum):
@@ -208,9 +209,7 @@ class Playback:
         commands = trajectory.commands
         with self._lock:
             if self._state.phase is PlaybackPhase.PLAYING:
-                raise RefusedError(
-                    message("engine", "a trajectory is playing; pause or stop it first")
-                )
+                raise RefusedError(_PLAYING)
             self._whole, self._watch = trajectory, DeviationWatch(self._session.robot)
             self._state = PlaybackState(
                 PlaybackPhase.PAUSED, rows=len(commands.time_s), duration_s=commands.duration_s
@@ -243,9 +242,7 @@ class Playback:
             played = part.trajectory
         with self._lock:
             if self._state.phase is PlaybackPhase.PLAYING:
-                raise RefusedError(
-                    message("engine", "a trajectory is playing; pause or stop it first")
-                )
+                raise RefusedError(_PLAYING)
             before = (self._whole, self._piece, self._watch, self._state)
             self._whole, self._piece, self._watch = whole, part, watch
             self._state = replace(state, phase=PlaybackPhase.PLAYING)

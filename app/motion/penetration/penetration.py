@@ -56,12 +56,8 @@ class Penetration(PenetrationSequence):
             or the tip's bounds do not allow it, or someone else drives an axis.
         """
         with self._lock:
-            if self.status.phase in UNDER_WAY | {Phase.HELD}:
-                raise RefusedError(
-                    message("engine", "a penetration is {phase}; end it first").fill(
-                        phase=self.status.phase
-                    )
-                )
+            if (busy := self._busy()) is not None:
+                raise RefusedError(busy)
             self._release()
             permit = self._session.permit()
             self._attempt = armed(self._session, parameters, OWNER)
@@ -80,14 +76,19 @@ class Penetration(PenetrationSequence):
 
         Nothing is reserved, and nothing waited for.
         """
-        phase = self.status.phase
-        if phase in UNDER_WAY | {Phase.HELD}:
-            return message("engine", "a penetration is {phase}; end it first").fill(phase=phase)
+        if (busy := self._busy()) is not None:
+            return busy
         try:
             check_now(self._session, parameters, plan, OWNER)
         except InputError as error:
             return str(error)
         return None
+
+    def _busy(self) -> str | None:
+        phase = self.status.phase
+        if phase not in UNDER_WAY | {Phase.HELD}:
+            return None
+        return message("engine", "a penetration is {phase}; end it first").fill(phase=phase)
 
     def disarm(self) -> None:
         """Set the axes free; after a hold, that leaves the tip where it is.

@@ -32,6 +32,8 @@ from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.robot.writing import robot_text
 
+_KINDS = {Faulted: "fault", Alarmed: "alarm", CommandRefused: "refused"}
+
 
 class SessionRecorder:
     """Records a session from :meth:`start` to :meth:`close`; motion never waits for it.
@@ -155,12 +157,8 @@ class SessionRecorder:
     def _on_event(self, event: Event) -> None:
         if isinstance(event, StateChanged):
             self._note_state(event.state)
-        elif isinstance(event, Faulted):
-            self.writer.event("fault", event.message)
-        elif isinstance(event, Alarmed):
-            self.writer.event("alarm", event.message)
-        elif isinstance(event, CommandRefused):
-            self.writer.event("refused", event.message)
+        elif isinstance(event, Faulted | Alarmed | CommandRefused):
+            self.writer.event(_KINDS[type(event)], event.message)
         elif isinstance(event, PlaybackFinished):
             rows = 0 if event.record is None else len(event.record.time_s)
             text = "completed" if event.completed else "ended early"
