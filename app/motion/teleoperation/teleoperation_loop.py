@@ -372,14 +372,10 @@ class Teleoperator:
         """Begin another law with the motion of the one before."""
         channels = {}
         for name, old in self._channels.items():
-            motions = {name: law.motion for name, law in old.steering.laws.items()}
             channel = self._channel(old.steering.frame, kind, engaged=True)
             channel.steering.rescale(self._factor(self._intent))
-            channel.steering.begin(
-                {name: motion.position for name, motion in motions.items()},
-                {name: motion.velocity for name, motion in motions.items()},
-                self._intent.deflections,
-            )
+            before = old.steering
+            channel.steering.begin(before.coordinates, before.velocities, self._intent.deflections)
             channels[name] = replace(channel, following=old.following, sent=old.sent)
         self._law, self._channels = kind, channels
 

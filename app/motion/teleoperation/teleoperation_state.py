@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
-from rotemina.app.motion.teleoperation.steering import Steering
+from rotemina.app.motion.teleoperation.steering import SteeredCoordinate, Steering
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,26 +83,25 @@ def shown(
     ``reactions`` are contact readings by coordinate.
     """
     views = tuple(
-        _viewed(steering, name, deflections, reactions.get(name, 0.0)) for name in steering.laws
+        _viewed(one, one.deflection_in(deflections), reactions.get(name, 0.0))
+        for name, one in steering.steered.items()
     )
     places = steering.coordinates
     return views, steering.frame.reserve(places), steering.frame.tilt(places)
 
 
-def _viewed(
-    steering: Steering, name: str, deflections: Mapping[str, float], reaction: float
-) -> CoordinateView:
-    law = steering.laws[name]
+def _viewed(one: SteeredCoordinate, deflection: float | None, reaction: float) -> CoordinateView:
+    law = one.law
     felt = 0.0
     if isinstance(law, Impedance) and law.contact is not None and law.contact.most:
         felt = law.contact.force(reaction) / law.contact.most
     return CoordinateView(
-        name,
-        steering.frame.coordinates[name].unit,
-        steering.sources[name],
-        steering.deflection_of(name, deflections),
+        one.coordinate.name,
+        one.coordinate.unit,
+        one.source,
+        deflection,
         law.motion.position,
-        name in steering.waiting,
+        not one.engaged,
         law,
         felt,
     )
