@@ -142,7 +142,7 @@ class Guard:
         }
         if lowest >= top or not lowering:
             return (PathSegment(targets, {}),)
-        return self._in_two(zone, envelope, targets, lowering)
+        return self._in_two(envelope, targets, lowering, lowest - zone.low)
 
     def _lowest(self, zone: KeepOutZone, swept: PositionEnvelope) -> float:
         """Return the least height of the tip on a way; refuse one out of the bounds."""
@@ -186,18 +186,15 @@ class Guard:
 
     def _in_two(
         self,
-        zone: KeepOutZone,
         envelope: PositionEnvelope,
         targets: Mapping[str, float],
         lowering: Mapping[str, float],
+        height: float,
     ) -> tuple[PathSegment, ...]:
-        """Go at full speed as far as the slow zone, and slowly from there on."""
+        """Go at full speed as far as the slow zone, and slowly from there on, to that height."""
         slowly = dict.fromkeys(lowering, SLOW_SPEED / len(lowering))
-        column = self._axes.index("z")
-        end = {self._axes.index(axis): at for axis, at in targets.items()}
-        height = self._lowest(zone, envelope.widened(end)) - zone.low
         raised = targets.get("z", np.inf) + SLOW_HEIGHT - height
-        if "z" not in lowering or raised >= envelope.low[column]:
+        if "z" not in lowering or raised >= envelope.low[self._axes.index("z")]:
             return (PathSegment(targets, slowly),)
         return (PathSegment({**targets, "z": raised}, {}), PathSegment({"z": targets["z"]}, slowly))
 

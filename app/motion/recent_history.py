@@ -1,16 +1,12 @@
 """The recent past of all axes, written by the session's worker, read by displays."""
 
 import threading
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray, read_only
-
-
-def _nothing() -> FloatArray:
-    return np.empty((0, 0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,14 +34,9 @@ class LiveWindow:
     command: FloatArray
     model: FloatArray
     measured: FloatArray
-    nominal: FloatArray = field(default_factory=_nothing)
-    doubt: FloatArray = field(default_factory=_nothing)
+    nominal: FloatArray
+    doubt: FloatArray
     gap_since_s: float = float("-inf")
-
-    def __post_init__(self) -> None:
-        if not self.nominal.shape == self.doubt.shape == self.model.shape:
-            object.__setattr__(self, "nominal", self.model)
-            object.__setattr__(self, "doubt", np.zeros(self.model.shape))
 
     def __len__(self) -> int:
         return len(self.device_time_s)
@@ -108,7 +99,8 @@ class LiveHistory:
             count = min(self._written, self.capacity)
             first = self._written - count
             if count and seconds is not None:
-                first += self._skipped(first, seconds)
+                times = self._ordered(self._time_s, first)
+                first += int(times.searchsorted(times[-1] - seconds))
             time_s = self._ordered(self._time_s, first)
             values = self._ordered(self._values, first)
             gap_since_s = self._gap_since_s
@@ -117,18 +109,6 @@ class LiveHistory:
         )
         parts = (command, model, measured, nominal, doubt, gap_since_s)
         return LiveWindow(self.axes, read_only(time_s), *parts)
-
-    def _skipped(self, first: int, seconds: float) -> int:
-        """Return how many of the oldest samples are too old."""
-        begin, end = first % self.capacity, self._written % self.capacity
-        older, newer = (
-            (self._time_s[begin:end], self._time_s[:0])
-            if begin < end
-            else (self._time_s[begin:], self._time_s[:end])
-        )
-        begin_s = self._time_s[(self._written - 1) % self.capacity] - seconds
-        skipped = int(older.searchsorted(begin_s))
-        return skipped + (int(newer.searchsorted(begin_s)) if skipped == len(older) else 0)
 
     def _ordered(self, ring: FloatArray, first: int) -> FloatArray:
         """Copy a ring from sample number ``first`` to the latest, oldest first."""
