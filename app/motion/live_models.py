@@ -104,7 +104,7 @@ class LiveModels:
     def follow(self, samples: Samples) -> ModelOutputs:
         """Return the answers of the models to the next samples."""
         self.memory.add(samples)
-        nominal = self._nominal.follow(samples)
+        nominal = self._nominal.answer(samples.device_time_s, samples.command)
         if not self._runs:
             return ModelOutputs(nominal, nominal, nominal, np.zeros(nominal.shape))
         told = [run.answer(samples.device_time_s, samples.command) for run in self._runs]

@@ -238,9 +238,9 @@ def test_the_truth_lies_within_the_doubt():
     robot = replace(ROBOT, effects=(LOOP,))
     before = np.interp(time_s, [0.0, 1.0, 3.0, 4.0], [way[0], 0.9 * high, 0.2 * high, way[0]])
     truth = LiveModel(robot)
-    truth.follow(samples(time_s - 5.0, before))
+    truth.answer(time_s - 5.0, samples(time_s, before).command)
     told, doubt = BracketedModel(robot).answer(time_s, samples(time_s, way).command)
-    error = np.abs(truth.follow(samples(time_s, way)) - told)[:, -1]
+    error = np.abs(truth.answer(time_s, samples(time_s, way).command) - told)[:, -1]
     assert (error <= doubt[:, -1] + 1e-10).all()
     assert error.max() > 3.0 * FLOOR
 
@@ -250,7 +250,7 @@ def test_a_model_without_memory_has_no_doubt():
     model = BracketedModel(replace(ROBOT, effects=(gain,)), {"zn": 3e-7})
     still = samples(np.arange(5) * 1e-3, 3e-5)
     told, doubt = model.answer(still.device_time_s, still.command)
-    nominal = LiveModel(ROBOT).follow(still)
+    nominal = LiveModel(ROBOT).answer(still.device_time_s, still.command)
     assert not doubt.any()
     np.testing.assert_allclose(told[:, -1] - nominal[:, -1], 3e-5 * 0.02 + 3e-7, rtol=1e-3)
 

@@ -81,10 +81,7 @@ def test_the_live_model_is_the_nominal_response_however_it_is_cut():
     model = LiveModel(ROBOT)
     parts = []
     for cut in np.split(np.arange(400), [1, 2, 60, 61, 200]):
-        part = Samples(
-            50.0 + time_s[cut], command[cut], command[cut], command[cut], np.full(len(cut), -1)
-        )
-        parts.append(model.follow(part))
+        parts.append(model.answer(50.0 + time_s[cut], command[cut]))
     followed = np.concatenate(parts)
     response = nominal_response(ROBOT, record)
     for column, (name, axis) in enumerate(ROBOT.axes.items()):
