@@ -25,7 +25,7 @@ from math import exp, pi, sqrt
 import numpy as np
 import scipy
 
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.parameters import PenetrationError
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from types import NoneType
 from typing import Any, Self
 
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.parameters import PenetrationError
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
 from rotemina.sim.input_files import parse_json, read_bytes
 from rotemina.sim.messages import message

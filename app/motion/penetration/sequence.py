@@ -15,7 +15,7 @@ import numpy as np
 from rotemina.app.motion.penetration.arming import LEASE_S
 from rotemina.app.motion.penetration.attempt import Attempt
 from rotemina.app.motion.penetration.detector import Contact, ContactDetector, noise_at_rest
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.parameters import PenetrationError
 from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
 from rotemina.app.motion.penetration.sample_feed import AxisFeed, AxisSamples, joined
 from rotemina.app.motion.penetration.status import PenetrationStatus, Phase

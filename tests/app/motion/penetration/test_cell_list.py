@@ -8,8 +8,7 @@ import pytest
 
 from rotemina.app.motion.penetration import cell_list
 from rotemina.app.motion.penetration.cell_list import CellList, Outcome
-from rotemina.app.motion.penetration.errors import PenetrationError
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration.parameters import PenetrationError, PenetrationParameters
 from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
 from rotemina.sim.robot.file import load_robot

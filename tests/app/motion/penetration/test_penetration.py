@@ -134,7 +134,7 @@ def test_an_end_is_never_shown_without_its_run(bench, monkeypatch, held):
 
     def noting(self, name, value):
         object.__setattr__(self, name, value)
-        if name == "_status":
+        if name == "status":
             shown.append(value)
 
     monkeypatch.setattr(Penetration, "__setattr__", noting, raising=False)

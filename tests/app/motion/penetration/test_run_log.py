@@ -5,8 +5,7 @@ from dataclasses import asdict, replace
 
 import pytest
 
-from rotemina.app.motion.penetration.errors import PenetrationError
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration.parameters import PenetrationError, PenetrationParameters
 from rotemina.app.motion.penetration.run_log import PenetrationRun, RunLog, Verdict
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
 from rotemina.sim.whole_files import FileWriteError
