@@ -143,7 +143,7 @@ class DeviceLink:
             raise RefusedError(state.locked or NOT_CONNECTED)
 
     def stop(self, request: StopRequest, latch: str | None = None) -> None:
-        """Close the gate for earlier requests, empty the queue, then stop every open driver.
+        """Close the gate for earlier requests, empty the queue, stop all drivers that may be open.
 
         Never waits and never raises. With ``latch`` nothing moves until the gate is released.
         """

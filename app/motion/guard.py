@@ -191,7 +191,10 @@ class Guard:
         lowering: Mapping[str, float],
         height: float,
     ) -> tuple[PathSegment, ...]:
-        """Go at full speed as far as the slow zone, and slowly from there on, to that height."""
+        """Go at full speed as far as the slow zone, and slowly from there on.
+
+        ``height`` is the tip's least above its floor on the way, m.
+        """
         slowly = dict.fromkeys(lowering, SLOW_SPEED / len(lowering))
         raised = targets.get("z", np.inf) + SLOW_HEIGHT - height
         if "z" not in lowering or raised >= envelope.low[self._axes.index("z")]:
