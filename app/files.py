@@ -1,10 +1,31 @@
-"""Writing files completely or not at all."""
+"""Writing files completely or not at all, and files that grow."""
 
 import json
+import re
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from rotemina.sim.whole_files import replaced
+
+Opener = Callable[[Path], BinaryIO]  # of a new file; tests let it fail
+
+
+def new_file(path: Path) -> BinaryIO:
+    """Open a file that is not there yet, without a buffer of our own."""
+    return path.open("xb", buffering=0)
+
+
+def write_all(file: BinaryIO, data: bytes) -> None:
+    """Write all of some data: a disk that fills up takes a part, and refuses the next."""
+    rest = memoryview(data)
+    while rest:
+        rest = rest[file.write(rest) :]
+
+
+def plain_name(name: str) -> str:
+    """Return a name in letters that a file's may have."""
+    return re.sub(r"[^\w.+-]+", "-", name).strip("-") or "_"
 
 
 def json_text(value: dict[str, Any]) -> str:

@@ -1,6 +1,7 @@
 """The TOML file of a sensor's calibration: strict, dated, with its origin."""
 
 import hashlib
+from dataclasses import asdict
 from datetime import datetime
 from typing import Annotated, Literal
 
@@ -63,19 +64,7 @@ class Sensor:
     @property
     def model(self) -> SensorModel:
         """The model that computes."""
-        return SensorModel(
-            low=self.low,
-            high=self.high,
-            offset=self.offset,
-            gain_error=self.gain_error,
-            bend=self.bend,
-            radii=self.radii,
-            weights=self.weights,
-            lag=Lag(self.lag),
-            lag_s=self.lag_s,
-            period=self.period,
-            harmonics=self.harmonics,
-        )
+        return SensorModel(**(asdict(self) | {"lag": Lag(self.lag)}))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
@@ -173,7 +162,6 @@ def kept(
     """
     if calibration.refusal is not None:
         raise CalibrationError(calibration.refusal)
-    model = calibration.model
     return CalibrationFile(
         robot=robot,
         axis=calibration.axis,
@@ -183,19 +171,7 @@ def kept(
         runs=calibration.runs,
         before_rms=calibration.before_rms,
         after_rms=calibration.after_rms,
-        sensor=Sensor(
-            low=model.low,
-            high=model.high,
-            offset=model.offset,
-            gain_error=model.gain_error,
-            bend=model.bend,
-            radii=model.radii,
-            weights=model.weights,
-            lag=model.lag.value,
-            lag_s=model.lag_s,
-            period=model.period,
-            harmonics=model.harmonics,
-        ),
+        sensor=Sensor(**(asdict(calibration.model) | {"lag": calibration.model.lag.value})),
         figures=tuple(
             KeptFigure(
                 name=each.name,

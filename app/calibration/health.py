@@ -79,14 +79,14 @@ def card_of(record: Record, axis: str) -> tuple[Figure, ...]:
 def compared_cards(now: tuple[Figure, ...], before: tuple[Figure, ...]) -> tuple[Compared, ...]:
     """Compare a card with an earlier one, figure by figure."""
     known = {(each.name, each.unit): each for each in before}
-    return tuple(_compared(each, known.get((each.name, each.unit))) for each in now)
-
-
-def _compared(now: Figure, before: Figure | None) -> Compared:
-    if before is None:
-        return Compared(now, None, False)
-    apart = abs(now.value - before.value) > now.half_width + before.half_width
-    return Compared(now, before, apart)
+    found = []
+    for new in now:
+        old = known.get((new.name, new.unit))
+        apart = False
+        if old is not None:
+            apart = abs(new.value - old.value) > new.half_width + old.half_width
+        found.append(Compared(new, old, apart))
+    return tuple(found)
 
 
 def _model(record: Record, axis: str) -> list[Figure]:

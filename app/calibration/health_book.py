@@ -1,12 +1,12 @@
 """Health cards over time: one append-only file per axis, one line per card."""
 
 import json
-import re
 from datetime import datetime
 from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
 
+from rotemina.app.files import plain_name
 from rotemina.sim.calibration.sensor_calibration import Figure
 from rotemina.sim.errors import InputError
 from rotemina.sim.input_files import parse_json, read_bytes
@@ -47,8 +47,7 @@ class HealthBook:
 
     def path(self, axis: str) -> Path:
         """Return where the cards of an axis are."""
-        names = (re.sub(r"[^\w.+-]+", "-", name).strip("-") or "_" for name in (self._robot, axis))
-        return self._folder / f"{'--'.join(names)}.jsonl"
+        return self._folder / f"{plain_name(self._robot)}--{plain_name(axis)}.jsonl"
 
     def cards(self, axis: str) -> tuple[Card, ...]:
         """Return the cards of an axis, the oldest first; a line that is none is passed over.

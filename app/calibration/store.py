@@ -1,6 +1,5 @@
 """The calibrations in a user's folder: one file per axis and date, and which are in use."""
 
-import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, NamedTuple
@@ -9,6 +8,7 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from rotemina.app.calibration.files import FORMAT, CalibrationFile
+from rotemina.app.files import plain_name
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.toml_file import STRICT, Format, Text
 from rotemina.sim.calibration.errors import CalibrationError
@@ -48,7 +48,7 @@ class CalibrationStore:
 
     def __init__(self, folder: Path, robot: Robot) -> None:
         self._robot = robot
-        self.folder = folder / FOLDER / _plain(robot.name)
+        self.folder = folder / FOLDER / plain_name(robot.name)
 
     def listed(self) -> tuple[tuple[Stored, ...], tuple[str, ...]]:
         """Return the stored calibrations, newest first, and the problems of invalid files."""
@@ -105,8 +105,8 @@ class CalibrationStore:
         FileWriteError
             If it cannot be written.
         """
-        stamp = _plain(calibration.date)
-        path = self.folder / f"{_plain(calibration.axis)}--{stamp}.toml"
+        name = f"{plain_name(calibration.axis)}--{plain_name(calibration.date)}"
+        path = self.folder / f"{name}.toml"
         FORMAT.save(path, calibration)
         return path
 
@@ -136,7 +136,3 @@ class CalibrationStore:
     def _in_use(self) -> dict[str, str]:
         path = self.folder / IN_USE
         return dict(_IN_USE.load(path).axes) if path.exists() else {}
-
-
-def _plain(name: str) -> str:
-    return re.sub(r"[^\w.+-]+", "-", name).strip("-") or "_"

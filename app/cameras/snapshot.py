@@ -1,11 +1,12 @@
-"""A picture saved with its data."""
+"""A picture, or a z-stack of them, saved with its data."""
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,6 +77,18 @@ def frame_facts(frame: Frame) -> dict[str, object]:
     }
 
 
+def tiff_tags(frame: Frame, about: Circumstances) -> dict[str, Any]:
+    """Return what tifffile is told of a picture beside its description."""
+    per_cm = 0.01 / about.pixel_m if about.pixel_m else None
+    return {
+        "photometric": "rgb" if frame.colour else "minisblack",
+        "metadata": None,
+        "software": program(),
+        "resolution": None if per_cm is None else (per_cm, per_cm),
+        "resolutionunit": None if per_cm is None else "CENTIMETER",
+    }
+
+
 def write_tiff(path: Path, frame: Frame, about: Circumstances) -> None:
     """Write the camera's own numbers, 8 or 16 bits, completely or not at all.
 
@@ -86,17 +99,9 @@ def write_tiff(path: Path, frame: Frame, about: Circumstances) -> None:
     """
     import tifffile  # takes a tenth of a second, for which no start of the window waits
 
-    per_cm = 0.01 / about.pixel_m if about.pixel_m else None
     with replaced(path) as file:
         tifffile.imwrite(
-            file,
-            frame.pixels,
-            photometric="rgb" if frame.colour else "minisblack",
-            description=description(frame, about),
-            metadata=None,
-            software=program(),
-            resolution=None if per_cm is None else (per_cm, per_cm),
-            resolutionunit=None if per_cm is None else "CENTIMETER",
+            file, frame.pixels, description=description(frame, about), **tiff_tags(frame, about)
         )
 
 
@@ -125,3 +130,39 @@ def write_png(path: Path, shown: NDArray[np.uint8], frame: Frame, about: Circums
     scale = {"dpi": (0.0254 / about.pixel_m,) * 2} if about.pixel_m else {}
     with replaced(path) as file:
         Image.fromarray(np.ascontiguousarray(shown)).save(file, "PNG", pnginfo=text, **scale)
+
+
+class Page(NamedTuple):
+    """A picture, the place of the focus, m, and all axes as commanded and measured, m and rad."""
+
+    place: float
+    frame: Frame
+    command: Mapping[str, float]
+    measured: Mapping[str, float]
+
+
+def write_stack(path: Path, pages: Sequence[Page], axis: str, about: Circumstances) -> None:
+    """Write the camera's own numbers, a page for each place, completely or not at all.
+
+    A page's description is JSON as that of a snapshot, with ``focus_axis``, ``focus_m``, ``page``
+    and ``pages``.
+
+    Raises
+    ------
+    FileWriteError
+        If it cannot be written.
+    """
+    import tifffile  # as slow
+
+    with replaced(path) as file, tifffile.TiffWriter(file) as writer:
+        for number, page in enumerate(pages, 1):
+            own = replace(about, command=page.command, measured=page.measured)
+            facts = json.loads(description(page.frame, own))
+            facts |= {"focus_axis": axis, "focus_m": page.place}
+            facts |= {"page": number, "pages": len(pages)}
+            writer.write(
+                page.frame.pixels,
+                description=json.dumps(facts),
+                contiguous=False,
+                **tiff_tags(page.frame, about),
+            )

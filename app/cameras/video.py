@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
-from rotemina.app.cameras.video_file import Opener, VideoFile, new_file
+from rotemina.app.cameras.video_file import VideoFile
+from rotemina.app.files import Opener, new_file
 from rotemina.drivers.cameras.frame import Frame
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
@@ -90,7 +91,8 @@ class Video:
         self._waiting: deque[Frame] = deque()
         self._bytes = 0
         self._changed = threading.Condition()  # guards the two above and the status
-        self._status = VideoStatus()
+        #: The status; replaced as a whole.
+        self.status = VideoStatus()
         self._ending = False
         self._told_dropped = False
         self._first: Frame | None = None  # of the writer's thread alone
@@ -116,16 +118,11 @@ class Video:
         """Begin to write."""
         self._thread.start()
 
-    @property
-    def status(self) -> VideoStatus:
-        """The status; never waits."""
-        return self._status
-
     def take(self, frame: Frame) -> None:
         """Queue a picture for writing; returns at once, on any thread."""
         size = frame.pixels.nbytes
         with self._changed:
-            if self._ending or self._status.failure:
+            if self._ending or self.status.failure:
                 return
             if self._bytes + size > self._capacity:
                 self._count(dropped=1)
@@ -153,16 +150,16 @@ class Video:
                     "engine",
                     "{path}: the last pictures could not be written within {timeout_s} s; "
                     "{pictures} pictures are kept",
-                ).fill(path=self.path, timeout_s=timeout_s, pictures=self._status.pictures)
+                ).fill(path=self.path, timeout_s=timeout_s, pictures=self.status.pictures)
             )
         self._file.close()
-        return self._status
+        return self.status
 
     # --- on the writer's thread -------------------------------------------------------------------
 
     def _run(self) -> None:
         while (frame := self._next()) is not None:
-            if self._status.failure:
+            if self.status.failure:
                 continue
             try:
                 self._write(frame)
@@ -192,8 +189,8 @@ class Video:
             self._count(pictures=1, lasts_s=frame.host_time_s - self._first.host_time_s)
 
     def _count(self, *, pictures: int = 0, dropped: int = 0, lasts_s: float | None = None) -> None:
-        was = self._status
-        self._status = replace(
+        was = self.status
+        self.status = replace(
             was,
             pictures=was.pictures + pictures,
             dropped=was.dropped + dropped,
@@ -203,7 +200,7 @@ class Video:
 
     def _fail(self, error: Exception) -> None:
         why = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
-        kept = self._status.pictures
+        kept = self.status.pictures
         failure = message(
             "engine",
             "{path}: the video has ended ({why}); {kept} pictures are kept. Free disk space, "
@@ -211,14 +208,14 @@ class Video:
         ).fill(path=self.path, why=why, kept=kept)
         _LOG.warning(failure)
         with self._changed:
-            self._status = replace(self._status, failure=failure)
+            self.status = replace(self.status, failure=failure)
             self._waiting.clear()
             self._bytes = 0
         self._tell(failure)
 
     def _tell_dropped(self) -> None:
         """Say once that pictures are missing, while there is something to be done about it."""
-        if self._status.dropped and not self._told_dropped:
+        if self.status.dropped and not self._told_dropped:
             self._told_dropped = True
             self._tell(
                 message(

@@ -10,29 +10,17 @@ import json
 import struct
 from collections.abc import Mapping
 from pathlib import Path
-from typing import BinaryIO, Protocol
 
 import numpy as np
 
 from rotemina.app.cameras.snapshot import frame_facts, program
+from rotemina.app.files import Opener, new_file, write_all
 from rotemina.drivers.cameras.frame import Frame
 
 _ASCII, _SHORT, _LONG, _RATIONAL, _LONG8 = 2, 3, 4, 5, 16
 _HEADER = struct.pack("<2sHHHQ", b"II", 43, 8, 0, 0)
 _FIRST = 8  # where the header points to the first page
 _CENTIMETRE = 3
-
-
-class Opener(Protocol):
-    """Makes a new file; tests let it fail."""
-
-    def __call__(self, path: Path) -> BinaryIO:
-        """Return the file, open, empty and without a buffer."""
-
-
-def new_file(path: Path) -> BinaryIO:
-    """Make a file that was not there."""
-    return path.open("xb", buffering=0)
 
 
 class VideoFile:
@@ -62,14 +50,10 @@ class VideoFile:
         self._pixel_m = pixel_m
         self._file = opener(path)
         self._link = _FIRST  # where the next page has to be linked
-        self._end = 0
+        #: How many bytes it has.
+        self.size = 0
         self.pages = 0
         self._put(_HEADER)
-
-    @property
-    def size(self) -> int:
-        """How many bytes it has."""
-        return self._end
 
     def append(self, frame: Frame) -> None:
         """Write a picture.
@@ -79,16 +63,16 @@ class VideoFile:
         OSError
             If the disk does not take it.
         """
-        before = self._end
+        before = self.size
         try:
-            data = self._end
+            data = self.size
             self._put(np.ascontiguousarray(frame.pixels).tobytes())
             start, directory, link = self._directory(frame, data)
             self._put(directory)
             self._file.seek(self._link)
-            self._write(struct.pack("<Q", start))
+            write_all(self._file, struct.pack("<Q", start))
         except OSError:
-            self._end = before
+            self.size = before
             self._file.truncate(before)
             raise
         self._link = link
@@ -108,15 +92,15 @@ class VideoFile:
         depth = 8 * frame.pixels.dtype.itemsize
         resolution = _ratio(self._pixel_m)
         # Texts stand before the directory, which must begin at an even place.
-        texts = text + software + b"\0" * ((self._end + len(text) + len(software)) % 2)
-        start = self._end + len(texts)
+        texts = text + software + b"\0" * ((self.size + len(text) + len(software)) % 2)
+        start = self.size + len(texts)
         tags = [
             (256, _LONG, 1, struct.pack("<I", columns)),
             (257, _LONG, 1, struct.pack("<I", rows)),
             (258, _SHORT, samples, struct.pack(f"<{samples}H", *[depth] * samples)),
             (259, _SHORT, 1, struct.pack("<H", 1)),  # no compression
             (262, _SHORT, 1, struct.pack("<H", 2 if frame.colour else 1)),
-            (270, _ASCII, len(text), struct.pack("<Q", self._end)),
+            (270, _ASCII, len(text), struct.pack("<Q", self.size)),
             (273, _LONG8, 1, struct.pack("<Q", data)),
             (277, _SHORT, 1, struct.pack("<H", samples)),
             (278, _LONG, 1, struct.pack("<I", rows)),
@@ -124,7 +108,7 @@ class VideoFile:
             (282, _RATIONAL, 1, resolution),
             (283, _RATIONAL, 1, resolution),
             (296, _SHORT, 1, struct.pack("<H", _CENTIMETRE if self._pixel_m else 1)),
-            (305, _ASCII, len(software), struct.pack("<Q", self._end + len(text))),
+            (305, _ASCII, len(software), struct.pack("<Q", self.size + len(text))),
         ]
         entries = b"".join(
             struct.pack("<HHQ", tag, kind, count) + value.ljust(8, b"\0")
@@ -135,14 +119,9 @@ class VideoFile:
 
     def _put(self, data: bytes) -> None:
         """Write at the end."""
-        self._file.seek(self._end)
-        self._write(data)
-        self._end += len(data)
-
-    def _write(self, data: bytes) -> None:
-        rest = memoryview(data)
-        while rest:  # without a buffer, a disk may take a part
-            rest = rest[self._file.write(rest) :]
+        self._file.seek(self.size)
+        write_all(self._file, data)
+        self.size += len(data)
 
 
 def _ratio(pixel_m: float | None) -> bytes:

@@ -9,7 +9,7 @@ from math import floor, isfinite
 
 import numpy as np
 
-from rotemina.app.cameras.stack_file import Page
+from rotemina.app.cameras.snapshot import Page
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import Search
 from rotemina.app.microscope.settled_frame import Newest, SettledFrameGrabber

@@ -91,8 +91,11 @@ class Admission:
         """
         worker, mailbox = self._link.worker, self._link.mailbox
         command = worker.state.command
-        ends = [command, worker.targets, *mailbox.pending()]
-        given = [*worker.drives.items(), *((a, d) for d in mailbox.drives() for a in d.ways)]
+        ends = [command, worker.executor.targets, *mailbox.pending()]
+        given = [
+            *worker.executor.drives.items(),
+            *((a, d) for d in mailbox.drives() for a in d.ways),
+        ]
         for axis, drive in given:
             way = (drive.braking if axis in driven else drive.ways).get(axis, 0.0)
             if axis in command:

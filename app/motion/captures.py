@@ -5,7 +5,6 @@ from collections import deque
 from collections.abc import Sequence
 
 from rotemina.app.motion.device_link import DeviceLink
-from rotemina.app.motion.mailbox import RefusedError
 from rotemina.drivers.abilities import Capturer
 from rotemina.drivers.capture import Captured
 from rotemina.drivers.driver import Driver
@@ -30,20 +29,13 @@ class Captures:
         RefusedError
             If the device cannot, or is not connected.
         """
-        if not isinstance(self._link.driver, Capturer):
-            raise RefusedError(
-                message("engine", "driver {name} cannot capture").fill(
-                    name=repr(self._link.driver.name)
-                )
-            )
         wanted = tuple(axes)
 
-        def begin(driver: Driver, _: Permit) -> None:
-            assert isinstance(driver, Capturer), "the session refuses on any other"
+        def begin(driver: Capturer, _: Permit) -> None:
             driver.capture(wanted, rate_hz, count)
             self._captured.clear()
 
-        self._link.ask(begin)
+        self._link.ask_able(Capturer, message("engine", "driver {name} cannot capture"), begin)
 
     def collected(self) -> tuple[Captured, ...]:
         """Return the new data of the latest capture, and request more.

@@ -2,7 +2,6 @@
 
 import threading
 from collections import deque
-from collections.abc import Iterator
 
 import numpy as np
 
@@ -56,17 +55,13 @@ class CommandMemory:
     def history(self) -> tuple[FloatArray, FloatArray]:
         """Return times (n,) and commands (n, axes) up to the latest sample, oldest first."""
         with self._lock:
-            parts = [*self._parts, *self._end()]
+            parts = [*self._parts, *([self._latest] if self._latest is not None else [])]
         if not parts:
             return np.empty(0), np.empty((0, 0))
         times, commands = zip(*parts, strict=True)
         time_s, command = np.concatenate(times), np.concatenate(commands)
         later = np.concatenate([[True], np.diff(time_s) > 0.0])
         return time_s[later], command[later]
-
-    def _end(self) -> Iterator[tuple[FloatArray, FloatArray]]:
-        if self._latest is not None:
-            yield self._latest
 
     def _keep(self, time_s: FloatArray, command: FloatArray) -> None:
         self._parts.append((time_s, command))

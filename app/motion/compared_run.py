@@ -14,7 +14,7 @@ from rotemina.app.motion.recorder import RunAnswers
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.comparison import Comparison, compare
 from rotemina.sim.comparison.gap import GapFigure, gap_figure, moving
-from rotemina.sim.plant.response import Response, nominal_response
+from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot
 
@@ -123,7 +123,8 @@ def compared(
                 readings[axis] = answers.in_use[:, column]
                 if model.corrected:
                     nominal[axis] = answers.nominal[:, column]
-    answered = _with_readings(response, readings)
+    signals = {**response.signals, **{(axis, Tap.MEAS): one for axis, one in readings.items()}}
+    answered = replace(response, signals=signals)
     comparison = compare(model.robot, record, response=answered)
     return Run(name, comparison, completed, model.id, MappingProxyType(nominal), answers)
 
@@ -150,7 +151,7 @@ def _answers_anew(
 ) -> RunAnswers | None:
     """Return what another model says of a record; None where nothing is known of before."""
     if not model.corrected:
-        return replace(told, in_use=told.nominal, doubt=np.zeros(told.nominal.shape))
+        return replace(told, in_use=told.nominal)
     time_s, command = memory.history()
     before = time_s < told.began_s
     if memory.number != told.memory or not before.any():
@@ -161,12 +162,6 @@ def _answers_anew(
         rows[:, order.index(axis)] = record.signal(axis, Tap.CMD)
     run = BracketedModel(model.robot, model.offsets)
     run.answer(time_s[before], command[before])
-    in_use, doubt = run.answer(told.began_s + record.time_s - record.time_s[0], rows)
+    in_use, _ = run.answer(told.began_s + record.time_s - record.time_s[0], rows)
     own = [order.index(axis) for axis in told.axes]
-    return replace(told, in_use=in_use[:, own], doubt=doubt[:, own])
-
-
-def _with_readings(response: Response, readings: Mapping[str, FloatArray]) -> Response:
-    signals = dict(response.signals)
-    signals |= {(axis, Tap.MEAS): reading for axis, reading in readings.items()}
-    return replace(response, signals=signals)
+    return replace(told, in_use=in_use[:, own])

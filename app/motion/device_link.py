@@ -3,18 +3,17 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from rotemina.app.motion.lock_reasons import NOT_CONNECTED
-from rotemina.app.motion.mailbox import Ask, ConnectionRequest, Mailbox, RefusedError
+from rotemina.app.motion.mailbox import A, Ask, ConnectionRequest, Mailbox, RefusedError, able
 from rotemina.app.motion.recent_history import LiveHistory
-from rotemina.app.motion.state import Connection, SessionState
-from rotemina.app.motion.stop import StopRequest, stop_devices
+from rotemina.app.motion.state import NOT_CONNECTED, Connection, SessionState
+from rotemina.app.motion.stop import StopRequest
 from rotemina.app.motion.subscribers import Subscribers
 from rotemina.app.motion.worker import Worker
 from rotemina.drivers.abilities import TrajectoryPlayer
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Gate, Permit, Purpose
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Message, message
 from rotemina.sim.quantities import fixed
 from rotemina.sim.trajectory.speed_and_acceleration import SETPOINT_PERIOD_S
 
@@ -109,6 +108,28 @@ class DeviceLink:
         self.refuse_unconnected()
         self.mailbox.post(Ask(action), permit)
 
+    def ask_able(
+        self,
+        ability: type[A],
+        refusal: Message,
+        action: Callable[[A, Permit], None],
+        permit: Permit | None = None,
+    ) -> None:
+        """Have something done by a driver that has an ability.
+
+        Raises
+        ------
+        RefusedError
+            As :func:`able` and :meth:`ask`.
+        """
+        able(self.driver, ability, refusal)
+
+        def act(driver: Driver, permit: Permit) -> None:
+            assert isinstance(driver, ability), "the session refuses on any other"
+            action(driver, permit)
+
+        self.ask(act, permit)
+
     def refuse_unconnected(self) -> None:
         """Refuse a request that needs a connection if there is none.
 
@@ -122,15 +143,22 @@ class DeviceLink:
             raise RefusedError(state.locked or NOT_CONNECTED)
 
     def stop(self, request: StopRequest, latch: str | None = None) -> None:
-        """Stop every driver that may be open, as :func:`stop_devices`.
+        """Close the gate for earlier requests, empty the queue, stop all drivers that may be open.
 
         Never waits and never raises. With ``latch`` nothing moves until the gate is released.
         """
         asked_s = self.clock()
         self._stop, self.stop_asked_s = request, asked_s
         # During an exchange the worker still has the previous driver.
-        drivers = (self.worker.driver, self.driver)
-        failure = stop_devices(self.gate, self.mailbox.clear, drivers, latch)
+        drivers = dict.fromkeys((self.worker.driver, self.driver))
+        self.gate.stop(latch)
+        self.mailbox.clear()
+        failure = None
+        for driver in drivers:
+            try:
+                driver.halt()
+            except Exception as error:  # told by the worker: a stop button must not raise
+                failure = error
         self.worker.stopped(asked_s, failure, request)
 
     def snapshot(self) -> SessionState:

@@ -3,13 +3,15 @@
 from collections.abc import Sequence
 
 from rotemina.app.motion.device_link import DeviceLink
-from rotemina.app.motion.mailbox import ClearFault, RefusedError, SetEffects
+from rotemina.app.motion.mailbox import ClearFault, SetEffects, able
 from rotemina.drivers.abilities import Display, Parameterised
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import AxisEffect
+
+_NO_PARAMETERS = message("engine", "driver {name} stores no parameters")
 
 
 class Service:
@@ -26,13 +28,9 @@ class Service:
         RefusedError
             If the device has none, or is not connected.
         """
-        self._refuse_without_parameters()
-
-        def accept(driver: Driver, _: Permit) -> None:
-            assert isinstance(driver, Parameterised), "the session refuses on any other"
-            driver.accept_parameters()
-
-        self._link.ask(accept)
+        self._link.ask_able(
+            Parameterised, _NO_PARAMETERS, lambda driver, _: driver.accept_parameters()
+        )
 
     def write_parameters(self) -> None:
         """Write the robot file's parameters into the device.
@@ -42,14 +40,12 @@ class Service:
         RefusedError
             If the device has none, or is not connected.
         """
-        permit = self._link.gate.permit(Purpose.SERVICE)
-        self._refuse_without_parameters()
-
-        def write(driver: Driver, permit: Permit) -> None:
-            assert isinstance(driver, Parameterised), "the session refuses on any other"
-            driver.write_parameters(permit=permit)
-
-        self._link.ask(write, permit)
+        self._link.ask_able(
+            Parameterised,
+            _NO_PARAMETERS,
+            lambda driver, permit: driver.write_parameters(permit=permit),
+            self._link.gate.permit(Purpose.SERVICE),
+        )
 
     def show(self, row: int, text: str) -> None:
         """Show text on the device's display; does nothing without a display."""
@@ -91,22 +87,11 @@ class Service:
             If the device carries no effects, is not connected, or a queue is full.
         """
         permit = self._link.gate.permit(Purpose.SERVICE)
-        driver = self._link.driver
-        if not isinstance(driver, EffectCarrier):
-            raise RefusedError(
-                message(
-                    "engine",
-                    "driver {name} is a real machine, whose effects cannot be changed; "
-                    "connect to the simulator",
-                ).fill(name=repr(driver.name))
-            )
-        driver.check_effects(effects)
+        real = message(
+            "engine",
+            "driver {name} is a real machine, whose effects cannot be changed; connect to the "
+            "simulator",
+        )
+        able(self._link.driver, EffectCarrier, real).check_effects(effects)
         self._link.refuse_unconnected()
         self._link.mailbox.post(SetEffects(tuple(effects)), permit)
-
-    def _refuse_without_parameters(self) -> None:
-        driver = self._link.driver
-        if not isinstance(driver, Parameterised):
-            raise RefusedError(
-                message("engine", "driver {name} stores no parameters").fill(name=repr(driver.name))
-            )

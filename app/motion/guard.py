@@ -73,14 +73,10 @@ class Guard:
         self._robot = robot
         self._axes = tuple(robot.axes)
         self._offset = np.array([axis.offset for axis in robot.axes.values()])
-        self._zone = KeepOutZone.of(robot)
+        #: The tip's bounds; None where there is no tip.
+        self.zone = KeepOutZone.of(robot)
         #: To what ranges of axes were narrowed; replaced as a whole.
         self.narrowed = WHOLE
-
-    @property
-    def zone(self) -> KeepOutZone | None:
-        """The tip's bounds; None where there is no tip."""
-        return self._zone
 
     def teach_floor(self, floor: float | None) -> None:
         """Set the tip's floor at a height, m, or remove it.
@@ -90,13 +86,13 @@ class Guard:
         OutOfLimitsError
             If the robot has no tip, or the height is none that it can have.
         """
-        if self._zone is None:
+        if self.zone is None:
             raise OutOfLimitsError(
                 message("engine", "robot {name} has no tip for a floor to limit").fill(
                     name=repr(self._robot.name)
                 )
             )
-        self._zone = self._zone.taught(floor)
+        self.zone = self.zone.taught(floor)
 
     def envelope(
         self, deviation: FloatArray | None, *commands: Mapping[str, float]
@@ -131,7 +127,7 @@ class Guard:
         for axis, position in targets.items():
             check_target(self._robot, axis, position)
         check_within(self._robot, self.narrowed, targets.items())
-        zone = self._zone
+        zone = self.zone
         if zone is None or not zone.bounded:
             return (PathSegment(targets, {}),)
         if (out := self._out(zone, envelope)) is not None:
@@ -146,7 +142,7 @@ class Guard:
         }
         if lowest >= top or not lowering:
             return (PathSegment(targets, {}),)
-        return self._in_two(zone, envelope, targets, lowering)
+        return self._in_two(envelope, targets, lowering, lowest - zone.low)
 
     def _lowest(self, zone: KeepOutZone, swept: PositionEnvelope) -> float:
         """Return the least height of the tip on a way; refuse one out of the bounds."""
@@ -190,18 +186,18 @@ class Guard:
 
     def _in_two(
         self,
-        zone: KeepOutZone,
         envelope: PositionEnvelope,
         targets: Mapping[str, float],
         lowering: Mapping[str, float],
+        height: float,
     ) -> tuple[PathSegment, ...]:
-        """Go at full speed as far as the slow zone, and slowly from there on."""
+        """Go at full speed as far as the slow zone, and slowly from there on.
+
+        ``height`` is the tip's least above its floor on the way, m.
+        """
         slowly = dict.fromkeys(lowering, SLOW_SPEED / len(lowering))
-        column = self._axes.index("z")
-        end = {self._axes.index(axis): at for axis, at in targets.items()}
-        height = self._lowest(zone, envelope.widened(end)) - zone.low
         raised = targets.get("z", np.inf) + SLOW_HEIGHT - height
-        if "z" not in lowering or raised >= envelope.low[column]:
+        if "z" not in lowering or raised >= envelope.low[self._axes.index("z")]:
             return (PathSegment(targets, slowly),)
         return (PathSegment({**targets, "z": raised}, {}), PathSegment({"z": targets["z"]}, slowly))
 
@@ -227,7 +223,7 @@ class Guard:
         for end in ends:
             check_target(self._robot, axis, end)
         check_within(self._robot, self.narrowed, ((axis, end) for end in ends))
-        zone = self._zone
+        zone = self.zone
         if zone is None or not zone.bounded:
             return
         self._refuse_if_out(zone, envelope)
@@ -282,7 +278,7 @@ class Guard:
             axis: self._before(envelope, axis, speed, lease_s, bounds.get(axis))
             for axis, speed in velocities.items()
         }
-        zone = self._zone
+        zone = self.zone
         if zone is None or not zone.bounded:
             return velocities
         self._refuse_if_out(zone, envelope)
@@ -350,7 +346,7 @@ class Guard:
         OutOfLimitsError
             With the time and what was left.
         """
-        zone = self._zone
+        zone = self.zone
         if zone is None or not zone.bounded:
             return
         self._refuse_if_out(zone, envelope)
@@ -365,11 +361,11 @@ class Guard:
 
     def tip_path(self, envelope: PositionEnvelope, commands: Record) -> TipPath | None:
         """Return where the tip would go by commands; None where there is no tip."""
-        if self._zone is None:
+        if self.zone is None:
             return None
         now = 0.5 * (envelope.low + envelope.high)
-        tips = self._zone.tip(np.vstack((now, self._positions(envelope, commands))))
-        return TipPath(tips[0], tips[1:], self._zone)
+        tips = self.zone.tip(np.vstack((now, self._positions(envelope, commands))))
+        return TipPath(tips[0], tips[1:], self.zone)
 
     def _positions(self, envelope: PositionEnvelope, commands: Record) -> FloatArray:
         """Return the axes (n, axes) at each row; axes without commands stay."""

@@ -6,7 +6,6 @@ from types import MappingProxyType
 
 import numpy as np
 
-from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.plant import Plant
@@ -63,23 +62,19 @@ class LiveModel:
         """Compute once to load compiled code, so that no device has to wait for it."""
         middle = np.array([[sum(axis.range) / 2 for axis in self._plant.robot.axes.values()]])
         still = np.repeat(middle, 2, axis=0)
-        times, rows = np.array([0.0, 1e-3]), np.full(2, -1)
-        self.follow(Samples(times, still, still, np.full(still.shape, np.nan), rows))
+        self.answer(np.array([0.0, 1e-3]), still)
         self.restart()
 
     def restart(self) -> None:
         """Rest again at the next command."""
         self._state = None
 
-    def follow(self, samples: Samples) -> FloatArray:
-        """Return the model's readings (n, axes) for the next samples, m or rad, not rounded.
-
-        They are NaN where the model diverges; it then starts again.
-        """
-        return self.answer(samples.device_time_s, samples.command)
-
     def answer(self, time_s: FloatArray, command: FloatArray) -> FloatArray:
-        """Do so for commands (n, axes) at device times (n,)."""
+        """Return the model's readings (n, axes) for the next commands (n, axes), m or rad.
+
+        They are not rounded, and NaN where the model diverges; it then starts again. Times (n,) are
+        the device's.
+        """
         if len(time_s) == 0:
             return np.empty(command.shape)
         if self._state is None:

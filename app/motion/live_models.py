@@ -33,11 +33,6 @@ class ModelOutputs(NamedTuple):
     cautious: FloatArray
     doubt: FloatArray
 
-    @classmethod
-    def of_nominal(cls, nominal: FloatArray) -> "ModelOutputs":
-        """Return the answers where the nominal model is in use."""
-        return cls(nominal, nominal, nominal, np.zeros(nominal.shape))
-
 
 class PreparedModel(NamedTuple):
     """A model with its runs, which have followed the earlier commands of the machine."""
@@ -109,9 +104,9 @@ class LiveModels:
     def follow(self, samples: Samples) -> ModelOutputs:
         """Return the answers of the models to the next samples."""
         self.memory.add(samples)
-        nominal = self._nominal.follow(samples)
+        nominal = self._nominal.answer(samples.device_time_s, samples.command)
         if not self._runs:
-            return ModelOutputs.of_nominal(nominal)
+            return ModelOutputs(nominal, nominal, nominal, np.zeros(nominal.shape))
         told = [run.answer(samples.device_time_s, samples.command) for run in self._runs]
         in_use, doubt = told[0]
         return ModelOutputs(in_use, nominal, told[-1][0], doubt)

@@ -4,7 +4,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from rotemina.app.motion.guard import PathSegment
 from rotemina.drivers.driver import Driver
@@ -13,13 +13,28 @@ from rotemina.drivers.profile import Profile
 from rotemina.sim.compensate.inverse_parameters import InverseModel
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.regulation import Regulation
-from rotemina.sim.messages import message
+from rotemina.sim.messages import Message, message
 from rotemina.sim.robot.model import AxisEffect
 from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
+
+A = TypeVar("A")
 
 
 class RefusedError(InputError):
     """A refused command; the message gives reason and remedy."""
+
+
+def able(driver: Driver, ability: type[A], refusal: Message) -> A:
+    """Return a driver that has an ability.
+
+    Raises
+    ------
+    RefusedError
+        With the ``refusal`` and in it the driver's ``name``, if it has not.
+    """
+    if not isinstance(driver, ability):
+        raise RefusedError(refusal.fill(name=repr(driver.name)))
+    return driver
 
 
 def refuse_overtaken(permit: Permit) -> None:
@@ -231,10 +246,6 @@ class Mailbox:
         """Whether a trajectory waits to be played, or a profile to be run."""
         with self._lock:
             return any(isinstance(one.command, Play | RunProfile) for one in self._commands)
-
-    def target_of(self, axis: str) -> float | None:
-        """Return the target of the latest queued or executing move of an axis."""
-        return next((each[axis] for each in reversed(self.pending()) if axis in each), None)
 
     def pending(self) -> list[Mapping[str, float]]:
         """Return the targets of all queued or executing moves, oldest first."""

@@ -24,16 +24,6 @@ class Gap:
     peak: float
 
 
-@dataclass(frozen=True, slots=True)
-class Excess:
-    """An axis beyond its bound for too long; m or rad."""
-
-    axis: str
-    deviation: float
-    bound: float
-    text: str
-
-
 class DeviationWatch:
     """Compares readings with the nominal model's, portion by portion, while something plays.
 
@@ -43,8 +33,6 @@ class DeviationWatch:
     bounds : mapping axis -> float
         The greatest deviation that is no reason to stop, m or rad; axes without one are only
         compared.
-    lasting_s : float
-        Device time for which a deviation must last.
 
     Raises
     ------
@@ -52,12 +40,7 @@ class DeviationWatch:
         If there is no such axis, or a bound is not above 0.
     """
 
-    def __init__(
-        self,
-        robot: Robot,
-        bounds: Mapping[str, float] = MappingProxyType({}),
-        lasting_s: float = LASTING_S,
-    ) -> None:
+    def __init__(self, robot: Robot, bounds: Mapping[str, float] = MappingProxyType({})) -> None:
         for axis, bound in bounds.items():
             if axis not in robot.axes:
                 raise InputError(
@@ -72,7 +55,6 @@ class DeviationWatch:
         self._robot = robot
         self._axes = tuple(robot.axes)
         self._bounds = np.array([bounds.get(axis, np.inf) for axis in self._axes])
-        self._lasting_s = lasting_s
         self._since_s = np.full(len(self._axes), np.nan)  # device time; NaN within the bound
         self._squares = np.zeros(len(self._axes))
         self._peak = np.zeros(len(self._axes))
@@ -92,8 +74,8 @@ class DeviationWatch:
 
     def add(
         self, samples: Samples, model: FloatArray, nominal: FloatArray | None = None
-    ) -> Excess | None:
-        """Add samples and the models' answers (n, axes); return the axis that exceeds its bound.
+    ) -> str | None:
+        """Add samples and the models' answers (n, axes); say which axis exceeds its bound, if any.
 
         The gap is that of the model in use. The bound also holds against the nominal model, so
         another model never widens it.
@@ -114,22 +96,21 @@ class DeviationWatch:
             begun = beyond[row] & np.isnan(self._since_s)
             self._since_s[begun] = time_s
             self._since_s[~beyond[row]] = np.nan
-            lasting = np.flatnonzero(time_s - self._since_s >= self._lasting_s)
+            lasting = np.flatnonzero(time_s - self._since_s >= LASTING_S)
             if len(lasting):
                 return self._excess(int(lasting[0]), float(deviation[row, lasting[0]]))
         return None
 
-    def _excess(self, column: int, deviation: float) -> Excess:
+    def _excess(self, column: int, deviation: float) -> str:
         axis, bound = self._axes[column], float(self._bounds[column])
         unit = self._robot.unit(axis) or ""
-        text = message(
+        return message(
             "engine",
             "axis {axis} deviates from the model by {deviation} for more than {time} ms; the "
             "bound is {bound}",
         ).fill(
             axis=AxisName(axis),
             deviation=exact(deviation, unit),
-            time=1e3 * self._lasting_s,
+            time=1e3 * LASTING_S,
             bound=exact(bound, unit),
         )
-        return Excess(axis, deviation, bound, text)

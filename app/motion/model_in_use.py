@@ -93,11 +93,7 @@ class ModelInUse:
         What a diagnosis added and commands foretell; none: the nominal model.
     offsets : mapping axis -> float
         Constants of the readings, m or rad.
-    left_out : tuple of AxisEffect
-        What the diagnosis found and no command foretells: disturbances.
     machine : Machine
-    noted : tuple of str
-        Faults and contacts while the records were taken that it was learned from.
     """
 
     id: str
@@ -105,8 +101,6 @@ class ModelInUse:
     machine: Machine
     effects: tuple[AxisEffect, ...] = ()
     offsets: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
-    left_out: tuple[AxisEffect, ...] = ()
-    noted: tuple[str, ...] = ()
 
     @classmethod
     def nominal_of(cls, driver: Driver) -> Self:
@@ -116,11 +110,7 @@ class ModelInUse:
 
     @classmethod
     def corrected_by(
-        cls,
-        diagnosis: "Diagnosis",
-        driver: Driver,
-        noted: Sequence[str] = (),
-        beyond: Self | None = None,
+        cls, diagnosis: "Diagnosis", driver: Driver, beyond: Self | None = None
     ) -> Self:
         """Return the model of the connected machine with the effects of a diagnosis.
 
@@ -128,8 +118,6 @@ class ModelInUse:
         ----------
         diagnosis : Diagnosis
         driver : Driver
-        noted : sequence of str
-            Faults and contacts while its records were taken.
         beyond : ModelInUse, optional
             The model in use, whose remainder may have been diagnosed: what is in it stays.
 
@@ -159,7 +147,6 @@ class ModelInUse:
             id=_corrected_id(machine, (*before, *found.effects), found.offsets),
             nominal=driver.robot,
             effects=(*before, *found.effects),
-            noted=tuple(noted),
         )
 
     @classmethod
@@ -190,9 +177,8 @@ class ModelInUse:
             for name, one in diagnosis.axes.items()
             if (offset := one.offsets.get(Tap.MEAS)) is not None
         }
-        left_out = tuple(effect for effect in found if effect not in used)
         name = _corrected_id(machine, used, offsets)
-        return cls(name, robot, machine, used, MappingProxyType(offsets), left_out)
+        return cls(name, robot, machine, used, MappingProxyType(offsets))
 
     @property
     def corrected(self) -> bool:

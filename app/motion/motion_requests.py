@@ -1,19 +1,20 @@
 """Motion requests: single axes, speeds, safe paths, homing, trajectories, voltages."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
 
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.compensation import Inverses
 from rotemina.app.motion.device_link import DeviceLink
 from rotemina.app.motion.guard import Guard, TipPath
-from rotemina.app.motion.mailbox import Drive, Home, Play, RefusedError, SetVoltage
+from rotemina.app.motion.mailbox import Drive, Home, Play, RefusedError, SetVoltage, able
 from rotemina.app.motion.ownership import HOMING, OPERATOR, PLAYBACK
 from rotemina.app.motion.position_envelope import PositionEnvelope
 from rotemina.app.motion.ranges import check_rows
 from rotemina.app.motion.regulation import Loops
 from rotemina.app.motion.routing import Routing
-from rotemina.app.motion.safe_path import safe_path
+from rotemina.app.motion.undo import safe_path
 from rotemina.drivers.abilities import Homer, TrajectoryPlayer, VelocityMover, VoltageOutput
 from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.samples import DeviceState
@@ -27,24 +28,16 @@ from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory, accept
 LEASE_S = 0.15  # of a speed that nobody renews
 
 
+@dataclass(eq=False)
 class Moves:
     """What moves axes; ranges, the tip's bounds and owners hold on every path."""
 
-    def __init__(
-        self,
-        link: DeviceLink,
-        admission: Admission,
-        guard: Guard,
-        inverses: Inverses,
-        loops: Loops,
-        routing: Routing,
-    ) -> None:
-        self._link = link
-        self._admission = admission
-        self._guard = guard
-        self._inverses = inverses
-        self._loops = loops
-        self._routing = routing
+    _link: DeviceLink
+    _admission: Admission
+    _guard: Guard
+    _inverses: Inverses
+    _loops: Loops
+    _routing: Routing
 
     def go_to(
         self,
@@ -95,14 +88,10 @@ class Moves:
             If the device cannot, or as :meth:`go_to`.
         """
         permit = self._admission.drawn(permit)
-        driver = self._link.driver
-        if not isinstance(driver, VelocityMover):
-            raise RefusedError(
-                message(
-                    "engine", "driver {name} cannot move at a set speed; send targets instead"
-                ).fill(name=repr(driver.name))
-            )
-        driver.check_velocity(velocities, lease_s)
+        refusal = message(
+            "engine", "driver {name} cannot move at a set speed; send targets instead"
+        )
+        able(self._link.driver, VelocityMover, refusal).check_velocity(velocities, lease_s)
         with self._admission.lock:
             self._admission.refuse_if_locked()
             guard = self._guard
@@ -124,13 +113,8 @@ class Moves:
             If the device has none, or is not at rest.
         """
         permit = self._link.gate.permit(Purpose.HOMING)
-        driver = self._link.driver
-        if not isinstance(driver, Homer):
-            raise RefusedError(
-                message("engine", "driver {name} has no limit switches").fill(
-                    name=repr(driver.name)
-                )
-            )
+        refusal = message("engine", "driver {name} has no limit switches")
+        driver = able(self._link.driver, Homer, refusal)
         wanted = driver.homing_axes if axes is None else tuple(axes)
         with self._admission.lock:
             state = self._link.snapshot()
@@ -330,12 +314,8 @@ class Moves:
             slowly, or as for any move.
         """
         permit = self._admission.drawn(permit)
-        if not isinstance(self._link.driver, VoltageOutput):
-            raise RefusedError(
-                message("engine", "driver {name} cannot set a voltage").fill(
-                    name=repr(self._link.driver.name)
-                )
-            )
+        refusal = message("engine", "driver {name} cannot set a voltage")
+        able(self._link.driver, VoltageOutput, refusal)
         model = self._link.robot.axes.get(axis)
         if not isinstance(model, PiezoAxis) or model.controller is not None:
             raise OutOfLimitsError(
@@ -369,12 +349,8 @@ class Moves:
             self._admission.queue_move(command, permit, (axis,), owner)
 
     def _playable(self, trajectory: Record | CheckedTrajectory) -> CheckedTrajectory:
-        if not isinstance(self._link.driver, TrajectoryPlayer):
-            raise RefusedError(
-                message("engine", "driver {name} cannot play trajectories").fill(
-                    name=repr(self._link.driver.name)
-                )
-            )
+        refusal = message("engine", "driver {name} cannot play trajectories")
+        able(self._link.driver, TrajectoryPlayer, refusal)
         return accepted(self._link.robot, trajectory, self._link.setpoint_period_s)
 
     def _check_path(
@@ -408,9 +384,6 @@ class Moves:
 
     def _target_of(self, axis: str) -> float:
         """Return the latest accepted target of an axis, or its present position."""
-        target = self._link.mailbox.target_of(axis)
-        if target is None:
-            target = self._link.worker.ends.get(axis)
-        if target is None:
-            target = self._link.worker.state.command.get(axis, float("nan"))
-        return target
+        pending, worker = self._link.mailbox.pending(), self._link.worker
+        places = (*reversed(pending), worker.executor.ends, worker.state.command)
+        return next((place[axis] for place in places if axis in place), float("nan"))

@@ -10,20 +10,19 @@ from collections.abc import Callable, Mapping
 from datetime import datetime
 from pathlib import Path
 from types import MappingProxyType
+from typing import TypeVar
 
 from rotemina.app.calibration.store import CalibrationStore
 from rotemina.app.motion.front_display import FrontDisplay
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.arming import prepared
 from rotemina.app.motion.penetration.cell_list import CellList
-from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.penetration import Penetration
 from rotemina.app.motion.penetration.run_log import RunLog
 from rotemina.app.motion.recording.arrow_tables import prepare
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.session_recorder import SessionRecorder
-from rotemina.app.motion.recording.writer import RecorderNotice
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.teleoperation.input_devices import InputDevices, InputSnapshot
 from rotemina.app.motion.teleoperation.intent import Action, Intent
@@ -32,7 +31,6 @@ from rotemina.app.motion.teleoperation.recentring import (
     plan_recentring,
     plan_with_tip_held,
 )
-from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scales import Scales
 from rotemina.app.motion.teleoperation.teleoperation_loop import Teleoperator
 from rotemina.app.motion.ticker import Ticker
@@ -45,6 +43,8 @@ from rotemina.drivers.samples import DeviceState
 from rotemina.sim.errors import InputError
 from rotemina.sim.kinematics.chain import JOINTS, Chain, ChainError
 from rotemina.sim.messages import message
+
+T = TypeVar("T")
 
 STEP_S, LOOK_S, DISPLAY_S = 0.005, 1.0, 0.5
 #: What the pad on the screen can hold. Everything else has buttons of its own there, and a dead-man
@@ -103,11 +103,14 @@ class Operation:
         }
         hub = InputHub.installed(own, clock=clock)
         self.devices = InputDevices(hub, tuple(session.robot.axes), folder)
-        self.teleoperator = Teleoperator(session, self._kept_scales())
+        scales = self._kept(Scales.load, self._scales_file, Scales)
+        self.teleoperator = Teleoperator(session, scales)
         self.display = FrontDisplay(session, lambda: self.teleoperator.state.mode)
         self.penetration_log = RunLog(data / "penetrations.jsonl")
         self.penetration = Penetration(session, self.penetration_log)
-        self.penetration_parameters = self._kept_parameters()
+        self.penetration_parameters = self._kept(
+            PenetrationParameters.kept, self._penetration_file, PenetrationParameters
+        )
         #: To be penetrated one after the other; for the thread of whoever shows them.
         self.cells = CellList()
         self.intent = Intent(0.0)
@@ -357,18 +360,17 @@ class Operation:
     # --- inside -----------------------------------------------------------------------------------
 
     def _act(self, intent: Intent, now_s: float) -> None:
-        requests: list[Callable[[], object]] = []
-        if Action.PENETRATION in intent.pressed:
-            requests.append(lambda: self.penetration.press(now_s))
-        if Action.TOOL in intent.pressed:
-            requests.append(self.toggle_tool)
-        if Action.RECENTRE in intent.pressed:
-            requests.append(self.recentre)
-        for request in requests:
-            try:
-                request()
-            except InputError as error:
-                self._told(str(error))
+        requests: dict[Action, Callable[[], None]] = {
+            Action.PENETRATION: lambda: self.penetration.press(now_s),
+            Action.TOOL: self.toggle_tool,
+            Action.RECENTRE: self.recentre,
+        }
+        for action, request in requests.items():
+            if action in intent.pressed:
+                try:
+                    request()
+                except InputError as error:
+                    self._told(str(error))
 
     def _rumble(self) -> None:
         strength = max((abs(one.felt) for one in self.teleoperator.state.coordinates), default=0.0)
@@ -389,8 +391,8 @@ class Operation:
                     recorder.record_reading(device, reading)
         recorder.record_intent(snapshot.intent)
 
-    def _recorder_told(self, notice: RecorderNotice) -> None:
-        self._told(message("engine", "Recorder: {message}").fill(message=notice.message))
+    def _recorder_told(self, notice: str) -> None:
+        self._told(message("engine", "Recorder: {message}").fill(message=notice))
 
     def _step_failed(self, error: Exception) -> None:
         self._told(
@@ -399,23 +401,14 @@ class Operation:
             )
         )
 
-    def _kept_scales(self) -> Scales:
+    def _kept(self, load: Callable[[Path], T], path: Path, presets: Callable[[], T]) -> T:
         try:
-            return Scales.load(self._scales_file)
-        except ScalingError as error:
+            return load(path)
+        except InputError as error:
             self.problems.append(
                 message("engine", "{error}; presets are used").fill(error=str(error))
             )
-            return Scales()
-
-    def _kept_parameters(self) -> PenetrationParameters:
-        try:
-            return PenetrationParameters.kept(self._penetration_file)
-        except PenetrationError as error:
-            self.problems.append(
-                message("engine", "{error}; presets are used").fill(error=str(error))
-            )
-            return PenetrationParameters()
+            return presets()
 
 
 def has_tip(session: MotionSession) -> bool:

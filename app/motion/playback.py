@@ -10,7 +10,7 @@ import numpy as np
 
 from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.model_deviation_watch import DeviationWatch, Excess, Gap
+from rotemina.app.motion.model_deviation_watch import DeviationWatch, Gap
 from rotemina.app.motion.retiming import Piece, check_speed, piece
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import Connection, Event, PlaybackFinished, StateChanged
@@ -22,6 +22,7 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.trajectory.checked_trajectory import CheckedTrajectory
 
 _ROUNDING_S = 1e-6  # of times that came from a device
+_PLAYING = message("engine", "a trajectory is playing; pause or stop it first")
 
 
 class PlaybackPhase(StrEnum):
@@ -47,7 +48,7 @@ class PlaybackState:
         Times as fast as the trajectory says.
     gaps : mapping axis -> Gap
         Model against machine since the beginning.
-    excess : Excess or None
+    excess : str or None
         Why it was stopped, if the deviation was excessive.
     """
 
@@ -58,7 +59,7 @@ class PlaybackState:
     duration_s: float = 0.0
     speed: float = 1.0
     gaps: Mapping[str, Gap] = field(default_factory=lambda: MappingProxyType({}))
-    excess: Excess | None = None
+    excess: str | None = None
 
 
 class Playback:
@@ -73,11 +74,11 @@ class Playback:
     ----------
     session : MotionSession
     exceeded : callable
-        Told once, on the session's thread, when a deviation has stopped the playback.
+        Told once which axis deviates, on the session's thread, when that has stopped the playback.
     """
 
     def __init__(
-        self, session: MotionSession, exceeded: Callable[[Excess], None] = lambda _: None
+        self, session: MotionSession, exceeded: Callable[[str], None] = lambda _: None
     ) -> None:
         self._session = session
         self._exceeded = exceeded
@@ -208,9 +209,7 @@ class Playback:
         commands = trajectory.commands
         with self._lock:
             if self._state.phase is PlaybackPhase.PLAYING:
-                raise RefusedError(
-                    message("engine", "a trajectory is playing; pause or stop it first")
-                )
+                raise RefusedError(_PLAYING)
             self._whole, self._watch = trajectory, DeviationWatch(self._session.robot)
             self._state = PlaybackState(
                 PlaybackPhase.PAUSED, rows=len(commands.time_s), duration_s=commands.duration_s
@@ -243,9 +242,7 @@ class Playback:
             played = part.trajectory
         with self._lock:
             if self._state.phase is PlaybackPhase.PLAYING:
-                raise RefusedError(
-                    message("engine", "a trajectory is playing; pause or stop it first")
-                )
+                raise RefusedError(_PLAYING)
             before = (self._whole, self._piece, self._watch, self._state)
             self._whole, self._piece, self._watch = whole, part, watch
             self._state = replace(state, phase=PlaybackPhase.PLAYING)
@@ -269,7 +266,7 @@ class Playback:
                 return
             self._state = replace(self._state, excess=excess)
             self._pausing = True
-        self._session.stop(excess.text)
+        self._session.stop(excess)
         self._exceeded(excess)
 
     def _on_event(self, event: Event) -> None:

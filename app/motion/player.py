@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 
 from rotemina.app.motion.compensation import NamedInverse, compensated_trajectory
+from rotemina.app.motion.mailbox import able
 from rotemina.app.motion.recorder import PlaybackRecorder
 from rotemina.app.motion.regulation import NamedRegulation
 from rotemina.drivers.abilities import TrajectoryPlayer
@@ -67,9 +68,11 @@ def play_offline(
     try:
         device.read()
         if inverse is not None:
-            _compensator(device).compensate(inverse.model.axis, inverse.model)
+            refusal = message("engine", "driver {name} cannot compensate; use the simulator")
+            able(device, Compensator, refusal).compensate(inverse.model.axis, inverse.model)
         if loop is not None:
-            _regulator(device).regulate(loop.regulation.axis, loop.regulation)
+            refusal = message("engine", "driver {name} cannot close a loop; use the simulator")
+            able(device, Regulator, refusal).regulate(loop.regulation.axis, loop.regulation)
         device.play(checked)
         while device.status().state is DeviceState.PLAYING:
             clock.advance(_STEP_S)
@@ -87,26 +90,6 @@ def play_offline(
             )
         )
     return record
-
-
-def _compensator(device: TrajectoryPlayer) -> Compensator:
-    if not isinstance(device, Compensator):
-        raise InputError(
-            message("engine", "driver {name} cannot compensate; use the simulator").fill(
-                name=repr(device.name)
-            )
-        )
-    return device
-
-
-def _regulator(device: TrajectoryPlayer) -> Regulator:
-    if not isinstance(device, Regulator):
-        raise InputError(
-            message("engine", "driver {name} cannot close a loop; use the simulator").fill(
-                name=repr(device.name)
-            )
-        )
-    return device
 
 
 def _virtual_player(name: str) -> type[TrajectoryPlayer]:

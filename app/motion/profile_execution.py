@@ -1,36 +1,32 @@
 """Profiles that a device executes: upload, trigger and abort."""
 
+from dataclasses import dataclass
+
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.compensation import Inverses
 from rotemina.app.motion.device_link import DeviceLink
 from rotemina.app.motion.guard import Guard
-from rotemina.app.motion.mailbox import LoadProfile, RefusedError, RunProfile
+from rotemina.app.motion.mailbox import LoadProfile, RefusedError, RunProfile, able
 from rotemina.app.motion.ownership import OPERATOR
 from rotemina.app.motion.reservations import Reservations
 from rotemina.drivers.abilities import ProfileRunner
-from rotemina.drivers.driver import Driver
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.profile import Profile
 from rotemina.sim.messages import AxisName, message
 
+_NO_PROFILES = message("engine", "driver {name} cannot execute profiles")
 
+
+@dataclass(eq=False)
 class Profiles:
     """One profile at a time, of one axis, checked and owned like a move."""
 
-    def __init__(
-        self,
-        link: DeviceLink,
-        admission: Admission,
-        guard: Guard,
-        inverses: Inverses,
-        reservations: Reservations,
-    ) -> None:
-        self._link = link
-        self._admission = admission
-        self._guard = guard
-        self._inverses = inverses
-        self._reservations = reservations
-        self._loaded: tuple[Profile, float] | None = None  # and where its axis was
+    _link: DeviceLink
+    _admission: Admission
+    _guard: Guard
+    _inverses: Inverses
+    _reservations: Reservations
+    _loaded: tuple[Profile, float] | None = None  # and where its axis was
 
     def upload(
         self, profile: Profile, owner: str = OPERATOR, *, permit: Permit | None = None
@@ -51,7 +47,7 @@ class Profiles:
             If the device runs no profiles, is not at rest, or as for any move.
         """
         permit = self._admission.drawn(permit)
-        self._profile_runner()
+        able(self._link.driver, ProfileRunner, _NO_PROFILES)
         with self._admission.lock:
             self._admission.refuse_unless_at_rest("a profile")
             start = self._commanded(profile.axis)
@@ -71,7 +67,7 @@ class Profiles:
             If none was uploaded, its axis has moved since, or as :meth:`upload`.
         """
         permit = self._admission.drawn(permit)
-        self._profile_runner()
+        able(self._link.driver, ProfileRunner, _NO_PROFILES)
         with self._admission.lock:
             self._admission.refuse_unless_at_rest("a profile")
             if self._loaded is None:
@@ -110,17 +106,9 @@ class Profiles:
         RefusedError
             If the device runs none, or is not connected.
         """
-        self._profile_runner()
+        able(self._link.driver, ProfileRunner, _NO_PROFILES)
         self._loaded = None
-        self._link.ask(_abort)
-
-    def _profile_runner(self) -> None:
-        if not isinstance(self._link.driver, ProfileRunner):
-            raise RefusedError(
-                message("engine", "driver {name} cannot execute profiles").fill(
-                    name=repr(self._link.driver.name)
-                )
-            )
+        self._link.ask_able(ProfileRunner, _NO_PROFILES, lambda driver, _: driver.abort())
 
     def _commanded(self, axis: str) -> float:
         return float(self._link.worker.state.command.get(axis, float("nan")))
@@ -141,8 +129,3 @@ class Profiles:
             fastest,
             thrust=self._reservations.held_by(owner),
         )
-
-
-def _abort(driver: Driver, _: Permit) -> None:
-    assert isinstance(driver, ProfileRunner), "the session refuses on any other"
-    driver.abort()

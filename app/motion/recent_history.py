@@ -1,17 +1,12 @@
 """The recent past of all axes, written by the session's worker, read by displays."""
 
 import threading
-from dataclasses import dataclass, field
-from typing import Literal
+from dataclasses import dataclass
 
 import numpy as np
 
 from rotemina.drivers.samples import Samples
 from rotemina.sim.arrays import FloatArray, read_only
-
-
-def _nothing() -> FloatArray:
-    return np.empty((0, 0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,7 +18,7 @@ class LiveWindow:
     axes : tuple of str
         What the columns are.
     device_time_s : (n,)
-        Increasing; not to be compared with times of another ``connection``.
+        Increasing; not to be compared with times of another connection to the device.
     command, model, measured : (n, axes)
         What was commanded, what the model in use answers to it, what the sensors said; m or rad.
         The model is NaN where it has no finite answer.
@@ -32,8 +27,6 @@ class LiveWindow:
         machine's past is unknown.
     gap_since_s : float
         Device time from which on the model was in use: the gap begins there.
-    connection : int
-        Counts up whenever the history starts again, after each connection to the device.
     """
 
     axes: tuple[str, ...]
@@ -41,15 +34,9 @@ class LiveWindow:
     command: FloatArray
     model: FloatArray
     measured: FloatArray
-    connection: int
-    nominal: FloatArray = field(default_factory=_nothing)
-    doubt: FloatArray = field(default_factory=_nothing)
+    nominal: FloatArray
+    doubt: FloatArray
     gap_since_s: float = float("-inf")
-
-    def __post_init__(self) -> None:
-        if not self.nominal.shape == self.doubt.shape == self.model.shape:
-            object.__setattr__(self, "nominal", self.model)
-            object.__setattr__(self, "doubt", np.zeros(self.model.shape))
 
     def __len__(self) -> int:
         return len(self.device_time_s)
@@ -69,14 +56,12 @@ class LiveHistory:
         self._values = np.empty((self.capacity, 5, len(axes)))
         self._gap_since_s = float("-inf")
         self._written = 0
-        self._connection = 0
         self._lock = threading.Lock()
 
     def clear(self) -> None:
         """Forget everything: a new connection has its own device time."""
         with self._lock:
             self._written = 0
-            self._connection += 1
             self._gap_since_s = float("-inf")
 
     def restart_gap(self) -> None:
@@ -108,44 +93,22 @@ class LiveHistory:
             self._values[slots] = values[-count:]
             self._written += count
 
-    def tail(self, seconds: float | None = None, *, since_s: float | None = None) -> LiveWindow:
-        """Return the latest ``seconds``, or samples later than ``since_s``, or all.
-
-        ``since_s`` is a device time; with both, the shorter section counts.
-        """
+    def tail(self, seconds: float | None = None) -> LiveWindow:
+        """Return the latest ``seconds``, or all."""
         with self._lock:
             count = min(self._written, self.capacity)
             first = self._written - count
-            if count and (seconds is not None or since_s is not None):
-                first += self._skipped(first, count, seconds, since_s)
+            if count and seconds is not None:
+                times = self._ordered(self._time_s, first)
+                first += int(times.searchsorted(times[-1] - seconds))
             time_s = self._ordered(self._time_s, first)
             values = self._ordered(self._values, first)
-            connection, gap_since_s = self._connection, self._gap_since_s
+            gap_since_s = self._gap_since_s
         command, model, measured, nominal, doubt = (
             read_only(np.ascontiguousarray(values[:, part])) for part in range(5)
         )
-        time_s = read_only(time_s)
-        parts = (command, model, measured, connection, nominal, doubt, gap_since_s)
-        return LiveWindow(self.axes, time_s, *parts)
-
-    def _skipped(self, first: int, count: int, seconds: float | None, since_s: float | None) -> int:
-        """Return how many of the oldest samples are too old."""
-        begin, end = first % self.capacity, self._written % self.capacity
-        older, newer = (
-            (self._time_s[begin:end], self._time_s[:0])
-            if begin < end
-            else (self._time_s[begin:], self._time_s[:end])
-        )
-
-        def place(at_s: float, side: Literal["left", "right"]) -> int:
-            in_older = int(older.searchsorted(at_s, side))
-            return in_older + (int(newer.searchsorted(at_s, side)) if in_older == len(older) else 0)
-
-        skipped = 0 if since_s is None else place(since_s, "right")
-        if seconds is not None:
-            newest_s = float(self._time_s[(self._written - 1) % self.capacity])
-            skipped = max(skipped, place(newest_s - seconds, "left"))
-        return min(skipped, count)
+        parts = (command, model, measured, nominal, doubt, gap_since_s)
+        return LiveWindow(self.axes, read_only(time_s), *parts)
 
     def _ordered(self, ring: FloatArray, first: int) -> FloatArray:
         """Copy a ring from sample number ``first`` to the latest, oldest first."""

@@ -31,7 +31,7 @@ class RunAnswers:
     ----------
     axes : tuple of str
         The record's.
-    in_use, nominal, doubt : (n, axes)
+    in_use, nominal : (n, axes)
         As :class:`~rotemina.app.motion.live_models.ModelOutputs`.
     began_s : float
         Device time of the first row.
@@ -42,7 +42,6 @@ class RunAnswers:
     axes: tuple[str, ...]
     in_use: FloatArray
     nominal: FloatArray
-    doubt: FloatArray
     began_s: float
     memory: int
 
@@ -82,7 +81,8 @@ class PlaybackRecorder:
         self._told = np.ones(len(self._channels), dtype=np.bool_)
         self._samples = _Samples(1 + len(self._channels))
         self._answers: _Samples | None = None
-        self._answered: RunAnswers | None = None
+        #: The models' answers for each row; None before its end or without models.
+        self.answers: RunAnswers | None = None
         self._memory = 0
         self._rows = 0  # samples up to the latest row that began
         self._row = -1
@@ -91,11 +91,6 @@ class PlaybackRecorder:
     def complete(self) -> bool:
         """Whether the last row of the trajectory was sampled."""
         return self._row == len(self._trajectory.commands.time_s) - 1
-
-    @property
-    def answers(self) -> RunAnswers | None:
-        """The models' answers for each row; None before its end or without models."""
-        return self._answered
 
     def say(self, name: str, text: str) -> None:
         """Put something into the record's metadata."""
@@ -134,7 +129,7 @@ class PlaybackRecorder:
         device_time_s, values = self._samples.drained(self._rows, told)
         if self._answers is not None:
             began_s = float(device_time_s[0])
-            self._answered = self._drained_answers(self._answers, began_s)
+            self.answers = self._drained_answers(self._answers, began_s)
         time_s = np.rint((device_time_s - device_time_s[0]) * _PER_SECOND) / _PER_SECOND
         channels = tuple(self._channels[column] for column in told)
         return Record(time_s, channels, values, self._trajectory.commands.units, self._metadata)
@@ -143,7 +138,7 @@ class PlaybackRecorder:
         order, axes = tuple(self._trajectory.robot.axes), self._trajectory.commands.axes
         own = [order.index(axis) for axis in axes]
         alike = answers.in_use is answers.nominal
-        parts = (answers.in_use,) if alike else (answers.in_use, answers.nominal, answers.doubt)
+        parts = (answers.in_use,) if alike else (answers.in_use, answers.nominal)
         table = np.concatenate([part[first:, own] for part in parts], axis=1)
         if self._answers is None:
             self._answers = _Samples(table.shape[1])
@@ -155,10 +150,8 @@ class PlaybackRecorder:
         columns = np.arange(kept.columns - 1)
         values = np.column_stack(kept.drained(self._rows, columns))
         in_use = np.ascontiguousarray(values[:, :count])
-        if kept.columns == count:
-            return RunAnswers(axes, in_use, in_use, np.zeros(in_use.shape), began_s, self._memory)
-        nominal, doubt = values[:, count : 2 * count], values[:, 2 * count :]
-        return RunAnswers(axes, in_use, nominal, doubt, began_s, self._memory)
+        nominal = in_use if kept.columns == count else values[:, count:]
+        return RunAnswers(axes, in_use, nominal, began_s, self._memory)
 
     def _check_rows(self, samples: Samples, began: IntArray) -> None:
         rows = np.concatenate([[self._row], samples.playback_row[began]])

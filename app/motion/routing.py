@@ -1,6 +1,7 @@
 """Routing of single targets: path segments that pass the guard, with one-sided approaches."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.backlash import Backlash
@@ -15,16 +16,14 @@ from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 Ways = Sequence[Mapping[str, float]]
 
 
+@dataclass(eq=False)
 class Routing:
     """Makes moves of targets; the lock of :class:`Admission` is held in all calls."""
 
-    def __init__(
-        self, link: DeviceLink, admission: Admission, guard: Guard, backlash: Backlash
-    ) -> None:
-        self._link = link
-        self._admission = admission
-        self._guard = guard
-        self._backlash = backlash
+    _link: DeviceLink
+    _admission: Admission
+    _guard: Guard
+    _backlash: Backlash
 
     def to(
         self, targets: Mapping[str, float], owner: str, *, confirmed: bool
@@ -99,8 +98,8 @@ class Routing:
 
         Whoever sends another axis meanwhile takes them along: the rest of their move ends with it.
         """
-        worker = self._link.worker
-        ends = dict(worker.ends) if worker.between_segments else {}
+        executor = self._link.worker.executor
+        ends = dict(executor.ends) if executor.between_segments else {}
         for each in self._link.mailbox.pending():
             ends |= each
         return {axis: at for axis, at in ends.items() if axis in self._backlash.applied}

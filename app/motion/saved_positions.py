@@ -1,6 +1,5 @@
 """Named positions of one robot."""
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -9,6 +8,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
+from rotemina.app.files import plain_name
 from rotemina.app.toml_file import STRICT, Format, Text
 from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
@@ -56,8 +56,7 @@ class SavedPositions:
 
     def __init__(self, folder: Path, robot: Robot) -> None:
         self._robot = robot
-        plain = re.sub(r"[^\w.+-]+", "-", robot.name).strip("-") or "_"
-        self.path = folder / FOLDER / f"{plain}.toml"
+        self.path = folder / FOLDER / f"{plain_name(robot.name)}.toml"
         self._kept: dict[str, Mapping[str, float]] = {}
 
     @property

@@ -53,11 +53,6 @@ class SensorCorrections:
         self._corrections: dict[int, Correction] = {}
 
     @property
-    def applied(self) -> Mapping[str, AppliedCalibration]:
-        """The calibrations that are on, by axis."""
-        return self._applied
-
-    @property
     def names(self) -> dict[str, str]:
         """The names of those that act on readings now, by axis."""
         paused = self._paused

@@ -1,11 +1,8 @@
-"""A stop: who requested it, why and when, and how it reaches the device."""
+"""A stop: who requested it, why and when."""
 
-from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from datetime import datetime
 
-from rotemina.drivers.driver import Driver
-from rotemina.drivers.gate import Gate
 from rotemina.sim.messages import message
 
 PROGRAM = "program"  # whatever stops without being asked by a person
@@ -38,25 +35,3 @@ class StopRequest:
                 who=self.by, time=when, why=self.why
             )
         return message("engine", "Stopped by the {who} at {time}").fill(who=self.by, time=when)
-
-
-def stop_devices(
-    gate: Gate,
-    clear_queue: Callable[[], None],
-    drivers: Iterable[Driver],
-    latch: str | None = None,
-) -> Exception | None:
-    """Close the gate for earlier requests, empty the queue, then stop every driver.
-
-    Never waits and never raises; returns the last error of a driver. With ``latch`` nothing moves
-    until the gate is released.
-    """
-    gate.stop(latch)
-    clear_queue()
-    failure = None
-    for driver in dict.fromkeys(drivers):
-        try:
-            driver.halt()
-        except Exception as error:  # told by the worker: a stop button must not raise
-            failure = error
-    return failure

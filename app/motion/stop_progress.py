@@ -18,7 +18,8 @@ class StopTracking:
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
         # Set by other threads, each in one assignment.
-        self._asked_s: float | None = None
+        #: When the latest stop was asked for, until the machine has come to rest.
+        self.asked_s: float | None = None
         self._rested_s: float | None = None  # the stop that found the machine at rest
         self._unconfirmed_s: float | None = None
         self._failure: Exception | None = None
@@ -26,7 +27,7 @@ class StopTracking:
 
     def note(self, host_time_s: float, failure: Exception | None, request: StopRequest) -> None:
         """Note, from any thread, that a stop was handed to the device, or failed to be."""
-        self._asked_s = self._unconfirmed_s = host_time_s
+        self.asked_s = self._unconfirmed_s = host_time_s
         if failure is not None:  # a later stop that succeeds does not mend what this one found
             self._failure = failure
         self._to_tell.append(request)
@@ -40,11 +41,6 @@ class StopTracking:
         """Return how a stop failed since the last call, or None."""
         failure, self._failure = self._failure, None
         return failure
-
-    @property
-    def asked_s(self) -> float | None:
-        """When the latest stop was asked for, until the machine has come to rest."""
-        return self._asked_s
 
     def over(self, asked_s: float | None) -> None:
         """Note that all rested when a motion began that was requested after this stop."""
@@ -62,13 +58,13 @@ class StopTracking:
 
     def followed(self, state: SessionState, activity: DeviceState) -> SessionState:
         """Return the state with whether the machine is still stopping, or how long that took."""
-        asked_s = self._asked_s
+        asked_s = self.asked_s
         if asked_s is None:
             return state
         if asked_s == self._rested_s:
-            self._asked_s = None
+            self.asked_s = None
             return replace(state, standstill_s=0.0, stopping=False)
         if activity not in (DeviceState.IDLE, DeviceState.FAULT):
             return replace(state, standstill_s=None, stopping=True)
-        self._asked_s = None
+        self.asked_s = None
         return replace(state, standstill_s=self._clock() - asked_s, stopping=False)

@@ -2,8 +2,7 @@
 
 from rotemina.app.motion.admission import Admission
 from rotemina.app.motion.device_link import DeviceLink
-from rotemina.app.motion.mailbox import RefusedError
-from rotemina.drivers.driver import Driver
+from rotemina.app.motion.mailbox import able
 from rotemina.drivers.gate import Permit, Purpose
 from rotemina.drivers.tool import ToolOutput
 from rotemina.sim.messages import message
@@ -31,17 +30,14 @@ class Tool:
             If the device has none or is not connected; to switch on, if motion is locked.
         """
         permit = self._admission.drawn(permit)
-        if not isinstance(self._link.driver, ToolOutput):
-            name = self._link.driver.name
-            raise RefusedError(
-                message("engine", "driver {name} has no switchable tool").fill(name=repr(name))
-            )
+        refusal = message("engine", "driver {name} has no switchable tool")
+        able(self._link.driver, ToolOutput, refusal)
         if on:
             self._admission.refuse_if_locked()
-
-        def switch(driver: Driver, permit: Permit) -> None:
-            assert isinstance(driver, ToolOutput), "the session refuses on any other"
-            driver.switch_tool(on, permit=permit)
-
         # Switched on, what has come since counts; switched off, nothing does.
-        self._link.ask(switch, permit.meant_for(Purpose.SERVICE if on else Purpose.ENQUIRY))
+        self._link.ask_able(
+            ToolOutput,
+            refusal,
+            lambda driver, permit: driver.switch_tool(on, permit=permit),
+            permit.meant_for(Purpose.SERVICE if on else Purpose.ENQUIRY),
+        )

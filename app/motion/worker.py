@@ -4,7 +4,7 @@ It is stepped, not timed: :meth:`Worker.run_once` is one cycle, called by the se
 without any thread, by a test.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
@@ -12,7 +12,6 @@ from rotemina.app.motion.device_report import with_samples, with_status
 from rotemina.app.motion.executor import Executor
 from rotemina.app.motion.held_inverses import HeldInverses
 from rotemina.app.motion.live_models import LiveModels, ModelOutputs, PreparedModel
-from rotemina.app.motion.lock_reasons import NOT_CONNECTED, lock_reason
 from rotemina.app.motion.mailbox import (
     ClearFault,
     Drive,
@@ -33,6 +32,7 @@ from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.sample_portions import SamplePortions
 from rotemina.app.motion.sensor_corrections import SensorCorrections
 from rotemina.app.motion.state import (
+    NOT_CONNECTED,
     Alarmed,
     CommandRefused,
     Connection,
@@ -42,6 +42,7 @@ from rotemina.app.motion.state import (
     SessionState,
     StateChanged,
     Stopped,
+    lock_reason,
 )
 from rotemina.app.motion.stop import StopRequest
 from rotemina.app.motion.stop_progress import StopTracking
@@ -99,7 +100,8 @@ class Worker:
         self.notes = PlaybackNotes()
         #: Of axes that the device does not compensate by itself.
         self.inverses = HeldInverses(driver.robot)
-        self._executor = self._executor_of(driver)
+        #: Of the driver in use; what it was told may be looked at by any thread.
+        self.executor = self._executor_of(driver)
         self._next = self.state
         self._portions = SamplePortions()
         self._stirred = False  # since the state was published
@@ -111,29 +113,9 @@ class Worker:
         resting = self.state.activity is DeviceState.IDLE
         return resting and not self._mailbox.busy and not self._stirred
 
-    @property
-    def targets(self) -> Mapping[str, float]:
-        """Where the device was last sent, m or rad, of each axis that was sent anywhere."""
-        return self._executor.targets
-
-    @property
-    def between_segments(self) -> bool:
-        """Whether a part of a move is still to come."""
-        return self._executor.between_segments
-
-    @property
-    def ends(self) -> Mapping[str, float]:
-        """Where each of these axes ends: that of the last segment of its move."""
-        return self._executor.ends
-
-    @property
-    def drives(self) -> Mapping[str, Drive]:
-        """The speed that was last given to each axis that may still go at one."""
-        return self._executor.drives
-
     def stopped(self, host_time_s: float, failure: Exception | None, request: StopRequest) -> None:
         """Note, from any thread, that a stop was handed to the device, or failed to be."""
-        self._executor.forget()
+        self.executor.forget()
         self._stops.note(host_time_s, failure, request)
         self._mailbox.wake_event.set()
 
@@ -157,7 +139,7 @@ class Worker:
         RefusedError
             If the machine moves, or is another than the model's.
         """
-        if self.driver.status().state is not DeviceState.IDLE or self._executor.recorder:
+        if self.driver.status().state is not DeviceState.IDLE or self.executor.recorder:
             raise RefusedError(
                 message("engine", "the machine is still moving; change the model at rest")
             )
@@ -196,13 +178,17 @@ class Worker:
         self._release_device()
         self._publish()
 
-    def _release_device(self) -> None:
+    def _let_go(self) -> None:
+        """Forget all requests, and stop as far as possible; there is nobody left to tell."""
         self._gate.reconnected()
         self._mailbox.clear()
-        self._executor.forget()
+        self.executor.forget()
         self.ownership.release()
-        with suppress(Exception):  # the link may be gone; there is nobody left to tell
+        with suppress(Exception):  # the link may be gone
             self.driver.stop()
+
+    def _release_device(self) -> None:
+        self._let_go()
         self._end_recording(completed=False)
         with suppress(Exception):
             self.driver.close()
@@ -211,7 +197,7 @@ class Worker:
     def _use(self, driver: Driver) -> None:
         if driver is not self.driver:
             self.driver = driver
-            self._executor = self._executor_of(driver)
+            self.executor = self._executor_of(driver)
             self._trust.confirm()  # another device vouches for itself
 
     def _cycle(self) -> None:
@@ -238,7 +224,7 @@ class Worker:
         self._publish()
         self._mailbox.clear()
         self._stops.take_failure()
-        self._executor.forget()
+        self.executor.forget()
         self._portions.restart()
         self.corrections.restart()
         self.models.prepare()
@@ -260,7 +246,7 @@ class Worker:
                 self.notes.begin(shown=posted.command.shown)
             rests, stop_s = self._next.activity is DeviceState.IDLE, self._stops.asked_s
             try:
-                self._executor.do(posted.command, posted.permit)
+                self.executor.do(posted.command, posted.permit)
                 if rests and isinstance(posted.command, _STIRRING) and posted.permit.valid:
                     self._stops.over(stop_s)
                 if isinstance(posted.command, ClearFault) and posted.permit.valid:
@@ -269,7 +255,7 @@ class Worker:
             except (InputError, StateError) as error:
                 self._emit(CommandRefused(str(error)))
         try:
-            self._executor.go_on()
+            self.executor.go_on()
         except (InputError, StateError) as error:
             self._emit(CommandRefused(str(error)))
 
@@ -282,7 +268,7 @@ class Worker:
         if self._portions.idle:
             return
         status = self.driver.status()
-        news = status.state is not self._next.activity and not self._executor.between_segments
+        news = status.state is not self._next.activity and not self.executor.between_segments
         if self._portions.due(news=news):
             self._work_up(self._portions.take(now_s, len(self.driver.axes)), status)
 
@@ -299,14 +285,14 @@ class Worker:
         if faulted:
             self.notes.add(self._next.fault or "")
             self._mailbox.clear()
-            self._executor.forget()
+            self.executor.forget()
         # Published before events tell of it: a subscriber may answer with the next command.
         self._publish()
         self._stirred = False
         if len(samples):
             self._tell(samples, answers)
-        if self._executor.recorder is not None:
-            self._executor.recorder.add(samples, answers, self.models.memory.number)
+        if self.executor.recorder is not None:
+            self.executor.recorder.add(samples, answers, self.models.memory.number)
             if status.state is not DeviceState.PLAYING:
                 self._end_recording(completed=True)
         if faulted:
@@ -324,7 +310,7 @@ class Worker:
         if lock is not None:
             self._gate.stop()
             self._mailbox.clear()
-            self._executor.forget()
+            self.executor.forget()
             self.driver.halt()
             found.append(Faulted(message("engine", "stopped: {lock}").fill(lock=lock)))
             if off := self.inverses.forget():
@@ -335,18 +321,18 @@ class Worker:
         """Free the axes when nothing moves and nobody waits."""
         if (
             status.state in (DeviceState.IDLE, DeviceState.FAULT)
-            and not self._executor.between_segments
+            and not self.executor.between_segments
         ):
-            self._executor.rested()
+            self.executor.rested()
             self.ownership.release(lambda: len(self._mailbox) > 0)
 
     def _updated(
         self, samples: Samples, answers: ModelOutputs, status: DeviceStatus
     ) -> SessionState:
         if self._next.activity is DeviceState.HOMING and status.state is DeviceState.IDLE:
-            self._trust.homed(self._executor.sought - set(status.unhomed))
+            self._trust.homed(self.executor.sought - set(status.unhomed))
         driver = self.driver
-        between_segments = self._executor.between_segments
+        between_segments = self.executor.between_segments
         state = with_status(self._next, driver, status, between_segments=between_segments)
         state = replace(state, link=self._link(), model_id=self.models.model.id)
         unsettled, received_s = self.models.unsettled, self._portions.received_s
@@ -380,19 +366,14 @@ class Worker:
         )
 
     def _end_recording(self, *, completed: bool) -> None:
-        recorder, self._executor.recorder = self._executor.recorder, None
+        recorder, self.executor.recorder = self.executor.recorder, None
         if recorder is not None:
             self._emit(self.notes.finished(recorder, self.models.model, completed=completed))
 
     def _fail(self, message: str) -> None:
         """Lock motion; only an explicit reconnection ends this."""
         self.notes.add(message)
-        self._gate.reconnected()
-        self._mailbox.clear()
-        self._executor.forget()
-        self.ownership.release()
-        with suppress(Exception):  # best effort: the device is expected not to answer
-            self.driver.stop()
+        self._let_go()
         with suppress(Exception):
             self.driver.close()
         self._set_disconnected(Connection.FAILED, message)

@@ -15,7 +15,7 @@ from itertools import count
 from pathlib import Path
 
 from rotemina.app.records.entry import NEW, Entry, Kind, WorstGap
-from rotemina.app.records.errors import DamagedLibraryError, LibraryError
+from rotemina.sim.errors import InputError
 from rotemina.sim.messages import message
 
 NAME = "records.sqlite3"
@@ -38,6 +38,14 @@ ON CONFLICT (path) DO UPDATE SET facts = excluded.facts RETURNING id
 _CHANGE = "UPDATE records SET path = ?, facts = ? WHERE id = ?"
 _NAME = "UPDATE records SET name = ? WHERE id = ?"
 _NOTE = "UPDATE records SET note = ? WHERE id = ?"
+
+
+class LibraryError(InputError):
+    """The library cannot be read, or a change of it cannot be kept; the message says what to do."""
+
+
+class DamagedLibraryError(LibraryError):
+    """The library's file was damaged; it was set aside."""
 
 
 class RecordStore:

@@ -1,5 +1,6 @@
-"""One record of the library: its location, origin, name and note."""
+"""One record of the library: its location, origin, name and note; and finding some by words."""
 
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from datetime import datetime
 from enum import StrEnum
@@ -119,3 +120,17 @@ class Entry:
             f"{self.began.astimezone():%Y-%m-%d %H:%M:%S}" if self.began else "",
         )
         return "\n".join(texts).casefold()
+
+
+def search(
+    entries: Iterable[Entry], text: str = "", kinds: Collection[Kind] = frozenset(Kind)
+) -> tuple[Entry, ...]:
+    """Return the entries of some kinds that hold every word of a text, in their order.
+
+    A word may stand anywhere in name, note, run, operator, sample, machine, driver, model,
+    effects, date and file name; capital letters do not matter.
+    """
+    found = [one for one in entries if one.kind in kinds]
+    for word in text.casefold().split():
+        found = [one for one in found if word in one.searched]
+    return tuple(found)

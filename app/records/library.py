@@ -15,9 +15,8 @@ from rotemina.app.motion.compared_run import Run, worst
 from rotemina.app.motion.recording.exporting import record_of, trajectory
 from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.recovery import SUFFIX
-from rotemina.app.records.database import RecordStore
+from rotemina.app.records.database import DamagedLibraryError, LibraryError, RecordStore
 from rotemina.app.records.entry import Entry, Kind, WorstGap
-from rotemina.app.records.errors import DamagedLibraryError, LibraryError
 from rotemina.app.records.file_facts import digest, of_record, with_facts
 from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record

@@ -20,7 +20,6 @@ PAGES = {
     "rotemina.app.driver_settings": "connection.md#device",
     "rotemina.app.microscope": "microscope.md#in-the-window",
     "rotemina.app.motion": "motion.md",
-    "rotemina.app.motion.model_deviation_watch": "motion.md#playing-by-hand",
     "rotemina.app.motion.mailbox": "motion.md#states",
     "rotemina.app.motion.penetration": "penetration.md",
     "rotemina.app.motion.playback": "motion.md#playing-by-hand",

@@ -23,8 +23,7 @@ from PySide6.QtWidgets import (
 )
 
 from rotemina.app.motion.run_labels import one_line
-from rotemina.app.records.entry import Entry, Kind
-from rotemina.app.records.search import search
+from rotemina.app.records.entry import Entry, Kind, search
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.record_words import (
     BEGAN,

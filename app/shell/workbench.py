@@ -10,7 +10,6 @@ from PySide6.QtCore import QTimer, Signal
 
 from rotemina.app.microscope.microscope import Microscope
 from rotemina.app.motion.compared_run import Run, compared, compared_again
-from rotemina.app.motion.model_deviation_watch import Excess
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.motion.operation import Operation
 from rotemina.app.motion.ownership import OPERATOR
@@ -553,14 +552,14 @@ class Workbench(Requests):
         elif isinstance(event, ModelChanged):
             self._take_model(event)
 
-    def _tell_excess(self, excess: Excess) -> None:
+    def _tell_excess(self, excess: str) -> None:
         self.notify(
             Level.ERROR,
             translate(
                 "shell",
                 "Playback paused: {text}. Check the machine, then resume or end the playback.",
-            ).format(text=excess.text),
-            about=excess,
+            ).format(text=excess),
+            about="motion.md#playing-by-hand",
         )
 
     def _note_saved(self, record: Record) -> None:

@@ -81,10 +81,9 @@ class Watched:
     def close(self, timeout_s: float = 2.0) -> None:
         """Say farewell; safe to call twice."""
         self._ticker.close()
-        running, self._process = self._process, None
+        running = self._process
         if running is None:
             return
-        self._process = running
         self._say({"farewell": True})
         self._process = None
         if running.stdin is not None:

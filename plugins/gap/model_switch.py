@@ -26,21 +26,20 @@ class ModelSwitch(QObject):
 
     def ask(self, answer: Answer, against: str | None) -> None:
         """Use the corrected model; first ask, where something was noted or it is not better."""
-        noted = tuple(noted_in(answer))
-        reasons = [text for text in (against, *noted) if text]
+        reasons = [text for text in (against, *noted_in(answer)) if text]
         if reasons:
-            self._ask(answer, noted, reasons)
+            self._ask(answer, reasons)
         else:
             self.use(answer)
 
-    def use(self, answer: Answer, noted: Sequence[str] = ()) -> None:
+    def use(self, answer: Answer) -> None:
         """Make predictions with the corrected model from now on."""
         session, diagnosis = self._workbench.session, answer.diagnosis
         self._workbench.use_model(
-            lambda: ModelInUse.corrected_by(diagnosis, session.driver, noted, session.model)
+            lambda: ModelInUse.corrected_by(diagnosis, session.driver, session.model)
         )
 
-    def _ask(self, answer: Answer, noted: Sequence[str], reasons: Sequence[str]) -> None:
+    def _ask(self, answer: Answer, reasons: Sequence[str]) -> None:
         question = QMessageBox(self._parent.window())
         question.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         question.setWindowTitle(tr("Use corrected model"))
@@ -53,7 +52,7 @@ class ModelSwitch(QObject):
         question.setDefaultButton(no)
         question.button(yes).setText(tr("Use anyway"))
         question.button(no).setText(tr("Not now"))
-        question.finished.connect(lambda said: self.use(answer, noted) if said == yes else None)
+        question.finished.connect(lambda said: self.use(answer) if said == yes else None)
         self._workbench.stopped.connect(question.reject)
         question.setModal(False)
         question.show()

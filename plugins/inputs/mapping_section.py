@@ -2,8 +2,7 @@
 
 from collections.abc import Callable
 
-from rotemina.app.motion.teleoperation.device_state import DevicesView
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.motion.teleoperation.moved_control import Detected
 from rotemina.app.motion.teleoperation.profile import OperatorRole, Profile

@@ -9,8 +9,7 @@ from PySide6.QtGui import QHideEvent
 from PySide6.QtWidgets import QPushButton, QTabBar, QWidget
 
 from rotemina.app.motion.state import SessionState
-from rotemina.app.motion.teleoperation.device_state import DevicesView
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
 from rotemina.app.motion.teleoperation.input_devices import InputSnapshot
 from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.language import marked

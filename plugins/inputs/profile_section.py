@@ -3,7 +3,7 @@
 from PySide6.QtGui import QStandardItemModel
 from PySide6.QtWidgets import QLineEdit, QToolButton, QWidget
 
-from rotemina.app.motion.teleoperation.device_state import DevicesView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button, plain_tip

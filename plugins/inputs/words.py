@@ -5,8 +5,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from rotemina.app.display_units import label
-from rotemina.app.motion.teleoperation.device_state import DevicesView
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.profile import OperatorRole
 from rotemina.app.motion.teleoperation.profile_check import DEGREES_OF_FREEDOM

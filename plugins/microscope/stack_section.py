@@ -5,8 +5,7 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QLineEdit
 
-from rotemina.app.cameras.snapshot import Circumstances
-from rotemina.app.cameras.stack_file import write_stack
+from rotemina.app.cameras.snapshot import Circumstances, write_stack
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import Search
 from rotemina.app.microscope.microscope import Microscope

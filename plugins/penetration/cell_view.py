@@ -4,8 +4,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton, QWidget
 
 from rotemina.app.display_units import label
-from rotemina.app.motion.penetration.errors import PenetrationError
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration.parameters import PenetrationError, PenetrationParameters
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, named, plain_tip, set_property

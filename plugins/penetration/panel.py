@@ -1,12 +1,13 @@
 """Automatic cell penetration: parameters, the run, and the log."""
 
+from dataclasses import asdict
 from pathlib import Path
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QStackedWidget, QTabBar, QWidget
 
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.run_log import PenetrationRun, as_table
+from rotemina.app.motion.penetration.run_log import PenetrationRun
 from rotemina.app.motion.penetration.status import PenetrationStatus
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import Area, Panel
@@ -285,4 +286,4 @@ class PenetrationPanel(Panel):
 
 
 def _by(run: PenetrationRun | None, parameters: PenetrationParameters) -> bool:
-    return run is not None and run.parameters == as_table(parameters)
+    return run is not None and run.parameters == asdict(parameters)

@@ -1,7 +1,7 @@
 """The pad with its deflection, its keys, and the take-over."""
 
 from rotemina.app.display_units import label
-from rotemina.app.motion.teleoperation.device_state import DevicesView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView
 from rotemina.app.motion.teleoperation.teleoperation_state import TeleoperationState
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, button

@@ -5,12 +5,10 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from rotemina.app.display_units import axis_scale, label
-from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.impedance import Impedance
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
-from rotemina.app.motion.teleoperation.linear_position import LinearPosition
-from rotemina.app.motion.teleoperation.linear_rate import LinearRate
+from rotemina.app.motion.teleoperation.linear_laws import LinearPosition, LinearRate
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.motion.teleoperation.modes import ALL_AXES, TIP_MODES
 from rotemina.app.motion.teleoperation.profile import OperatorRole

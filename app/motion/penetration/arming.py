@@ -4,8 +4,7 @@ from typing import NamedTuple
 
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.penetration.attempt import Attempt
-from rotemina.app.motion.penetration.errors import PenetrationError
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration.parameters import PenetrationError, PenetrationParameters
 from rotemina.app.motion.penetration.thrust import ThrustPlan, plan_thrust
 from rotemina.app.motion.session import MotionSession
 from rotemina.drivers.abilities import ProfileRunner, VelocityMover

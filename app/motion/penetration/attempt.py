@@ -1,12 +1,12 @@
 """A running penetration: its findings so far, and the resulting log entry."""
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
 from rotemina.app.motion.penetration.detector import Contact, ContactDetector, Noise
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict, as_table
+from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
 from rotemina.app.motion.penetration.sample_feed import NONE, AxisSamples, joined
 from rotemina.app.motion.penetration.thrust import ThrustMeasured, ThrustPlan
 from rotemina.drivers.capture import Captured
@@ -76,7 +76,7 @@ class Attempt:
             robot=robot.name,
             driver=driver,
             model=model,
-            parameters=as_table(self.parameters),
+            parameters=asdict(self.parameters),
             verdict=verdict,
             reason=reason,
             phases=tuple(self.phases),

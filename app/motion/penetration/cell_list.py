@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.parameters import PenetrationError
 from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
 from rotemina.sim.messages import message
 from rotemina.sim.robot.model import Robot

@@ -25,7 +25,7 @@ from math import exp, pi, sqrt
 import numpy as np
 import scipy
 
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.parameters import PenetrationError
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
 
@@ -48,7 +48,6 @@ class Noise:
     level: float
     rms: float
     rate_hz: float
-    count: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +105,7 @@ def noise_at_rest(time_s: FloatArray, residual: FloatArray, floor: float = 0.0) 
     rms = 0.5 * sqrt(pi) * float(np.mean(np.abs(steps)))
     rate_hz = (len(time_s) - 1) / float(time_s[-1] - time_s[0])
     level = float(np.mean(residual[-_LEAST_SAMPLES:]))
-    return Noise(level, max(rms, floor, _LEAST_RMS), rate_hz, len(residual))
+    return Noise(level, max(rms, floor, _LEAST_RMS), rate_hz)
 
 
 def samples_between_alarms(threshold: float) -> float:

@@ -10,7 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple, Self
 
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.sim.errors import InputError
 from rotemina.sim.input_files import parse_toml, read_text
 from rotemina.sim.messages import joined, message
 from rotemina.sim.quantities import exact
@@ -19,6 +19,10 @@ from rotemina.sim.whole_files import replaced
 
 MAX_BYTES = 100_000
 MOST_POINTS = 200
+
+
+class PenetrationError(InputError):
+    """Parameters, or a machine, with which no penetration is possible; says what and the bound."""
 
 
 class Direction(StrEnum):

@@ -13,7 +13,7 @@ from rotemina.app.motion.penetration.arming import armed, check_now
 from rotemina.app.motion.penetration.attempt import Attempt
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
 from rotemina.app.motion.penetration.run_log import RunLog, Verdict
-from rotemina.app.motion.penetration.sample_feed import AxisFeed, AxisSamples
+from rotemina.app.motion.penetration.sample_feed import AxisFeed
 from rotemina.app.motion.penetration.sequence import OWNER, PenetrationSequence
 from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus, Phase
 from rotemina.app.motion.penetration.thrust import ThrustPlan
@@ -45,12 +45,6 @@ class Penetration(PenetrationSequence):
     ) -> None:
         super().__init__(session, today)
         self._log = log
-        self._armed_until_s = 0.0
-
-    @property
-    def status(self) -> PenetrationStatus:
-        """The present state, available at once."""
-        return self._status
 
     def arm(self, parameters: PenetrationParameters, now_s: float) -> None:
         """Check everything, and reserve every axis; nothing moves until the button is pressed.
@@ -62,26 +56,19 @@ class Penetration(PenetrationSequence):
             or the tip's bounds do not allow it, or someone else drives an axis.
         """
         with self._lock:
-            if self._status.phase in UNDER_WAY | {Phase.HELD}:
-                raise RefusedError(
-                    message("engine", "a penetration is {phase}; end it first").fill(
-                        phase=self._status.phase
-                    )
-                )
+            if (busy := self._busy()) is not None:
+                raise RefusedError(busy)
             self._release()
             permit = self._session.permit()
             self._attempt = armed(self._session, parameters, OWNER)
             self._feed = AxisFeed(self._session, parameters.axis)
             self._permit = permit
             self._armed_until_s = now_s + parameters.armed_s
-            plan = self._attempt.plan
-            self._status = PenetrationStatus(
+            self.status = PenetrationStatus(
                 Phase.ARMED,
                 armed_left_s=parameters.armed_s,
-                average_speed=plan.average_speed,
-                peak_speed=plan.peak_speed,
-                run=self._status.run,
-                trace=self._status.trace,
+                run=self.status.run,
+                trace=self.status.trace,
             )
 
     def why_not(self, parameters: PenetrationParameters, plan: ThrustPlan) -> str | None:
@@ -89,14 +76,19 @@ class Penetration(PenetrationSequence):
 
         Nothing is reserved, and nothing waited for.
         """
-        phase = self._status.phase
-        if phase in UNDER_WAY | {Phase.HELD}:
-            return message("engine", "a penetration is {phase}; end it first").fill(phase=phase)
+        if (busy := self._busy()) is not None:
+            return busy
         try:
             check_now(self._session, parameters, plan, OWNER)
         except InputError as error:
             return str(error)
         return None
+
+    def _busy(self) -> str | None:
+        phase = self.status.phase
+        if phase not in UNDER_WAY | {Phase.HELD}:
+            return None
+        return message("engine", "a penetration is {phase}; end it first").fill(phase=phase)
 
     def disarm(self) -> None:
         """Set the axes free; after a hold, that leaves the tip where it is.
@@ -107,10 +99,10 @@ class Penetration(PenetrationSequence):
             While a run is under way: press the button first.
         """
         with self._lock:
-            if self._status.phase in UNDER_WAY:
+            if self.status.phase in UNDER_WAY:
                 raise RefusedError(
                     message("engine", "a penetration is in {phase}; stop it first").fill(
-                        phase=self._status.phase
+                        phase=self.status.phase
                     )
                 )
             self._release()
@@ -119,7 +111,7 @@ class Penetration(PenetrationSequence):
     def close(self) -> None:
         """Have nothing more to do with the session; a run under way is held where it is."""
         with self._lock:
-            if self._status.phase in UNDER_WAY:
+            if self.status.phase in UNDER_WAY:
                 self._halt()
                 self._hold_here(marked("engine", "the program released it"), self._since_s)
             self._release()
@@ -135,7 +127,7 @@ class Penetration(PenetrationSequence):
             If it is not armed, or the held tip cannot be moved now.
         """
         with self._lock:
-            phase, attempt = self._status.phase, self._attempt
+            phase, attempt = self.status.phase, self._attempt
             if attempt is None or phase not in UNDER_WAY | {Phase.ARMED, Phase.HELD}:
                 raise RefusedError(message("engine", "the penetration is not armed; arm it first"))
             if phase is Phase.ARMED:
@@ -157,25 +149,10 @@ class Penetration(PenetrationSequence):
     def step(self, now_s: float) -> None:
         """Advance; ``now_s`` is the host's time. Never raises for errors of a device."""
         with self._lock:
-            phase, attempt = self._status.phase, self._attempt
+            phase, attempt = self.status.phase, self._attempt
             if attempt is not None and phase in self._steps.keys() | {Phase.ARMED}:
                 self._go_on(phase, attempt, now_s)
         self._write()
-
-    # --- armed ----------------------------------------------------------------------------------
-
-    def _wait(
-        self, attempt: Attempt, samples: AxisSamples, broken: str | None, now_s: float
-    ) -> None:
-        """Listen to the noise; disarm when time is up, or something has happened."""
-        super()._wait(attempt, samples, broken, now_s)
-        if broken is None and now_s < self._armed_until_s:
-            self._status = replace(self._status, armed_left_s=self._armed_until_s - now_s)
-            return
-        self._release()
-        self._enter(
-            Phase.DISARMED, now_s, broken or message("engine", "it was not started in time")
-        )
 
     def _start(self, attempt: Attempt, now_s: float) -> None:
         state = self._session.snapshot()
@@ -208,7 +185,7 @@ class Penetration(PenetrationSequence):
         self._outcome = (
             Verdict.ABORTED,
             message("engine", "retracted by the button; before: {reason}").fill(
-                reason=self._status.reason
+                reason=self.status.reason
             ),
         )
         self._refusals.clear()
@@ -223,4 +200,4 @@ class Penetration(PenetrationSequence):
                     self._log.append(run)
             except InputError as error:
                 with self._lock:
-                    self._status = replace(self._status, problem=str(error))
+                    self.status = replace(self.status, problem=str(error))

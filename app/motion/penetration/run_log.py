@@ -10,7 +10,7 @@ from pathlib import Path
 from types import NoneType
 from typing import Any, Self
 
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.parameters import PenetrationError
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
 from rotemina.sim.input_files import parse_json, read_bytes
 from rotemina.sim.messages import message
@@ -200,8 +200,3 @@ def _require_kinds(run: PenetrationRun) -> None:
             value = getattr(part, one.name)
             if not isinstance(value, kinds.get(one.name, figure)):
                 raise TypeError(f"{one.name} = {str(value)[:40]!r}: of the wrong kind")
-
-
-def as_table(parameters: Any) -> dict[str, Any]:
-    """Return a flat dataclass as JSON holds it."""
-    return {field.name: getattr(parameters, field.name) for field in fields(parameters)}

@@ -8,14 +8,14 @@ from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import datetime
 
 import numpy as np
 
 from rotemina.app.motion.penetration.arming import LEASE_S
 from rotemina.app.motion.penetration.attempt import Attempt
 from rotemina.app.motion.penetration.detector import Contact, ContactDetector, noise_at_rest
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.parameters import PenetrationError
 from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
 from rotemina.app.motion.penetration.sample_feed import AxisFeed, AxisSamples, joined
 from rotemina.app.motion.penetration.status import PenetrationStatus, Phase
@@ -51,20 +51,19 @@ class PenetrationSequence:
         Return date and time, for the log.
     """
 
-    def __init__(
-        self, session: MotionSession, today: Callable[[], datetime] = lambda: datetime.now(UTC)
-    ) -> None:
+    def __init__(self, session: MotionSession, today: Callable[[], datetime]) -> None:
         self._session = session
         self._today = today
         self._lock = threading.RLock()
-        self._status = PenetrationStatus()
+        #: The present state, available at once; replaced as a whole.
+        self.status = PenetrationStatus()
         self._attempt: Attempt | None = None
         self._feed: AxisFeed | None = None
         self._refusals: deque[str] = deque(maxlen=8)
         self._unwritten: deque[PenetrationRun] = deque()
         self._end = session.subscribe(self._hear)
         self._permit = session.permit()  # of the run, or of the button that goes on with it
-        self._since_s = self._renewed_s = 0.0
+        self._since_s = self._renewed_s = self._armed_until_s = 0.0
         self._rested_s: float | None = None  # since when the axis rests, on the membrane
         # Whether the device was told what the phase is about, and to capture.
         self._told = self._capturing = False
@@ -102,8 +101,15 @@ class PenetrationSequence:
     def _wait(
         self, attempt: Attempt, samples: AxisSamples, broken: str | None, now_s: float
     ) -> None:
-        """Measure the noise until the button is pressed."""
+        """Measure the noise; disarm when time is up, or something has happened."""
         self._listen(attempt, samples)
+        if broken is None and now_s < self._armed_until_s:
+            self.status = replace(self.status, armed_left_s=self._armed_until_s - now_s)
+            return
+        self._release()
+        self._enter(
+            Phase.DISARMED, now_s, broken or message("engine", "it was not started in time")
+        )
 
     # --- phases ---------------------------------------------------------------------------------
 
@@ -155,7 +161,7 @@ class PenetrationSequence:
             self._rested_s = None
             return
         self._rested_s = now_s if self._rested_s is None else self._rested_s
-        if self._status.phase is not Phase.CONTACT or now_s - self._rested_s < pause_s:
+        if self.status.phase is not Phase.CONTACT or now_s - self._rested_s < pause_s:
             return
         if not self._told:
             self._told = True
@@ -333,7 +339,7 @@ class PenetrationSequence:
         begin_s = attempt.triggered_s
         attempt.thrust = thrust_response(attempt.plan, time_s, measured, begin_s)
         trace = thrust_trace(attempt.plan, time_s, measured, begin_s, attempt.thrust.delay_s)
-        self._status = replace(self._status, trace=trace)
+        self.status = replace(self.status, trace=trace)
         return True
 
     def _broken(self, state: SessionState) -> str | None:
@@ -354,7 +360,7 @@ class PenetrationSequence:
 
     def _fail(self, reason: str, now_s: float) -> None:
         """Go back because of this; where going back is what failed, hold."""
-        if self._status.phase is Phase.RETRACT:
+        if self.status.phase is Phase.RETRACT:
             self._halt()
             self._hold_here(reason, now_s)
         else:
@@ -367,7 +373,7 @@ class PenetrationSequence:
 
     def _halt(self) -> None:
         """Let the axis come to a halt without a fault, and the tool be off; as far as possible."""
-        phase, attempt = self._status.phase, self._attempt
+        phase, attempt = self.status.phase, self._attempt
         if self._session.tool.on is not None:
             with suppress(InputError):
                 self._session.tool.switch(False)
@@ -401,8 +407,8 @@ class PenetrationSequence:
         said = session.labels
         run = replace(run, run=said.run, operator=said.operator, sample=said.sample)
         self._unwritten.append(run)
-        self._status = replace(
-            self._status, phase=phase, reason=reason, armed_left_s=None, run=run, problem=""
+        self.status = replace(
+            self.status, phase=phase, reason=reason, armed_left_s=None, run=run, problem=""
         )
 
     def _release(self) -> None:
@@ -413,7 +419,7 @@ class PenetrationSequence:
 
     def _enter(self, phase: Phase, now_s: float, reason: str = "") -> None:
         self._begin(phase, now_s)
-        self._status = replace(self._status, phase=phase, reason=reason, armed_left_s=None)
+        self.status = replace(self.status, phase=phase, reason=reason, armed_left_s=None)
 
     def _begin(self, phase: Phase, now_s: float) -> None:
         self._since_s, self._rested_s = now_s, None
@@ -423,8 +429,8 @@ class PenetrationSequence:
 
     def _show(self, attempt: Attempt, state: SessionState) -> None:
         way = abs(state.command[attempt.parameters.axis] - attempt.start)
-        self._status = replace(
-            self._status, way=way, deviation=attempt.deviation(), load=attempt.load()
+        self.status = replace(
+            self.status, way=way, deviation=attempt.deviation(), load=attempt.load()
         )
 
     def _at_rest(self, state: SessionState) -> bool:

@@ -56,8 +56,6 @@ class PenetrationStatus:
         Change of ``meas − model`` since the run began, against the motion, m.
     load : float or None
         How far the axis is from where it should be, m; ``overload`` of the parameters ends the run.
-    average_speed, peak_speed : float or None
-        Of the thrust that is planned, m/s.
     run : PenetrationRun or None
         The latest run that has ended.
     trace : ThrustTrace or None
@@ -72,8 +70,6 @@ class PenetrationStatus:
     way: float | None = None
     deviation: float | None = None
     load: float | None = None
-    average_speed: float | None = None
-    peak_speed: float | None = None
     run: PenetrationRun | None = None
     trace: ThrustTrace | None = None
     problem: str = ""

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from rotemina.app.motion.penetration.errors import PenetrationError
 from rotemina.app.motion.penetration.parameters import (
+    PenetrationError,
     PenetrationParameters,
     Shaping,
     ThrustShape,

@@ -126,15 +126,8 @@ def _samples(blocks: Sequence[Block], schema: pa.Schema) -> pa.RecordBatch:
 
 
 def _events(events: Sequence[RecordedEvent]) -> pa.RecordBatch:
-    return pa.record_batch(
-        [
-            pa.array([event.host_time_s for event in events], pa.float64()),
-            pa.array([event.kind for event in events], pa.string()),
-            pa.array([event.text for event in events], pa.string()),
-            pa.array([event.details for event in events], pa.string()),
-        ],
-        schema=EVENTS_SCHEMA,
-    )
+    rows = [{name: getattr(one, name) for name in EVENTS_SCHEMA.names} for one in events]
+    return pa.RecordBatch.from_pylist(rows, schema=EVENTS_SCHEMA)
 
 
 def _channel(name: str, rows: Sequence[Row]) -> pa.RecordBatch:

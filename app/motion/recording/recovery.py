@@ -19,8 +19,7 @@ from rotemina.app.motion.recording.arrow_tables import (
     samples_schema,
 )
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.locking import locked
-from rotemina.app.motion.recording.segments import ByteRange, WholeSegments
+from rotemina.app.motion.recording.segments import ByteRange, WholeSegments, locked
 from rotemina.sim.messages import message
 from rotemina.sim.whole_files import FileWriteError, replaced
 
@@ -78,7 +77,8 @@ def merged(source: Path, target: Path) -> Path:
             try:
                 with replaced(target) as file:
                     for name, table in tables.items():
-                        _merge(segments, table, _schema(name, table, metadata), file)
+                        schema = table.schema.with_metadata({"table": name, **metadata})
+                        _merge(segments, table, schema, file)
             except FileWriteError as error:
                 raise RecordingError(
                     message("engine", "{error}; the recorded data are in {source}").fill(
@@ -149,10 +149,6 @@ def _check_same(source: Path, target: Path, metadata: Mapping[str, str]) -> None
                 "{source}",
             ).fill(target=target, source=source)
         )
-
-
-def _schema(name: str, table: _Table, metadata: Mapping[str, str]) -> pa.Schema:
-    return table.schema.with_metadata({"table": name, **metadata})
 
 
 def _merge(segments: WholeSegments, table: _Table, schema: pa.Schema, file: BinaryIO) -> None:

@@ -2,7 +2,6 @@
 
 import json
 from bisect import bisect_right
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
@@ -14,16 +13,7 @@ import numpy as np
 from rotemina.app.motion.recent_history import LiveHistory
 from rotemina.app.motion.recording.backlog import RecordedEvent
 from rotemina.app.motion.recording.recording_reader import RecordedSamples, Recording
-from rotemina.app.motion.state import (
-    Alarmed,
-    Callback,
-    CommandRefused,
-    Connection,
-    Event,
-    Faulted,
-    SessionState,
-    StateChanged,
-)
+from rotemina.app.motion.state import Connection, SessionState
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.messages import message
@@ -32,11 +22,11 @@ _SEEN_S = 60.0  # of history that a jump fills
 
 
 class Replay:
-    """Feeds a history, states and events from a recording, for displays of a session.
+    """Feeds a history and states from a recording, for displays of a session.
 
     Nothing moves and no clock is read: :meth:`advance` gets the elapsed time. It has the interface
-    that panels read of a session: ``robot``, ``history``, :meth:`snapshot`, :meth:`subscribe`; and
-    all ``events`` of the recording, oldest first.
+    that panels read of a session: ``robot``, ``history``, :meth:`snapshot`; and all ``events`` of
+    the recording, oldest first.
 
     Parameters
     ----------
@@ -56,10 +46,9 @@ class Replay:
         self.history = history if history is not None else LiveHistory(recording.axes)
         self.host_time_s = recording.began_s
         self.events = recording.events()
-        self._at = 0  # of the events, those told
+        self._at = 0  # of the events, those that were shown
         self._connection = -1
         self._state = SessionState()
-        self._callbacks: list[Callback] = []
 
     @property
     def ended(self) -> bool:
@@ -76,16 +65,6 @@ class Replay:
             locked=message("engine", "this is a replay; the machine does not move"),
         )
 
-    def subscribe(self, callback: Callback) -> Callable[[], None]:
-        """Call ``callback`` for each event as it comes up; return how to end that."""
-        self._callbacks.append(callback)
-
-        def unsubscribe() -> None:
-            if callback in self._callbacks:
-                self._callbacks.remove(callback)
-
-        return unsubscribe
-
     def advance(self, seconds: float) -> None:
         """Advance by some time of the recording, at least 0."""
         if not seconds >= 0.0:
@@ -96,32 +75,27 @@ class Replay:
         self._show(np.nextafter(begin_s, np.inf), self.host_time_s)
 
     def seek(self, host_time_s: float) -> None:
-        """Jump to a time of the recording; the minute before it is in the history then.
-
-        Events in between are not told, but the last one of all: the state that holds there.
-        """
+        """Jump to a time of the recording; the minute before it is in the history then."""
         low, high = self.recording.began_s, self.recording.ended_s
         self.host_time_s = min(max(host_time_s, low), high)
         self._connection, self._state = -1, SessionState()
         self._at = bisect_right(self.events, self.host_time_s, key=lambda one: one.host_time_s)
         for event in reversed(self.events[: self._at]):
             if event.kind == "state":
-                self._again(event)
+                self._take_state(event)
                 break
         self.history.clear()
         # No more than the history holds: of a fast device that is less than a minute.
         self._show(self.host_time_s - _SEEN_S, self.host_time_s, self.history.capacity)
-        self._emit(StateChanged(self.snapshot()))
 
     def _show(self, begin_s: float, end_s: float, most: int | None = None) -> None:
         for piece in self.recording.pieces(begin_s, end_s, most=most):
             for part in _by_connection(piece):
                 self._append(part)
         while self._at < len(self.events) and self.events[self._at].host_time_s <= end_s:
-            event = self._again(self.events[self._at])
+            if self.events[self._at].kind == "state":
+                self._take_state(self.events[self._at])
             self._at += 1
-            if event is not None:
-                self._emit(event)
 
     def _append(self, part: RecordedSamples) -> None:
         if part.connection[0] != self._connection:
@@ -140,24 +114,12 @@ class Replay:
             sample_host_time_s=float(part.host_time_s[-1]),
         )
 
-    def _again(self, recorded: RecordedEvent) -> Event | None:
-        """Return the recorded event of the session; None for other kinds."""
-        if recorded.kind == "state":
-            with suppress(ValueError, KeyError, TypeError):  # details that the disk has spoilt
-                self._state = replace(self._state, **_recorded_state(recorded.details))
-            return StateChanged(self.snapshot())
-        if recorded.kind == "fault":
-            return Faulted(recorded.text)
-        if recorded.kind == "alarm":
-            return Alarmed(recorded.text)
-        return CommandRefused(recorded.text) if recorded.kind == "refused" else None
+    def _take_state(self, recorded: RecordedEvent) -> None:
+        with suppress(ValueError, KeyError, TypeError):  # details that the disk has spoilt
+            self._state = replace(self._state, **_recorded_state(recorded.details))
 
     def _by_axis(self, values: FloatArray) -> MappingProxyType[str, float]:
         return MappingProxyType(dict(zip(self.recording.axes, values[-1].tolist(), strict=True)))
-
-    def _emit(self, event: Event) -> None:
-        for callback in tuple(self._callbacks):
-            callback(event)
 
 
 def _recorded_state(details: str) -> dict[str, Any]:

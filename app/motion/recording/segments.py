@@ -10,28 +10,50 @@ import os
 import struct
 import threading
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO, NamedTuple, Self
 
+from rotemina.app.files import Opener, new_file, write_all
 from rotemina.app.motion.recording.errors import RecordingError
-from rotemina.app.motion.recording.locking import locked
 from rotemina.sim.input_files import open_file
 from rotemina.sim.messages import message
+
+if os.name == "nt":  # pragma: no cover - the other system's half
+    import msvcrt
+
+    _BEHIND = 1 << 62  # a byte that nobody writes: Windows keeps others from locked ones
+
+    def locked(file: BinaryIO) -> bool:
+        """Lock a file until it is closed; return False if someone else has."""
+        at = file.tell()
+        file.seek(_BEHIND)
+        try:
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined,unused-ignore]
+        except OSError:
+            return False
+        finally:
+            file.seek(at)
+        return True
+
+else:
+    import fcntl
+
+    def locked(file: BinaryIO) -> bool:
+        """Lock a file until it is closed; return False if someone else has."""
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            return False
+        return True
+
 
 MAGIC = b"RTMSEG01"
 _PROGRAM = MAGIC[:6]
 _HEADER = struct.Struct("<8sQQI")
 _COUNTED = struct.Struct("<QQ")
 _MOST_UNCONFIRMED = 64_000_000  # bytes
-
-Opener = Callable[[Path], BinaryIO]
-
-
-def new_file(path: Path) -> BinaryIO:
-    """Open a file that is not there yet, without a buffer of our own."""
-    return path.open("xb", buffering=0)
 
 
 class ByteRange(NamedTuple):
@@ -58,7 +80,8 @@ class SegmentFile:
 
     def __init__(self, path: Path, opener: Opener = new_file) -> None:
         self.path = path
-        self._end = 0
+        #: Bytes of whole segments.
+        self.size = 0
         self._number = 0
         self._unconfirmed: list[bytes] = []  # contents
         self._again: list[bytes] = []  # contents that were lost when a sync failed
@@ -87,11 +110,6 @@ class SegmentFile:
                 )
             )
 
-    @property
-    def size(self) -> int:
-        """Bytes of whole segments."""
-        return self._end
-
     def append(self, *contents: bytes) -> None:
         """Write segments.
 
@@ -110,13 +128,13 @@ class SegmentFile:
                 for piece in (_header(number, content), content)
             )
             try:
-                self._file.seek(self._end)
-                self._write(written)
+                self._file.seek(self.size)
+                write_all(self._file, written)
             except OSError:
                 with suppress(OSError):  # what is left is no whole segment, or will be written over
-                    self._file.truncate(self._end)
+                    self._file.truncate(self.size)
                 raise
-            self._end += len(written)
+            self.size += len(written)
             self._number += len(due)
             self._again = []
             self._unconfirmed += due
@@ -140,7 +158,7 @@ class SegmentFile:
                 lost, self._unconfirmed = self._unconfirmed, []
                 self._again = lost + self._again
                 self._number -= len(lost)
-                self._end -= sum(_HEADER.size + len(content) for content in lost)
+                self.size -= sum(_HEADER.size + len(content) for content in lost)
             raise
         with self._lock:
             del self._unconfirmed[:count]
@@ -148,11 +166,6 @@ class SegmentFile:
     def close(self) -> None:
         """Release the file; safe to call twice."""
         self._file.close()
-
-    def _write(self, data: bytes) -> None:
-        rest = memoryview(data)
-        while rest:  # a disk that fills up takes a part, and refuses the next
-            rest = rest[self._file.write(rest) :]
 
 
 def _header(number: int, content: bytes) -> bytes:

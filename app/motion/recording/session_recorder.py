@@ -9,10 +9,10 @@ from collections.abc import Callable, Mapping
 from importlib.metadata import version
 from pathlib import Path
 
+from rotemina.app.files import Opener, new_file
 from rotemina.app.motion.live_models import ModelOutputs
 from rotemina.app.motion.recording.arrow_tables import units_of
-from rotemina.app.motion.recording.segments import Opener, new_file
-from rotemina.app.motion.recording.writer import RecorderNotice, RecordingWriter
+from rotemina.app.motion.recording.writer import RecordingWriter
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.motion.state import (
     Alarmed,
@@ -31,6 +31,8 @@ from rotemina.drivers.inputs.device import InputDevice, InputReading
 from rotemina.drivers.model_abilities import EffectCarrier
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.robot.writing import robot_text
+
+_KINDS = {Faulted: "fault", Alarmed: "alarm", CommandRefused: "refused"}
 
 
 class SessionRecorder:
@@ -69,7 +71,7 @@ class SessionRecorder:
         settings: Mapping[str, object] | None = None,
         began: str = "",
         clock: Clock = time.monotonic,
-        tell: Callable[[RecorderNotice], None] = lambda _: None,
+        tell: Callable[[str], None] = lambda _: None,
         opener: Opener = new_file,
     ) -> None:
         self._session = session
@@ -155,12 +157,8 @@ class SessionRecorder:
     def _on_event(self, event: Event) -> None:
         if isinstance(event, StateChanged):
             self._note_state(event.state)
-        elif isinstance(event, Faulted):
-            self.writer.event("fault", event.message)
-        elif isinstance(event, Alarmed):
-            self.writer.event("alarm", event.message)
-        elif isinstance(event, CommandRefused):
-            self.writer.event("refused", event.message)
+        elif isinstance(event, Faulted | Alarmed | CommandRefused):
+            self.writer.event(_KINDS[type(event)], event.message)
         elif isinstance(event, PlaybackFinished):
             rows = 0 if event.record is None else len(event.record.time_s)
             text = "completed" if event.completed else "ended early"

@@ -3,13 +3,16 @@
 import json
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
+from statistics import median
+from typing import NamedTuple
 from uuid import uuid4
 
 import numpy as np
 
+from rotemina.app.files import Opener, new_file
 from rotemina.app.motion.recording.arrow_tables import (
     CLOCK,
     header,
@@ -18,10 +21,9 @@ from rotemina.app.motion.recording.arrow_tables import (
     streams,
 )
 from rotemina.app.motion.recording.backlog import Backlog, Block, Lost, RecordedEvent, Row
-from rotemina.app.motion.recording.device_clock import DeviceClock
 from rotemina.app.motion.recording.errors import RecordingError
 from rotemina.app.motion.recording.recovery import UNFINISHED, merged
-from rotemina.app.motion.recording.segments import Opener, SegmentFile, new_file
+from rotemina.app.motion.recording.segments import SegmentFile
 from rotemina.app.motion.ticker import Ticker
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import Samples
@@ -32,15 +34,36 @@ from rotemina.sim.quantities import fixed
 SEGMENT_S = 0.25  # what a crash can lose, with the time that it takes to write so much
 SLOW_S = 0.7  # a disk that takes longer for a segment endangers the promise of one second
 CAPACITY_BYTES = 64_000_000  # of what waits: 14 s at 20 kHz and 24 channels, 5 min at 1 kHz
+_PORTIONS = 512  # eight seconds of them: a clock that is 50 ppm off drifts by 0.4 ms meanwhile
 _LONGEST_S = 60.0  # that a close waits for a disk that hangs
 
 
-@dataclass(frozen=True, slots=True)
-class RecorderNotice:
-    """A message to the operator about the recording; motion is unaffected."""
+class ClockFit(NamedTuple):
+    """``host_time_s`` = device time + ``offset_s``.
 
-    message: str
-    problem: bool
+    ``uncertainty_s`` is how much later than the soonest samples typically come in. A delay that
+    all of them share cannot be told from the offset: it is not in there.
+    """
+
+    offset_s: float
+    uncertainty_s: float
+
+
+class DeviceClock:
+    """Follows the clock of a device through one connection.
+
+    No sample comes in before it was taken, so the least of (host time of arrival) − (device time)
+    over the last seconds is the best guess of the offset.
+    """
+
+    def __init__(self) -> None:
+        self._delays_s: deque[float] = deque(maxlen=_PORTIONS)
+
+    def observe(self, received_s: float, device_time_s: float) -> ClockFit:
+        """Take in that the sample of a device time came in at a host time; return the fit."""
+        self._delays_s.append(received_s - device_time_s)
+        least_s = min(self._delays_s)
+        return ClockFit(least_s, median(self._delays_s) - least_s)
 
 
 class RecordingWriter:
@@ -64,7 +87,7 @@ class RecordingWriter:
     clock : callable
         The host's monotonic time, s.
     tell : callable
-        Gets notices, on the thread that writes.
+        Gets what the operator must know, on the thread that writes; motion is unaffected.
     capacity_bytes : int
         Of what may wait to be written.
     opener : callable
@@ -83,7 +106,7 @@ class RecordingWriter:
         metadata: Mapping[str, str],
         *,
         clock: Clock = time.monotonic,
-        tell: Callable[[RecorderNotice], None] = lambda _: None,
+        tell: Callable[[str], None] = lambda _: None,
         capacity_bytes: int = CAPACITY_BYTES,
         opener: Opener = new_file,
     ) -> None:
@@ -100,7 +123,8 @@ class RecordingWriter:
         self._tell = tell
         self._backlog = Backlog(capacity_bytes)
         self._waiting: list[bytes] = []  # a segment that the disk has not taken yet
-        self._failure: str | None = None
+        #: Why nothing can be written at present.
+        self.failure: str | None = None
         self._gap = ""  # what is missing and was not told yet
         self._slow = False
         self._closed = False
@@ -130,11 +154,6 @@ class RecordingWriter:
                     "{path}: cannot be written ({reason}); make room, or choose another folder",
                 ).fill(path=path, reason=str(error.strerror or error))
             ) from error
-
-    @property
-    def failure(self) -> str | None:
-        """Why nothing can be written at present."""
-        return self._failure
 
     @property
     def bytes_written(self) -> int:
@@ -216,15 +235,11 @@ class RecordingWriter:
             self.run_once()
         self._closed = True
         self._file.close()
-        if self._failure is not None:
+        if self.failure is not None:
             self._tell(
-                RecorderNotice(
-                    message(
-                        "engine",
-                        "{name}: the end of the recording could not be written ({failure})",
-                    ).fill(name=self.path.name, failure=self._failure),
-                    problem=True,
-                )
+                message(
+                    "engine", "{name}: the end of the recording could not be written ({failure})"
+                ).fill(name=self.path.name, failure=self.failure)
             )
         return merged(self._file.path, self.path)
 
@@ -272,27 +287,25 @@ class RecordingWriter:
         return True
 
     def _note_failure(self, reason: str) -> None:
-        if self._failure is None:
+        if self.failure is None:
             self._notice(
                 message(
                     "engine",
                     "{name}: the recording has failed ({reason}); the data so far are safe in "
                     "{path}. Free disk space; the motion continues",
-                ).fill(name=self.path.name, reason=reason, path=self._file.path),
-                problem=True,
+                ).fill(name=self.path.name, reason=reason, path=self._file.path)
             )
-        self._failure = reason
+        self.failure = reason
 
     def _note_success(self) -> None:
         gap, self._gap = self._gap, ""
-        if self._failure is not None or gap:
-            self._failure = None
+        if self.failure is not None or gap:
+            self.failure = None
             what = gap or marked("engine", "nothing is missing")
             self._notice(
                 message("engine", "{file}: the recording continues; {what}").fill(
                     file=self.path.name, what=what
-                ),
-                problem=bool(gap),
+                )
             )
 
     def _note_speed(self, took_s: float) -> None:
@@ -303,10 +316,9 @@ class RecordingWriter:
                     "engine",
                     "{name}: the disk took {took_s} s for a segment: a crash or a power cut now "
                     "could lose more than a second; record to a faster one",
-                ).fill(name=self.path.name, took_s=fixed(took_s, 1)),
-                problem=True,
+                ).fill(name=self.path.name, took_s=fixed(took_s, 1))
             )
 
-    def _notice(self, message: str, *, problem: bool) -> None:
+    def _notice(self, message: str) -> None:
         self.event("recorder", message)
-        self._tell(RecorderNotice(message, problem))
+        self._tell(message)

@@ -68,12 +68,8 @@ class Impedance(ScalingLaw):
                     wanted=rounded(mass, 6),
                 )
             )
-        self._rest = self._motion.position
-
-    @property
-    def rest(self) -> float:
-        """Where the spring pulls to, x0, m or rad."""
-        return self._rest
+        #: Where the spring pulls to, x0, m or rad.
+        self.rest = self._motion.position
 
     @property
     def force(self) -> float:
@@ -90,17 +86,17 @@ class Impedance(ScalingLaw):
 
     def _anchor(self) -> None:
         # In balance with the stick where it is: what begins at rest stays at rest.
-        self._rest = self._motion.position
+        self.rest = self._motion.position
         if self.impedance.stiffness:
-            self._rest -= self.force / self.impedance.stiffness
+            self.rest -= self.force / self.impedance.stiffness
 
     def _step(self, dt: float, reaction: float) -> Motion:
         pushed = 0.0 if self.contact is None else self.contact.force(reaction)
         after = self.impedance.response(dt)
         force, (position, velocity) = self.force + pushed, self._motion
-        away = position - self._rest
+        away = position - self.rest
         free = Motion(
-            self._rest + after.x_of_x * away + after.x_of_v * velocity + after.x_of_force * force,
+            self.rest + after.x_of_x * away + after.x_of_v * velocity + after.x_of_force * force,
             after.v_of_x * away + after.v_of_v * velocity + after.v_of_force * force,
         )
         speed = self.bounds.speed(self._motion, free.velocity, dt)
@@ -110,4 +106,4 @@ class Impedance(ScalingLaw):
     def _rescale(self, factor: float) -> None:
         if self.impedance.stiffness:
             change = self._force_per_deflection(self.factor) - self._force_per_deflection(factor)
-            self._rest += change * self._deflection / self.impedance.stiffness
+            self.rest += change * self._deflection / self.impedance.stiffness

@@ -6,6 +6,7 @@ It has neither threads nor a clock: whoever reads the devices tells it what came
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import compress
+from math import inf
 from types import MappingProxyType
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration, CalibrationError
@@ -43,7 +44,6 @@ class DeviceView:
     problem : str or None
         Why it cannot be used at all.
     axes : tuple of AxisView
-    held : frozenset of Action
     newest : InputReading or None
         What it said last, as long as that holds.
     calibration : Calibration
@@ -54,7 +54,6 @@ class DeviceView:
     drives: bool
     problem: str | None
     axes: tuple[AxisView, ...]
-    held: frozenset[Action]
     newest: InputReading | None
     calibration: Calibration
 
@@ -63,6 +62,32 @@ class DeviceView:
         """The buttons that are down."""
         said = () if self.newest is None else self.newest.buttons
         return frozenset(compress(self.device.buttons, said))
+
+
+@dataclass(frozen=True, slots=True)
+class DevicesView:
+    """All input devices for the screen, as they were at one step.
+
+    Attributes
+    ----------
+    host_time_s : float
+        Of the step; −inf before the first.
+    devices : tuple of DeviceView
+        Those that are open.
+    driving : OperatorRole
+    setting_up : bool
+        Whether nothing is sent but stops.
+    profile : Profile or None
+    problems : tuple of str
+        What is wrong with the profile, and with devices as it uses them.
+    """
+
+    host_time_s: float = -inf
+    devices: tuple[DeviceView, ...] = ()
+    driving: OperatorRole = OperatorRole.TRAINER
+    setting_up: bool = False
+    profile: Profile | None = None
+    problems: tuple[str, ...] = ()
 
 
 class InputArbiter:
@@ -89,7 +114,8 @@ class InputArbiter:
         self._devices: dict[str, MappedDevice] = {}
         self._unusable: dict[str, str] = {}
         self._takeover = Takeover()
-        self._mapping_open = False
+        #: Whether devices are being set up: only stops are sent.
+        self.mapping_open = False
         self._lost: list[str] = []
         if profile is not None:
             check_profile(profile, self._robot_axes)
@@ -159,21 +185,16 @@ class InputArbiter:
         self._lose(key, message("engine", "recalibrated"))
         self._arrange({key})
 
-    @property
-    def mapping_open(self) -> bool:
-        """Whether devices are being set up: only stops are sent."""
-        return self._mapping_open
-
     def open_mapping(self) -> None:
         """Send only stops from now on; the device in control loses it."""
-        if not self._mapping_open:
-            self._mapping_open = True
+        if not self.mapping_open:
+            self.mapping_open = True
             self._lost.append(marked("engine", "input devices are being set up"))
 
     def close_mapping(self) -> None:
         """Send again, after every stick was seen at rest and every button release."""
-        if self._mapping_open:
-            self._mapping_open = False
+        if self.mapping_open:
+            self.mapping_open = False
             self._arrange(set(self._plugged))
 
     # What the operator wants
@@ -192,7 +213,7 @@ class InputArbiter:
             device.step(readings.get(key, ()), now_s)
             if device.lost is not None:
                 self._lose(key, device.lost)
-        if not self._mapping_open:
+        if not self.mapping_open:
             self._hand_over()
         lost, self._lost = "; ".join(self._lost) or None, []
         pressed, held = self._actions()
@@ -228,7 +249,6 @@ class InputArbiter:
                 self._drives(device),
                 self._unusable.get(key) or device.problem,
                 device.axes,
-                device.held,
                 device.newest,
                 self._calibrations[key],
             )
@@ -309,13 +329,13 @@ class InputArbiter:
         pressed: set[Action] = set()
         held: set[Action] = set()
         for device in self._devices.values():
-            heard = self._drives(device) and not self._mapping_open
+            heard = self._drives(device) and not self.mapping_open
             pressed |= device.pressed if heard else device.pressed & STOPS
             held |= device.held if heard else device.held & STOPS
         return frozenset(pressed), frozenset(held)
 
     def _deflections(self, held: Collection[Action]) -> dict[str, float]:
-        if self._mapping_open or (self._guarded() and Action.DEAD_MAN not in held):
+        if self.mapping_open or (self._guarded() and Action.DEAD_MAN not in held):
             return {}
         devices = self._of(self.driving)
         return {axis: d for device in devices for axis, d in device.deflections.items()}

@@ -10,8 +10,7 @@ from types import MappingProxyType
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration, CalibrationFolder
 from rotemina.app.motion.teleoperation.default_profile import default_profile
-from rotemina.app.motion.teleoperation.device_state import DevicesView
-from rotemina.app.motion.teleoperation.input_arbiter import InputArbiter
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, InputArbiter
 from rotemina.app.motion.teleoperation.intent import Intent
 from rotemina.app.motion.teleoperation.profile import (
     DeviceMapping,
@@ -71,7 +70,8 @@ class InputDevices:
         self.calibrations = CalibrationFolder(folder / "calibrations")
         self._profiles = folder / "profiles"
         self._chosen: Profile | None = None  # None: one is made for what is plugged in
-        self._used: Profile | None = None
+        #: The profile in use, or None.
+        self.profile: Profile | None = None
         self._open: dict[str, InputDevice] = {}
         self._changes: deque[Changes] = deque()
         self._listeners: tuple[Callable[[InputSnapshot], None], ...] = ()
@@ -81,16 +81,6 @@ class InputDevices:
         self._lock = threading.RLock()
 
     # --- profiles and calibrations ----------------------------------------------------------------
-
-    @property
-    def profile(self) -> Profile | None:
-        """The profile in use, or None."""
-        return self._used
-
-    @property
-    def automatic(self) -> bool:
-        """Whether the profile was made for what is plugged in, and changes with that."""
-        return self._chosen is None
 
     @property
     def profiles(self) -> tuple[ListedProfile, ...]:
@@ -141,12 +131,6 @@ class InputDevices:
     # --- devices ----------------------------------------------------------------------------------
 
     @property
-    def plugged(self) -> tuple[PluggedDevice, ...]:
-        """The devices that are open."""
-        with self._lock:
-            return tuple(_plugged(device) for device in self._open.values())
-
-    @property
     def view(self) -> DevicesView:
         """The state for display, at most ``VIEW_S`` old; never waits.
 
@@ -167,12 +151,6 @@ class InputDevices:
                 self._listeners = tuple(one for one in self._listeners if one is not tell)
 
         return leave
-
-    @property
-    def problems(self) -> tuple[str, ...]:
-        """Problems of sources, devices and the profile, as text."""
-        with self._lock:
-            return (*self.hub.problems.values(), *self.arbiter.problems)
 
     def look(self) -> None:
         """Detect connected and removed devices; the next step handles them."""
@@ -245,8 +223,7 @@ class InputDevices:
             arbiter.views,
             arbiter.driving,
             arbiter.mapping_open,
-            self._used,
-            self._chosen is None,
+            self.profile,
             arbiter.problems,
         )
 
@@ -287,7 +264,7 @@ class InputDevices:
         What is used now stays if it fits, unless one is to be found ``again``.
         """
         plugged = tuple(_plugged(device) for device in self._open.values())
-        if not anew and self._used is not None and _fits(self._used, plugged):
+        if not anew and self.profile is not None and _fits(self.profile, plugged):
             return
         kept = (listed.profile for listed in self.profiles if listed.profile is not None)
         for profile in (*kept, automatic_profile(plugged)):
@@ -302,7 +279,7 @@ class InputDevices:
 
     def _hand_to_arbiter(self, profile: Profile) -> None:
         self.arbiter.use(profile)
-        self._used = profile
+        self.profile = profile
 
 
 def automatic_profile(devices: Iterable[PluggedDevice]) -> Profile | None:

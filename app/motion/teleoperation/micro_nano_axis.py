@@ -19,7 +19,7 @@ import scipy
 
 from rotemina.app.motion.teleoperation.frames import Coordinate, Values
 from rotemina.app.motion.teleoperation.reference import Bounds
-from rotemina.app.motion.teleoperation.tip_pivot_modes import TIP, Anchor, ChainFrame, reserve_of
+from rotemina.app.motion.teleoperation.tip_pivot_modes import TIP, Anchor, ChainFrame
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.kinematics.chain import JOINTS, NANO, Chain
 from rotemina.sim.kinematics.forward import tip_from_pivot, tip_jacobian
@@ -76,6 +76,8 @@ class Saturation:
 class HybridFrame(ChainFrame):
     """The tip's x, y by the tables, and its z by zn and the table z; m. The tilts stay."""
 
+    shared = slice(5, 6)
+
     def __init__(self, chain: Chain, anchor: Anchor) -> None:
         tilts = anchor.joints[3:5].tolist()
         self._saturation = Saturation(float(chain.lower[5]), float(chain.upper[5]))
@@ -87,39 +89,22 @@ class HybridFrame(ChainFrame):
 
     @classmethod
     def at(cls, chain: Chain, joints: Values) -> Self:
-        """Begin at joints.
-
-        Raises
-        ------
-        FrameError
-            If the place of a joint is not known.
-        """
+        """Begin at joints; errors as of :meth:`ChainFrame.at`."""
         return cls(chain, Anchor.at(chain, joints))
-
-    def joints(self, coordinates: Values) -> dict[str, float]:
-        """Return the joints that put the tip there."""
-        return self.named(self._solve(coordinates))
 
     def speeds(self, coordinates: Values, velocities: Values) -> dict[str, float]:
         """Return ``żn = S' ḣ/a_z``, and the tables' ``ṗ − a żn``."""
-        joints = self._solve(coordinates)
+        joints = self.solved(coordinates)
         zn = self._saturation.slope(self._u(coordinates["z"])) * velocities["z"] / self._rise
         tool = tip_jacobian(self.chain, joints)[:, 5]
         tables = np.array([velocities[name] for name in TIP]) - tool * zn
         return self.named_speeds(np.concatenate([tables, [0.0, 0.0, zn]]))
 
-    def velocities(self, speeds: Values) -> dict[str, float]:
-        """Return the tip's velocity."""
-        return self.tip_velocity(speeds)
-
-    def reserve(self, coordinates: Values) -> float:
-        """Return how much of its range zn still has to its nearer end."""
-        return reserve_of(self.chain, self._solve(coordinates)[5:], slice(5, 6))
-
     def _u(self, height: float) -> float:
         return self._begin + (height - float(self.anchor.tip[2])) / self._rise
 
-    def _solve(self, coordinates: Values) -> FloatArray:
+    def solved(self, coordinates: Values) -> FloatArray:
+        """Return the joints (6,) that put the tip there."""
         nano = self.anchor.joints[NANO].copy()
         # The anchor itself to the last bit: nothing moves by beginning.
         begin = self._saturation.place(self._begin)

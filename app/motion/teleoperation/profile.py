@@ -1,7 +1,6 @@
 """Profiles: the function of each control of each input device, one strict TOML file each."""
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass as plain_dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -149,14 +148,10 @@ def save_profile(folder: Path, profile: Profile) -> Path:
 
 def listed_profiles(folder: Path) -> tuple[ListedProfile, ...]:
     """Return the profiles of a folder by file name; a bad one says what is wrong with it."""
-    return tuple(_listed(folder))
-
-
-def _listed(folder: Path) -> Iterator[ListedProfile]:
-    # What is being written just now begins with a dot.
-    paths = (path for path in folder.glob("*.toml") if not path.name.startswith("."))
-    for path in sorted(paths):
+    found = []
+    for path in sorted(folder.glob("[!.]*.toml")):  # what is just being written begins with a dot
         try:
-            yield ListedProfile(path, load_profile(path))
+            found.append(ListedProfile(path, load_profile(path)))
         except ProfileError as error:
-            yield ListedProfile(path, None, str(error))
+            found.append(ListedProfile(path, None, str(error)))
+    return tuple(found)

@@ -1,6 +1,6 @@
 """Whether a profile fits the robot's axes, the connected devices and their controls."""
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from types import MappingProxyType
@@ -56,7 +56,8 @@ def check_profile(profile: Profile, robot_axes: Collection[str]) -> None:
     """
     for seat in OperatorRole:
         owners: dict[str, AxisMapping] = {}
-        for mapping in _axes_of(profile, seat):
+        seated = (device for device in profile.devices if device.seat is seat)
+        for mapping in (axis for device in seated for axis in device.axes):
             for axis in _driven(profile, mapping, robot_axes):
                 other = owners.setdefault(axis, mapping)
                 if other is not mapping:
@@ -132,12 +133,6 @@ def check_controls(mapping: DeviceMapping, device: PluggedDevice) -> None:
             if action.control in device.axes:
                 unknown = joined((unknown, message("engine", "an axis needs at = …")), "; ")
             raise ProfileError(unknown)
-
-
-def _axes_of(profile: Profile, seat: OperatorRole) -> Iterator[AxisMapping]:
-    for device in profile.devices:
-        if device.seat is seat:
-            yield from device.axes
 
 
 def _owner(profile: Profile, mapping: AxisMapping) -> str:

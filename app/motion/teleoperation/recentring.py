@@ -146,16 +146,13 @@ def _follow(chain: Chain, start: FloatArray, end: FloatArray, period_s: float, p
 
 def _staircases(chain: Chain, start: FloatArray, end: FloatArray, pace: int) -> FloatArray:
     """Return the tables' commands (rows, 3): whole microsteps, evenly, all to the same end."""
-    steps = np.array([_microstep(chain, name) for name in JOINTS[TABLES]])
+    # A table's microstep, m: its sensor's resolution, to which boards round.
+    axes = [chain.robot.axes[name] for name in JOINTS[TABLES]]
+    steps = np.array([resolution_of(axis) or 1e-7 for axis in axes])
     whole = np.rint((end - start)[TABLES] / steps)
     count = int(np.abs(whole).max())
     share = np.arange(count * pace + 1) // pace / max(count, 1)
     return np.asarray(start[TABLES] + np.rint(share[:, None] * whole) * steps)
-
-
-def _microstep(chain: Chain, name: str) -> float:
-    """Return a table's microstep, m: its sensor's resolution, to which boards round."""
-    return resolution_of(chain.robot.axes[name]) or 1e-7
 
 
 def _respond(

@@ -18,8 +18,7 @@ from pydantic.dataclasses import dataclass
 from rotemina.app.motion.teleoperation.force_feedback import Contact
 from rotemina.app.motion.teleoperation.frames import Coordinate
 from rotemina.app.motion.teleoperation.impedance import Impedance
-from rotemina.app.motion.teleoperation.linear_position import LinearPosition
-from rotemina.app.motion.teleoperation.linear_rate import LinearRate
+from rotemina.app.motion.teleoperation.linear_laws import LinearPosition, LinearRate
 from rotemina.app.motion.teleoperation.reference import ScalingError
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
 from rotemina.app.motion.teleoperation.virtual_impedance import VirtualImpedance

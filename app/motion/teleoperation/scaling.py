@@ -1,8 +1,7 @@
 """Scaling of a stick's deflection to the motion of a coordinate: the base of all scaling laws.
 
-The laws: :mod:`~rotemina.app.motion.teleoperation.linear_position`, ``linear_rate`` and
-``impedance``, one instance for each degree of freedom. A law is switched by starting the new one
-with the old one's motion.
+The laws: :mod:`~rotemina.app.motion.teleoperation.linear_laws` and ``impedance``, one instance for
+each degree of freedom. A law is switched by starting the new one with the old one's motion.
 """
 
 from abc import ABC, abstractmethod
@@ -121,23 +120,6 @@ class ScalingLaw(ABC):
     @abstractmethod
     def _rescale(self, factor: float) -> None:
         """Prepare for another factor; ``factor`` still is the old one."""
-
-
-def checked_scale(scale: float, what: str) -> float:
-    """Return a scale of a linear law; negative ones turn the direction round.
-
-    Raises
-    ------
-    ScalingError
-        If it is not finite, or 0.
-    """
-    if not isfinite(scale) or scale == 0.0:
-        raise ScalingError(
-            message("engine", "{what}: scale {scale} must be finite and not 0").fill(
-                what=what, scale=scale
-            )
-        )
-    return scale
 
 
 def _deflection(value: float) -> float:

@@ -4,6 +4,7 @@ from bisect import bisect_right
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
+from operator import itemgetter
 
 import numpy as np
 
@@ -97,7 +98,7 @@ class Following:
         if not self._past or axis not in state.command or state.sample_host_time_s is None:
             return 0.0
         then_s = state.sample_host_time_s - self._lag.seconds
-        after = bisect_right(self._past, then_s, key=_time)
+        after = bisect_right(self._past, then_s, key=itemgetter(0))
         if after == 0:
             return 0.0  # told before there was a reference
         before_s, before = self._past[after - 1]
@@ -108,7 +109,3 @@ class Following:
             next_s, later = self._past[after]
             wanted += (later[axis] - wanted) * (then_s - before_s) / (next_s - before_s)
         return wanted - state.command[axis]
-
-
-def _time(moment: tuple[float, Mapping[str, float]]) -> float:
-    return moment[0]

@@ -21,22 +21,23 @@ class Step:
 
 
 @dataclass(slots=True)
-class _SteeredCoordinate:
+class SteeredCoordinate:
     """One coordinate: its law, what of the operator's devices moves it, and whether that may."""
 
     coordinate: Coordinate
     law: ScalingLaw
     source: str
     sign: float
-    engaged: bool
+    engaged: bool  # else the stick must be seen in the middle first
     deflection: float = 0.0  # the latest one that counted
     held: bool = False  # the stick moves without it: clutch, distrust
 
     def deflection_in(self, deflections: Mapping[str, float]) -> float | None:
-        """Return the deflection for it: that of its own axis, or of its degree of freedom."""
+        """Return the deflection of its axis' or its degree of freedom's stick, in its direction."""
         name = self.coordinate.name
         own = name in deflections and name not in DEGREES_OF_FREEDOM
-        return deflections.get(name if own else self.source)
+        told = deflections.get(name if own else self.source)
+        return None if told is None else self.sign * told
 
     def step(self, told: float | None, dt: float, reaction: float, *, indexed: bool) -> None:
         """Advance by ``dt`` s; without a deflection, halt. ``indexed``: of a law with an index."""
@@ -82,8 +83,8 @@ class Steering:
         self.frame = frame
         self.kind = kind
         self._indexed = kind is LawKind.POSITION
-        self._steered = {
-            name: _SteeredCoordinate(
+        self.steered = {
+            name: SteeredCoordinate(
                 coordinate,
                 make(coordinate),
                 source_of(frame, name),
@@ -93,39 +94,23 @@ class Steering:
             )
             for name, coordinate in frame.coordinates.items()
         }
-        for name, one in self._steered.items():
+        for name, one in self.steered.items():
             one.law.start(frame.coordinates[name].start, 0.0, 0.0)
-
-    @property
-    def laws(self) -> dict[str, ScalingLaw]:
-        """The law of each coordinate."""
-        return {name: one.law for name, one in self._steered.items()}
 
     @property
     def coordinates(self) -> dict[str, float]:
         """Where the coordinates are to be."""
-        return {name: one.law.motion.position for name, one in self._steered.items()}
+        return {name: one.law.motion.position for name, one in self.steered.items()}
 
     @property
-    def sources(self) -> dict[str, str]:
-        """What of the operator's devices moves each coordinate."""
-        return {name: one.source for name, one in self._steered.items()}
-
-    @property
-    def waiting(self) -> frozenset[str]:
-        """Coordinates whose stick must be seen in the middle first."""
-        return frozenset(name for name, one in self._steered.items() if not one.engaged)
+    def velocities(self) -> dict[str, float]:
+        """How fast the coordinates are to go, per s."""
+        return {name: one.law.motion.velocity for name, one in self.steered.items()}
 
     @property
     def released(self) -> bool:
         """Whether every stick was in the middle when it was last looked at."""
-        return all(one.engaged and one.deflection == 0.0 for one in self._steered.values())
-
-    def deflection_of(self, name: str, deflections: Mapping[str, float]) -> float | None:
-        """Return the deflection of a coordinate's stick, in the coordinate's direction, if any."""
-        one = self._steered[name]
-        told = one.deflection_in(deflections)
-        return None if told is None else one.sign * told
+        return all(one.engaged and one.deflection == 0.0 for one in self.steered.values())
 
     def begin(
         self,
@@ -134,18 +119,16 @@ class Steering:
         deflections: Mapping[str, float],
     ) -> None:
         """Continue from a motion of the coordinates, with the sticks where they are."""
-        for name, one in self._steered.items():
-            told = self.deflection_of(name, deflections)
-            seen = 0.0 if told is None else told
-            if not one.engaged:
-                seen = 0.0
+        for name, one in self.steered.items():
+            told = one.deflection_in(deflections)
+            seen = told if told is not None and one.engaged else 0.0
             one.deflection = seen
             one.held = told is None
             one.law.start(positions[name], velocities.get(name, 0.0), seen)
 
     def rescale(self, factor: float) -> None:
         """Multiply all scales by a factor, in mid-move too."""
-        for one in self._steered.values():
+        for one in self.steered.values():
             if one.law.factor != factor:
                 one.law.rescale(factor)
 
@@ -158,21 +141,20 @@ class Steering:
         reactions: Mapping[str, float],
     ) -> Step:
         """Advance by ``dt`` s; without ``free`` the sticks move and the machine does not."""
-        for name, one in self._steered.items():
-            told = self.deflection_of(name, deflections) if free else None
+        for name, one in self.steered.items():
+            told = one.deflection_in(deflections) if free else None
             one.step(told, dt, reactions.get(name, 0.0), indexed=self._indexed)
         return self.now()
 
     def now(self) -> Step:
         """Return what the axes are to do now."""
         coordinates = self.coordinates
-        velocities = {name: one.law.motion.velocity for name, one in self._steered.items()}
-        speeds = self.frame.speeds(coordinates, velocities)
+        speeds = self.frame.speeds(coordinates, self.velocities)
         return Step(self.frame.joints(coordinates), speeds)
 
     def hold_back(self, before: Mapping[str, float], share: float) -> None:
         """Note that the machine went only this share of the way from ``before``, 0 to 1."""
-        for name, one in self._steered.items():
+        for name, one in self.steered.items():
             position, velocity = one.law.motion
             begin = before[name]
             one.law.hold(begin + share * (position - begin), share * velocity)

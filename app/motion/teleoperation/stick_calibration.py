@@ -104,25 +104,13 @@ class CalibrationRun:
         found = {axis: self._problem(axis, seen) for axis, seen in self._seen.items()}
         return {axis: problem for axis, problem in found.items() if problem is not None}
 
-    def result(
-        self, before: Mapping[str, AxisCalibration] | None = None
-    ) -> Mapping[str, AxisCalibration]:
-        """Return the calibration of each wanted axis; curve, sense and travel stay as before.
-
-        Raises
-        ------
-        CalibrationError
-            If an axis cannot be calibrated: which, why, and what to do.
-        """
-        problems = self.problems
-        if problems:
-            raise CalibrationError("; ".join(problems.values()))
-        return self.sound(before)
-
     def sound(
         self, before: Mapping[str, AxisCalibration] | None = None
     ) -> Mapping[str, AxisCalibration]:
-        """Return the calibration of each wanted axis without a problem; as :meth:`result`."""
+        """Return the calibration of each wanted axis without a problem.
+
+        Curve, sense and travel stay as before.
+        """
         kept, problems = before or {}, self.problems
         return {
             axis: self._calibrated(axis, seen, kept.get(axis, AxisCalibration()))

@@ -64,7 +64,8 @@ class Teleoperator:
         self.modes = Modes(session.robot)
         self._session = session
         self._robot = session.robot
-        self._scales = Scales() if scales is None else scales
+        #: How far and fast sticks move the coordinates.
+        self.scales = Scales() if scales is None else scales
         self._mode = self.modes.names[0]
         self._law = LawKind.RATE
         self._preset = 1.0
@@ -81,11 +82,6 @@ class Teleoperator:
         self.state = TeleoperationState(self._mode, self._law)
 
     # --- requests ---------------------------------------------------------------------------------
-
-    @property
-    def scales(self) -> Scales:
-        """How far and fast sticks move the coordinates."""
-        return self._scales
 
     def use_mode(self, name: str) -> None:
         """Steer in another mode; also in mid-move, without a jump.
@@ -130,7 +126,7 @@ class Teleoperator:
                     scales.of(frame.name, coordinate).law(kind, coordinate, 0.0)
 
         def change() -> None:
-            self._scales = scales
+            self.scales = scales
             self._release_axes(
                 marked("engine", "the scales were changed") if self.state.driving else None
             )
@@ -347,7 +343,7 @@ class Teleoperator:
 
     def _channel(self, frame: Frame, kind: LawKind, *, engaged: bool = False) -> _Channel:
         def law(coordinate: Coordinate) -> ScalingLaw:
-            scale = self._scales.of(frame.name, coordinate)
+            scale = self.scales.of(frame.name, coordinate)
             return scale.law(kind, coordinate, self._noise(coordinate))
 
         return _Channel(
@@ -376,14 +372,10 @@ class Teleoperator:
         """Begin another law with the motion of the one before."""
         channels = {}
         for name, old in self._channels.items():
-            motions = {name: law.motion for name, law in old.steering.laws.items()}
             channel = self._channel(old.steering.frame, kind, engaged=True)
             channel.steering.rescale(self._factor(self._intent))
-            channel.steering.begin(
-                {name: motion.position for name, motion in motions.items()},
-                {name: motion.velocity for name, motion in motions.items()},
-                self._intent.deflections,
-            )
+            before = old.steering
+            channel.steering.begin(before.coordinates, before.velocities, self._intent.deflections)
             channels[name] = replace(channel, following=old.following, sent=old.sent)
         self._law, self._channels = kind, channels
 

@@ -2,12 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from rotemina.app.motion.teleoperation.impedance import Impedance
 from rotemina.app.motion.teleoperation.scales import LawKind
 from rotemina.app.motion.teleoperation.scaling import ScalingLaw
-from rotemina.app.motion.teleoperation.steering import Steering
+from rotemina.app.motion.teleoperation.steering import SteeredCoordinate, Steering
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +20,7 @@ class CoordinateView:
         What of the operator's devices moves it.
     deflection : float or None
         Of its stick, in its own direction; None: there is none that is trusted.
-    position, velocity : float
+    position : float
         Of the reference, m or rad.
     waiting : bool
         Whether its stick must be seen in the middle before it counts.
@@ -35,7 +34,6 @@ class CoordinateView:
     source: str
     deflection: float | None
     position: float
-    velocity: float
     waiting: bool
     law: ScalingLaw
     felt: float = 0.0
@@ -77,39 +75,33 @@ class TeleoperationState:
     tilt: float | None = None
 
 
-class Shown(NamedTuple):
-    """The last three of :class:`TeleoperationState`."""
-
-    coordinates: tuple[CoordinateView, ...]
-    reserve: float | None
-    tilt: float | None
-
-
 def shown(
     steering: Steering, deflections: Mapping[str, float], reactions: Mapping[str, float]
-) -> Shown:
-    """Return the view of a steering; ``reactions`` are contact readings by coordinate."""
+) -> tuple[tuple[CoordinateView, ...], float | None, float | None]:
+    """Return the last three of :class:`TeleoperationState`.
+
+    ``reactions`` are contact readings by coordinate.
+    """
     views = tuple(
-        _viewed(steering, name, deflections, reactions.get(name, 0.0)) for name in steering.laws
+        _viewed(one, one.deflection_in(deflections), reactions.get(name, 0.0))
+        for name, one in steering.steered.items()
     )
     places = steering.coordinates
-    return Shown(views, steering.frame.reserve(places), steering.frame.tilt(places))
+    return views, steering.frame.reserve(places), steering.frame.tilt(places)
 
 
-def _viewed(
-    steering: Steering, name: str, deflections: Mapping[str, float], reaction: float
-) -> CoordinateView:
-    law = steering.laws[name]
+def _viewed(one: SteeredCoordinate, deflection: float | None, reaction: float) -> CoordinateView:
+    law = one.law
     felt = 0.0
     if isinstance(law, Impedance) and law.contact is not None and law.contact.most:
         felt = law.contact.force(reaction) / law.contact.most
     return CoordinateView(
-        name,
-        steering.frame.coordinates[name].unit,
-        steering.sources[name],
-        steering.deflection_of(name, deflections),
-        *law.motion,
-        name in steering.waiting,
+        one.coordinate.name,
+        one.coordinate.unit,
+        one.source,
+        deflection,
+        law.motion.position,
+        not one.engaged,
         law,
         felt,
     )

@@ -4,8 +4,9 @@ Both are exact: the kinematics of :mod:`rotemina.sim.kinematics` are solved at e
 speeds are by the exact Jacobian J of ``p = [x, y, z] + L a(thx, thy)``.
 """
 
+from abc import abstractmethod
 from math import asin, cos, sin
-from typing import NamedTuple, Self
+from typing import ClassVar, NamedTuple, Self
 
 import numpy as np
 
@@ -65,7 +66,14 @@ class ChainFrame(Frame):
     anchor : Anchor
     name, coordinates, axes
         As of :class:`Frame`.
+
+    Attributes
+    ----------
+    shared : slice
+        The joints whose reserve of range is told.
     """
+
+    shared: ClassVar[slice] = NANO
 
     def __init__(
         self,
@@ -79,27 +87,8 @@ class ChainFrame(Frame):
         self.chain = chain
         self.anchor = anchor
 
-    def named(self, joints: FloatArray) -> dict[str, float]:
-        """Return what joints (6,) mean for the axes of this mode, inside their ranges."""
-        inside = np.clip(joints, self.chain.lower, self.chain.upper).tolist()
-        return {axis: inside[JOINTS.index(axis)] for axis in self.axes}
-
-    def named_speeds(self, speeds: FloatArray) -> dict[str, float]:
-        """Return what speeds (6,) of joints mean for the axes of this mode."""
-        every = speeds.tolist()
-        return {axis: every[JOINTS.index(axis)] for axis in self.axes}
-
-    def tip_velocity(self, speeds: Values) -> dict[str, float]:
-        """Return the velocity of the tip at the start from speeds of this mode's axes."""
-        joints = np.array([speeds.get(a, 0.0) if a in self.axes else 0.0 for a in JOINTS])
-        velocity = tip_jacobian(self.chain, self.anchor.joints) @ joints
-        return dict(zip(TIP, velocity.tolist(), strict=True))
-
-
-class FineFrame(ChainFrame):
-    """The tip's x, y by tilt and z by zn, m; the tables stay. It costs orientation."""
-
     @classmethod
+    @abstractmethod
     def at(cls, chain: Chain, joints: Values) -> Self:
         """Begin at joints.
 
@@ -108,6 +97,42 @@ class FineFrame(ChainFrame):
         FrameError
             If the place of a joint is not known.
         """
+
+    @abstractmethod
+    def solved(self, coordinates: Values) -> FloatArray:
+        """Return the joints (6,) at these coordinates."""
+
+    def joints(self, coordinates: Values) -> dict[str, float]:
+        """Return the joints of this mode's axes at these coordinates."""
+        solved = self.solved(coordinates)
+        inside = np.clip(solved, self.chain.lower, self.chain.upper).tolist()
+        return {axis: inside[JOINTS.index(axis)] for axis in self.axes}
+
+    def named_speeds(self, speeds: FloatArray) -> dict[str, float]:
+        """Return what speeds (6,) of joints mean for the axes of this mode."""
+        every = speeds.tolist()
+        return {axis: every[JOINTS.index(axis)] for axis in self.axes}
+
+    def velocities(self, speeds: Values) -> dict[str, float]:
+        """Return the velocity of the tip at the start from speeds of this mode's axes."""
+        joints = np.array([speeds.get(a, 0.0) if a in self.axes else 0.0 for a in JOINTS])
+        velocity = tip_jacobian(self.chain, self.anchor.joints) @ joints
+        return dict(zip(TIP, velocity.tolist(), strict=True))
+
+    def reserve(self, coordinates: Values) -> float:
+        """Return how much of its range the shared joint has that has least, to its nearer end."""
+        place = self.solved(coordinates)[self.shared]
+        low, high = self.chain.lower[self.shared], self.chain.upper[self.shared]
+        left = np.minimum(place - low, high - place) / (0.5 * (high - low))
+        return float(np.clip(left.min(), 0.0, 1.0))
+
+
+class FineFrame(ChainFrame):
+    """The tip's x, y by tilt and z by zn, m; the tables stay. It costs orientation."""
+
+    @classmethod
+    def at(cls, chain: Chain, joints: Values) -> Self:
+        """Begin at joints; errors as of :meth:`ChainFrame.at`."""
         anchor = Anchor.at(chain, joints)
         *pivot, thx, thy, zn = anchor.joints.tolist()
         length, bounds = zn - chain.pin_length, anchor.bounds
@@ -136,29 +161,18 @@ class FineFrame(ChainFrame):
         )
         return cls(chain, anchor, "fine", coordinates, ("thx", "thy", "zn"))
 
-    def joints(self, coordinates: Values) -> dict[str, float]:
-        """Return the tilts and zn that put the tip there."""
-        return self.named(self._solve(coordinates))
-
     def speeds(self, coordinates: Values, velocities: Values) -> dict[str, float]:
         """Return the speeds of tilts and zn: ``q̇ = J_nano⁻¹ ṗ``."""
-        jacobian = tip_jacobian(self.chain, self._solve(coordinates))[:, NANO]
+        jacobian = tip_jacobian(self.chain, self.solved(coordinates))[:, NANO]
         nano = np.linalg.solve(jacobian, [velocities[name] for name in TIP])
         return self.named_speeds(np.concatenate([np.zeros(3), nano]))
 
-    def velocities(self, speeds: Values) -> dict[str, float]:
-        """Return the tip's velocity."""
-        return self.tip_velocity(speeds)
-
-    def reserve(self, coordinates: Values) -> float:
-        """Return how much of its range the piezo has that has least."""
-        return reserve_of(self.chain, self._solve(coordinates)[NANO], NANO)
-
     def tilt(self, coordinates: Values) -> float:
         """Return the turn of the tool since the start."""
-        return float(turned_angle(self.anchor.joints, self._solve(coordinates)))
+        return float(turned_angle(self.anchor.joints, self.solved(coordinates)))
 
-    def _solve(self, coordinates: Values) -> FloatArray:
+    def solved(self, coordinates: Values) -> FloatArray:
+        """Return the joints (6,) whose tilts and zn put the tip there."""
         tables = self.anchor.joints[TABLES]
         target = np.array([coordinates[name] for name in TIP])
         return np.concatenate([tables, free_pose(self.chain, target - tables)])
@@ -171,15 +185,11 @@ class PivotFrame(ChainFrame):
     step by a whole microstep, and ring.
     """
 
+    shared = slice(3, 5)
+
     @classmethod
     def at(cls, chain: Chain, joints: Values) -> Self:
-        """Begin at joints.
-
-        Raises
-        ------
-        FrameError
-            If the place of a joint is not known.
-        """
+        """Begin at joints; errors as of :meth:`ChainFrame.at`."""
         anchor = Anchor.at(chain, joints)
         length = chain.pin_length - float(anchor.joints[5])
         coordinates = tuple(
@@ -188,13 +198,9 @@ class PivotFrame(ChainFrame):
         )
         return cls(chain, anchor, "pivot", coordinates, JOINTS)
 
-    def joints(self, coordinates: Values) -> dict[str, float]:
-        """Return the joints that hold the tip at these tilts."""
-        return self.named(self._solve(coordinates))
-
     def speeds(self, coordinates: Values, velocities: Values) -> dict[str, float]:
         """Return the speeds that leave the tip at rest: ``J q̇ = 0``, z's by zn while it reaches."""
-        joints = self._solve(coordinates)
+        joints = self.solved(coordinates)
         jacobian = tip_jacobian(self.chain, joints)
         nano = np.array([velocities["thx"], velocities["thy"], 0.0])
         if self.chain.lower[5] < joints[5] < self.chain.upper[5]:
@@ -205,28 +211,18 @@ class PivotFrame(ChainFrame):
         """Return the speeds of the tilts."""
         return {name: speeds.get(name, 0.0) for name in self.coordinates}
 
-    def reserve(self, coordinates: Values) -> float:
-        """Return how much of its range the tilt has that has least."""
-        return reserve_of(self.chain, self._solve(coordinates)[3:5], slice(3, 5))
-
     def tilt(self, coordinates: Values) -> float:
         """Return the turn of the tool since the start."""
-        return float(turned_angle(self.anchor.joints, self._solve(coordinates)))
+        return float(turned_angle(self.anchor.joints, self.solved(coordinates)))
 
-    def _solve(self, coordinates: Values) -> FloatArray:
+    def solved(self, coordinates: Values) -> FloatArray:
+        """Return the joints (6,) that hold the tip at these tilts."""
         chain, (joints, tip, _) = self.chain, self.anchor
         thx, thy = coordinates["thx"], coordinates["thy"]
         level = (joints[5] - chain.pin_length) * np.cos(joints[3]) * np.cos(joints[4])
         zn = chain.pin_length + level / (cos(thx) * cos(thy))
         nano = np.array([thx, thy, np.clip(zn, chain.lower[5], chain.upper[5])])
         return np.concatenate([tip - tip_from_pivot(chain, nano), nano])
-
-
-def reserve_of(chain: Chain, place: FloatArray, joints: slice) -> float:
-    """Return the least share of half a range that joints still have to their nearer end, 0 to 1."""
-    low, high = chain.lower[joints], chain.upper[joints]
-    left = np.minimum(place - low, high - place) / (0.5 * (high - low))
-    return float(np.clip(left.min(), 0.0, 1.0))
 
 
 def _tilt_coordinate(

@@ -112,24 +112,18 @@ class VirtualImpedance:
             )
 
     @classmethod
-    def gliding(cls, terminal_speed: float, time_constant_s: float, force: float = 1.0) -> Self:
+    def gliding(cls, terminal_speed: float, time_constant_s: float) -> Self:
         """Return a mass and a damper: full deflection ends in a speed, reached with a delay."""
-        damping = force / terminal_speed
-        return cls(damping * time_constant_s, damping, 0.0, force)
+        damping = 1.0 / terminal_speed
+        return cls(damping * time_constant_s, damping, 0.0, 1.0)
 
     @classmethod
-    def sprung(
-        cls,
-        travel: float,
-        natural_frequency_hz: float,
-        damping_ratio: float = 1.0,
-        force: float = 1.0,
-    ) -> Self:
+    def sprung(cls, travel: float, natural_frequency_hz: float, damping_ratio: float) -> Self:
         """Return a mass on a spring: full deflection ends ``travel`` (m or rad) from its rest."""
-        stiffness = force / travel
+        stiffness = 1.0 / travel
         rate = 2.0 * pi * natural_frequency_hz
         mass = stiffness / rate**2
-        return cls(mass, 2.0 * damping_ratio * rate * mass, stiffness, force)
+        return cls(mass, 2.0 * damping_ratio * rate * mass, stiffness, 1.0)
 
     @property
     def felt(self) -> FeltDynamics:

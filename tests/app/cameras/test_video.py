@@ -15,7 +15,8 @@ import pytest
 import tifffile
 
 from rotemina.app.cameras.video import Video, VideoError
-from rotemina.app.cameras.video_file import VideoFile, new_file
+from rotemina.app.cameras.video_file import VideoFile
+from rotemina.app.files import new_file
 from rotemina.drivers.cameras.frame import Frame, Region
 
 PATIENCE_S = 20.0

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import tifffile
 
-from rotemina.app.cameras.snapshot import Circumstances
-from rotemina.app.cameras.stack_file import write_stack
+from rotemina.app.cameras.snapshot import Circumstances, write_stack
 from rotemina.app.microscope import stack_run
 from rotemina.app.microscope.errors import MicroscopeError
 from rotemina.app.microscope.focus_run import Search

@@ -73,13 +73,13 @@ def test_a_stop_between_the_checks_of_a_request_and_its_queue(
 def test_a_stop_between_the_queue_and_the_driver(stepped, monkeypatch, request_name, event):
     """The worker has taken the request already when the stop comes."""
     session = stepped.session
-    hand_over = session._link.worker._executor._hand_over
+    hand_over = session._link.worker.executor._hand_over
 
     def later(command, permit):
         getattr(session, event)()
         hand_over(command, permit)
 
-    monkeypatch.setattr(session._link.worker._executor, "_hand_over", later)
+    monkeypatch.setattr(session._link.worker.executor, "_hand_over", later)
     REQUESTS[request_name](session)
     assert stands(stepped)
 

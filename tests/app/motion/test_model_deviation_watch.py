@@ -40,16 +40,15 @@ def test_nothing_is_told_before_the_first_sample():
 
 
 def test_a_deviation_that_lasts_is_told_with_axis_value_and_bound():
-    watch = DeviationWatch(ROBOT, {"x": 5e-6}, lasting_s=0.02)
+    watch = DeviationWatch(ROBOT, {"x": 5e-6})
     excess = watch.add(*samples([0.0] * 10 + [7e-6] * 30))
     assert excess is not None
-    assert (excess.axis, excess.deviation, excess.bound) == ("x", 7e-6, 5e-6)
-    assert "axis x deviates from the model by 7 µm" in excess.text
-    assert "the bound is 5 µm" in excess.text
+    assert "axis x deviates from the model by 7 µm" in excess
+    assert "the bound is 5 µm" in excess
 
 
 def test_it_counts_over_portions_and_starts_anew_within_the_bound():
-    watch = DeviationWatch(ROBOT, {"x": 5e-6}, lasting_s=0.02)
+    watch = DeviationWatch(ROBOT, {"x": 5e-6})
     assert watch.add(*samples([7e-6] * 15)) is None
     assert watch.add(*samples([0.0] + [7e-6] * 18, 0.015)) is None  # the first spell has ended
     assert watch.add(*samples([7e-6] * 5, 0.034)) is not None

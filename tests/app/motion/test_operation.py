@@ -7,8 +7,7 @@ import pytest
 
 from rotemina.app.motion.mailbox import RefusedError
 from rotemina.app.motion.operation import PENETRATION, SCALES, Operation
-from rotemina.app.motion.penetration.errors import PenetrationError
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration.parameters import PenetrationError, PenetrationParameters
 from rotemina.app.motion.recording.recording_reader import Recording
 from rotemina.app.motion.recording.recovery import unfinished
 from rotemina.app.motion.session import MotionSession

@@ -160,7 +160,7 @@ def test_model_and_machine_parting_stops_the_motion(stepped, playback, told):
     trajectory = swing(stepped.session.robot, 20e-6, axis="zn", start=30e-6)
     playback.play(trajectory, bounds={"zn": 8e-6})
     stepped.until_idle()
-    assert [one.axis for one in told] == ["zn"]
+    assert [one.startswith("axis zn deviates") for one in told] == [True]
     state = playback.state
     assert state.excess == told[0]
     assert state.phase is PlaybackPhase.PAUSED

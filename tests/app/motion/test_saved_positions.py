@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.safe_path import safe_path
 from rotemina.app.motion.saved_positions import SavedPositionError, SavedPositions
+from rotemina.app.motion.undo import safe_path
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.trajectory.axis_limits import OutOfLimitsError

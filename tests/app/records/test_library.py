@@ -11,11 +11,9 @@ import pytest
 from rotemina.app.motion.compared_run import compared
 from rotemina.app.motion.model_in_use import ModelInUse
 from rotemina.app.records import file_facts, library
-from rotemina.app.records.database import RecordStore
-from rotemina.app.records.entry import Entry, Kind
-from rotemina.app.records.errors import DamagedLibraryError, LibraryError
+from rotemina.app.records.database import DamagedLibraryError, LibraryError, RecordStore
+from rotemina.app.records.entry import Entry, Kind, search
 from rotemina.app.records.library import Library, commands, read
-from rotemina.app.records.search import search
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record

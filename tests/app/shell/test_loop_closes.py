@@ -191,7 +191,6 @@ def test_what_was_learned_beside_a_fault_or_a_contact_is_confirmed_by_name(
     with qtbot.waitSignal(bench.model_changed, timeout=LONG_MS):
         question(window).button(QMessageBox.StandardButton.Yes).click()
     model = bench.session.model
-    assert model.noted
     assert CONTACT not in model.without_contact.effects
 
 

@@ -38,7 +38,7 @@ def test_what_was_saved_is_used_at_the_next_start(make_bench, make_stick, settin
     bench = make_bench(make_stick())
     first = choice(bench, settings)
     assert first.begin() is None
-    plugged = bench.devices.plugged
+    plugged = tuple(one.device for one in bench.devices.view.devices)
     first.edit(Edited(bench.devices.profile, plugged[0], plugged).without_axis("x"))
     assert first.changed
     assert driven(bench) == {"y", "z"}
@@ -80,7 +80,7 @@ def test_a_bad_or_missing_one_is_told_and_an_automatic_one_used(
     assert said in told
     assert told.endswith("An automatic profile is used instead.")
     assert profiles.chosen == AUTOMATIC
-    assert bench.devices.automatic
+    assert bench.devices.profile.name == "Automatic"
     assert settings.get(SETTING, "") == "Mine"  # it may come back
 
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from rotemina.app.motion.teleoperation.device_state import DevicesView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.drivers.errors import DriverError
 from rotemina.drivers.inputs.pad import Pad

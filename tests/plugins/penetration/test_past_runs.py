@@ -1,11 +1,11 @@
 """Runs as rows and in full; which are shown."""
 
 import json
-from dataclasses import replace
+from dataclasses import asdict, replace
 from datetime import UTC, datetime
 
 from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict, as_table
+from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
 from rotemina.plugins.penetration.past_runs import COLUMN_TIPS, COLUMNS, MOST, RunList, in_full, row
 
@@ -14,7 +14,7 @@ RUN = PenetrationRun(
     started="2026-11-21T10:00:05+00:00",
     robot="RoTeMiNa",
     driver="simulator",
-    parameters=as_table(
+    parameters=asdict(
         PenetrationParameters(shape="table", table=((0.0, 0.0), (0.5, 0.2), (1.0, 1.0)))
     ),
     verdict=Verdict.DONE,

@@ -29,7 +29,8 @@ def window(time_s, motion=None):
     motion = np.zeros(len(time_s)) if motion is None else motion
     command = MIDDLE + np.outer(motion, SPAN)
     noise = 1e-6 * SPAN * np.random.default_rng(3).standard_normal(command.shape)
-    return LiveWindow(AXES, time_s, command, command.copy(), command + noise, 1)
+    doubt = np.zeros(command.shape)
+    return LiveWindow(AXES, time_s, command, command.copy(), command + noise, command, doubt)
 
 
 def test_a_thinned_loop_keeps_its_tips_and_every_spike():

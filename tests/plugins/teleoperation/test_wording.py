@@ -5,9 +5,8 @@ from dataclasses import replace
 import pytest
 
 from rotemina.app.motion.teleoperation.axis_calibration import Calibration
-from rotemina.app.motion.teleoperation.device_state import DevicesView
 from rotemina.app.motion.teleoperation.frames import Coordinate
-from rotemina.app.motion.teleoperation.input_arbiter import DeviceView
+from rotemina.app.motion.teleoperation.input_arbiter import DevicesView, DeviceView
 from rotemina.app.motion.teleoperation.intent import Action
 from rotemina.app.motion.teleoperation.mapped_device import AxisView
 from rotemina.app.motion.teleoperation.profile import OperatorRole
@@ -32,9 +31,7 @@ def device(source="hid", seat=OperatorRole.TRAINER, drives=True, problem=None, *
     axes = tuple(AxisView(a.upper(), 0.0, 0.0, a, reasons.get(a)) for a in "xyz")
     axes += (AxisView("slider", 0.0, 0.0, None, "not at rest yet"),)
     plugged = PluggedDevice(identity, ("X", "Y", "Z", "slider"), ())
-    return DeviceView(
-        plugged, seat, drives, problem, axes, frozenset(), None, Calibration(device=identity.key)
-    )
+    return DeviceView(plugged, seat, drives, problem, axes, None, Calibration(device=identity.key))
 
 
 STICK = DevicesView(1.0, (device(), device("keys", OperatorRole.TRAINEE, drives=False)))
@@ -44,7 +41,7 @@ PAD = DevicesView(1.0, (device("keys"),))
 def view(kind, *, factor=1.0, waiting=False, **scale):
     law = replace(Scale.preset(TABLE), **scale).law(kind, TABLE, 0.0)
     law.rescale(factor)
-    return CoordinateView("x", "m", "x", 0.0, 0.0275, 0.0, waiting, law)
+    return CoordinateView("x", "m", "x", 0.0, 0.0275, waiting, law)
 
 
 def test_the_device_that_drives_is_named():

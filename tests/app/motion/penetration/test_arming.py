@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from rotemina.app.motion.mailbox import RefusedError
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.parameters import PenetrationError
 from rotemina.app.motion.penetration.status import Phase
 from rotemina.drivers.driver import Driver
 from rotemina.sim.errors import InputError

@@ -2,15 +2,14 @@
 
 import csv
 import io
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import pytest
 
 from rotemina.app.motion.penetration import cell_list
 from rotemina.app.motion.penetration.cell_list import CellList, Outcome
-from rotemina.app.motion.penetration.errors import PenetrationError
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict, as_table
+from rotemina.app.motion.penetration.parameters import PenetrationError, PenetrationParameters
+from rotemina.app.motion.penetration.run_log import PenetrationRun, Verdict
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
 from rotemina.sim.robot.file import load_robot
 
@@ -19,7 +18,7 @@ RUN = PenetrationRun(
     started="2026-11-21T10:00:05+00:00",
     robot="RoTeMiNa",
     driver="simulator",
-    parameters=as_table(PenetrationParameters()),
+    parameters=asdict(PenetrationParameters()),
     verdict=Verdict.DONE,
     reason="",
     phases=(),

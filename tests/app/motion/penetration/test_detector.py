@@ -9,7 +9,7 @@ from rotemina.app.motion.penetration.detector import (
     samples_between_alarms,
     threshold_for,
 )
-from rotemina.app.motion.penetration.errors import PenetrationError
+from rotemina.app.motion.penetration.parameters import PenetrationError
 
 RATE_HZ, SIGMA, SPEED = 1000.0, 12e-9, -10e-6
 

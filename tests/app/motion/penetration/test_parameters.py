@@ -6,8 +6,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from rotemina.app.motion.penetration.errors import PenetrationError
-from rotemina.app.motion.penetration.parameters import BOUNDS, PenetrationParameters
+from rotemina.app.motion.penetration.parameters import (
+    BOUNDS,
+    PenetrationError,
+    PenetrationParameters,
+)
 
 
 @pytest.mark.parametrize(

@@ -5,9 +5,8 @@ from dataclasses import asdict, replace
 
 import pytest
 
-from rotemina.app.motion.penetration.errors import PenetrationError
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
-from rotemina.app.motion.penetration.run_log import PenetrationRun, RunLog, Verdict, as_table
+from rotemina.app.motion.penetration.parameters import PenetrationError, PenetrationParameters
+from rotemina.app.motion.penetration.run_log import PenetrationRun, RunLog, Verdict
 from rotemina.app.motion.penetration.thrust import ThrustMeasured
 from rotemina.sim.whole_files import FileWriteError
 
@@ -15,7 +14,7 @@ RUN = PenetrationRun(
     started="2026-11-21T00:00:00+00:00",
     robot="RoTeMiNa",
     driver="simulator",
-    parameters=as_table(PenetrationParameters()),
+    parameters=asdict(PenetrationParameters()),
     verdict=Verdict.DONE,
     reason="",
     phases=(("approach", 0.0), ("done", 2.5)),

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotemina.app.motion.penetration.errors import PenetrationError
-from rotemina.app.motion.penetration.parameters import PenetrationParameters
+from rotemina.app.motion.penetration.parameters import PenetrationError, PenetrationParameters
 from rotemina.app.motion.penetration.thrust import plan_thrust, resonance_of, thrust_response
 from rotemina.drivers.simulator.profile_motion import ProfileMotion
 from rotemina.sim.robot.file import load_robot

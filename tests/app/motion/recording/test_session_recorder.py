@@ -164,7 +164,7 @@ def test_motion_goes_on_while_the_disk_is_full(stepped, record, disk):
     assert finished.completed
     assert stepped.session.snapshot().connection is Connection.CONNECTED
     (notice,) = recorded.notices
-    assert "the motion continues" in notice.message
+    assert "the motion continues" in notice
     disk.room = None
     recorded.step()
     recording = Recording.open(recorded.recorder.close())

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotemina.app.motion.teleoperation.frames import FrameError
-from rotemina.app.motion.teleoperation.linear_rate import LinearRate
+from rotemina.app.motion.teleoperation.linear_laws import LinearRate
 from rotemina.app.motion.teleoperation.micro_nano_axis import HybridFrame, Saturation
 from rotemina.app.motion.teleoperation.modes import Modes
 from rotemina.app.motion.teleoperation.tip_pivot_modes import FineFrame, PivotFrame

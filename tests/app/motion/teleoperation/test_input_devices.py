@@ -76,8 +76,8 @@ def test_a_device_that_is_there_drives_when_seen_at_rest(make, clock, stick):
     assert heard.intent.deflections["x"] == 1.0
     assert heard.intent.device == "hid:stick"
     assert heard.readings["hid:stick"][-1].axes == (1.0, 0.0, 0.0)
-    assert devices.automatic
-    assert devices.problems == ()
+    assert devices.profile.name == "Automatic"
+    assert devices.view.problems == ()
 
 
 def test_unplugged_it_is_lost_once_and_replugged_it_must_be_seen_at_rest(make, clock, stick):
@@ -147,8 +147,7 @@ def test_a_chosen_profile_stays_until_another_one_is_chosen(make, clock, stick):
     run(devices, clock)
     devices.use(other)
     assert run(devices, clock).intent.deflections == {}
-    assert any("hid:other" in problem for problem in devices.problems)
-    assert not devices.automatic
+    assert any("hid:other" in problem for problem in devices.view.problems)
     devices.use(None)
     assert run(devices, clock).intent.deflections["x"] == 0.0
 
@@ -171,7 +170,7 @@ def test_a_profile_with_two_owners_of_one_axis_is_refused_and_the_one_before_sta
     axes = (AxisMapping(control="x", drives="x"), AxisMapping(control="y", drives="x"))
     with pytest.raises(ProfileError, match="two owners"):
         devices.use(Profile(name="Both", devices=(DeviceMapping(key="hid:stick", axes=axes),)))
-    assert devices.automatic
+    assert devices.profile.name == "Automatic"
     assert run(devices, clock).intent.deflections["y"] == 0.0
 
 
@@ -187,10 +186,10 @@ def test_a_device_that_raises_anything_is_dropped_and_the_others_go_on(make, clo
     intent = run(devices, clock, TICK_S).intent
     assert "a bug of a plugin" in intent.lost
     assert run(devices, clock).intent.deflections["x"] == 0.0  # the pad drives now
-    assert [one.identity.key for one in devices.plugged] == ["keys:pad"]
+    assert [one.device.identity.key for one in devices.view.devices] == ["keys:pad"]
     devices.look()
     run(devices, clock)
-    assert {one.identity.key for one in devices.plugged} == {"hid:stick", "keys:pad"}
+    assert {one.device.identity.key for one in devices.view.devices} == {"hid:stick", "keys:pad"}
 
 
 def test_a_calibration_is_used_and_kept(make, clock, stick):
@@ -220,7 +219,6 @@ def test_a_view_is_taken_seldom_but_at_once_after_a_change(make, clock, stick):
     assert view.host_time_s == clock()
     assert [one.device.identity.key for one in view.devices] == ["hid:stick"]
     assert view.profile == devices.profile
-    assert view.automatic
 
 
 def test_who_listens_is_told_every_step_until_it_leaves(make, clock, stick):
@@ -252,16 +250,16 @@ def test_nobody_waits_while_a_device_is_opened(make, clock, stick):
     stick.open = slowly
     run(devices, clock, TICK_S)
     assert devices.view.setting_up
-    assert [one.identity.key for one in devices.plugged] == ["hid:stick"]
+    assert [one.device.identity.key for one in devices.view.devices] == ["hid:stick"]
 
 
 def test_a_device_that_turns_out_to_stream_is_lost_when_it_falls_silent(make, clock, stick):
     devices = make(stick)
     run(devices, clock)
-    assert not devices.plugged[0].streams
+    assert not devices.arbiter.views[0].device.streams
     devices.device("hid:stick").streams = True
     run(devices, clock, TICK_S)
-    assert devices.plugged[0].streams
+    assert devices.arbiter.views[0].device.streams
     run(devices, clock, 0.5)
     assert "silent: a streaming device" in devices.view.devices[0].problem
 

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 
 from rotemina.app.motion.teleoperation.force_feedback import Contact
 from rotemina.app.motion.teleoperation.impedance import Impedance
-from rotemina.app.motion.teleoperation.linear_position import LinearPosition
-from rotemina.app.motion.teleoperation.linear_rate import LinearRate
+from rotemina.app.motion.teleoperation.linear_laws import LinearPosition, LinearRate
 from rotemina.app.motion.teleoperation.reference import (
     APPROACH_S,
     Bounds,

@@ -19,7 +19,7 @@ def run(rest, sweep, **options):
 
 def test_centre_ends_and_noise_become_a_calibration():
     noise = np.random.default_rng(1).normal(0.05, 0.01, 200)
-    axis = run(noise, [-0.7, 0.9]).result()["X"]
+    axis = run(noise, [-0.7, 0.9]).sound()["X"]
     assert axis.centre == pytest.approx(0.05, abs=0.01)
     assert all(axis.deflection(raw) == 0.0 for raw in noise)
     assert (axis.deflection(-0.7), axis.deflection(0.9)) == (-1.0, 1.0)
@@ -27,7 +27,7 @@ def test_centre_ends_and_noise_become_a_calibration():
 
 
 def test_ends_are_reached_although_the_hand_comes_a_little_short():
-    axis = run([0.0], [-1.0, 1.0]).result()["X"]
+    axis = run([0.0], [-1.0, 1.0]).sound()["X"]
     assert (axis.deflection(-0.985), axis.deflection(0.985)) == (-1.0, 1.0)
 
 
@@ -37,8 +37,7 @@ def test_a_bad_axis_does_not_keep_the_others_from_being_calibrated():
     both.sweep()
     for raw in (-0.8, 0.9):
         both.feed(InputReading(1.0, (raw, 0.01), ()))
-    with pytest.raises(CalibrationError, match="axis Y hardly moved"):
-        both.result()
+    assert list(both.problems) == ["Y"]
     before = {"X": AxisCalibration(expo=0.3), "Y": AxisCalibration()}
     sound = both.sound(before)
     assert list(sound) == ["X"]
@@ -47,19 +46,19 @@ def test_a_bad_axis_does_not_keep_the_others_from_being_calibrated():
 
 def test_a_silent_device_is_at_rest_where_it_spoke_last():
     last = InputReading(0.0, (0.1,), ())
-    axis = run([], [-1.0, 1.0], last=last).result()["X"]
+    axis = run([], [-1.0, 1.0], last=last).sound()["X"]
     assert axis.centre == 0.1
     assert axis.dead_zone == pytest.approx(0.04 * 0.9)
 
 
 def test_a_potentiometer_may_use_part_of_its_range_only():
-    axis = run([0.30, 0.301], [0.19, 0.42]).result()["X"]
+    axis = run([0.30, 0.301], [0.19, 0.42]).sound()["X"]
     assert (axis.deflection(0.3), axis.deflection(0.19), axis.deflection(0.42)) == (0.0, -1.0, 1.0)
 
 
 @pytest.mark.parametrize(("rest", "end"), [(-0.97, 1.0), (0.96, -1.0)])
 def test_a_trigger_is_one_sided(rest, end):
-    axis = run([rest], [-rest, end, np.copysign(1.0, rest)], one_sided=["X"]).result()["X"]
+    axis = run([rest], [-rest, end, np.copysign(1.0, rest)], one_sided=["X"]).sound()["X"]
     assert axis.centre == rest
     assert axis.deflection(rest) == 0.0
     assert axis.deflection(np.copysign(1.0, rest)) == 0.0
@@ -81,8 +80,7 @@ def test_a_trigger_is_one_sided(rest, end):
 def test_what_is_no_stick_is_refused(rest, sweep, options, said):
     one = run(rest, sweep, **options)
     assert said in one.problems["X"]
-    with pytest.raises(CalibrationError, match="axis X"):
-        one.result()
+    assert one.sound() == {}
 
 
 def test_axes_that_are_not_wanted_may_stand_anywhere():
@@ -91,7 +89,7 @@ def test_axes_that_are_not_wanted_may_stand_anywhere():
     one.sweep()
     for raw in (-1.0, 1.0):
         one.feed(InputReading(0.0, (raw, -1.0), ()))
-    assert list(one.result()) == ["X"]
+    assert list(one.sound()) == ["X"]
     assert one.ranges == {"X": (-1.0, 1.0)}
     with pytest.raises(CalibrationError, match=r"'Q'.*has X, Slider"):
         CalibrationRun(["X", "Slider"], wanted=["Q"])
@@ -99,7 +97,7 @@ def test_axes_that_are_not_wanted_may_stand_anywhere():
 
 def test_curve_sense_and_travel_stay():
     before = {"X": AxisCalibration(expo=0.5, inverted=True, travel_m=0.03)}
-    axis = run([0.0], [-1.0, 1.0]).result(before)["X"]
+    axis = run([0.0], [-1.0, 1.0]).sound(before)["X"]
     assert (axis.expo, axis.inverted, axis.travel_m) == (0.5, True, 0.03)
 
 
@@ -111,5 +109,5 @@ def test_every_result_is_a_possible_calibration(seed):
     sweep = random.uniform(-1, 1, 10)
     one = run(np.clip(rest, -1, 1), sweep, one_sided=["X"] if seed % 2 else [])
     if not one.problems:
-        axis = one.result()["X"]
+        axis = one.sound()["X"]
         assert all(axis.deflection(raw) == 0.0 for raw in np.clip(rest, -1, 1))

@@ -373,7 +373,7 @@ def test_a_contact_is_felt_with_impedance(desk):
         felt.append(view.felt)
     assert felt[0] == 0.0
     assert felt[-1] < -0.3  # pushes back
-    speed = next(c for c in teleoperator.state.coordinates if c.name == "zn").velocity
+    speed = next(c for c in teleoperator.state.coordinates if c.name == "zn").law.motion.velocity
     assert abs(speed) < 1e-6  # the stick's force and the wall's are in balance
 
 

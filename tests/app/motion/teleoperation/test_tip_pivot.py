@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.app.motion.teleoperation import tip_pivot_modes
-from rotemina.app.motion.teleoperation.linear_rate import LinearRate
+from rotemina.app.motion.teleoperation.linear_laws import LinearRate
 from rotemina.app.motion.teleoperation.tip_pivot_modes import PivotFrame
 from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.virtual_board.axis_drive import AxisDrive

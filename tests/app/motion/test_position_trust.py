@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from rotemina.app.motion.following_error_watch import PositionWatch
+from rotemina.app.motion.position_trust import PositionWatch
 from rotemina.app.motion.state import Faulted
 from rotemina.drivers.samples import DeviceState, Samples
 from rotemina.sim.effects.attachment import Attached
