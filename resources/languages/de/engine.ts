@@ -5,7 +5,7 @@
     <name>engine</name>
     <message>
         <source>the machine is still moving; change the model at rest</source>
-        <extracomment>What puts readings right, before anybody sees them. The one that is open, or was open last; exchanged on this worker&apos;s thread. What the tip&apos;s bounds are judged on beside commands. Of axes that the device does not compensate by itself.</extracomment>
+        <extracomment>What puts readings right, before anybody sees them. The one that is open, or was open last; exchanged on this worker&apos;s thread. What the tip&apos;s bounds are judged on beside commands. Of axes that the device does not compensate by itself. Of the driver in use; what it was told may be looked at by any thread.</extracomment>
         <translation>die Maschine bewegt sich noch; das Modell in Ruhe wechseln</translation>
     </message>
     <message>
@@ -111,6 +111,7 @@
     </message>
     <message>
         <source>it was not started in time</source>
+        <extracomment>The present state, available at once; replaced as a whole.</extracomment>
         <translation>nicht rechtzeitig gestartet</translation>
     </message>
     <message>
@@ -264,6 +265,7 @@
     </message>
     <message>
         <source>another profile is now in use</source>
+        <extracomment>Whether devices are being set up: only stops are sent.</extracomment>
         <translation>ein anderes Profil ist in Gebrauch</translation>
     </message>
     <message>
@@ -296,6 +298,7 @@
     </message>
     <message>
         <source>there is no mode {name}; use {names}</source>
+        <extracomment>How far and fast sticks move the coordinates.</extracomment>
         <translation>den Modus {name} gibt es nicht; möglich: {names}</translation>
     </message>
     <message>
@@ -510,6 +513,7 @@
     </message>
     <message>
         <source>the program is being closed</source>
+        <extracomment>Ends (2,), px, of the measured line.</extracomment>
         <translation>das Programm wird gerade beendet</translation>
     </message>
     <message>
@@ -1243,6 +1247,7 @@
     </message>
     <message>
         <source>the program releases it</source>
+        <extracomment>The profile in use, or None.</extracomment>
         <translation>das Programm gibt es frei</translation>
     </message>
     <message>
@@ -1376,11 +1381,12 @@
     </message>
     <message>
         <source>{path} already exists; record to another name</source>
+        <extracomment>The status; replaced as a whole.</extracomment>
         <translation>{path}: gibt es schon; unter anderem Namen aufzeichnen</translation>
     </message>
     <message>
         <source>{path}: cannot be written ({reason}); make room, or choose another folder</source>
-        <extracomment>Host time, s.</extracomment>
+        <extracomment>Host time, s. Why nothing can be written at present.</extracomment>
         <translation>{path}: kann nicht geschrieben werden ({reason}); Platz schaffen oder einen anderen Ordner wählen</translation>
     </message>
     <message>
@@ -1414,6 +1420,7 @@
     </message>
     <message>
         <source>{path} already exists, being recorded or left by a crash; record to another name, or recover it</source>
+        <extracomment>Bytes of whole segments.</extracomment>
         <translation>{path}: gibt es schon, wird gerade aufgezeichnet oder blieb von einem Absturz; unter anderem Namen aufzeichnen oder wiederherstellen</translation>
     </message>
     <message>
@@ -1467,6 +1474,7 @@
     </message>
     <message>
         <source>playback: the device went from row {from_row} to row {to_row} of a trajectory whose rows are 0 to {last}</source>
+        <extracomment>The models&apos; answers for each row; None before its end or without models.</extracomment>
         <translation>Abspielen: das Gerät sprang von Zeile {from_row} zu Zeile {to_row} einer Trajektorie mit den Zeilen 0 bis {last}</translation>
     </message>
     <message>
@@ -1521,11 +1529,11 @@
     </message>
     <message>
         <source>{name}: its position is unknown; connect the machine first</source>
-        <extracomment>The present ones, or the latest.</extracomment>
         <translation>{name}: der Ort ist nicht bekannt; erst die Maschine verbinden</translation>
     </message>
     <message>
         <source>z-stack: {name} at {place}: must be {low} to {high}</source>
+        <extracomment>The present ones, or the latest.</extracomment>
         <translation>Z-Stapel: {name} bei {place}: muss {low} bis {high} sein</translation>
     </message>
     <message>
@@ -4699,7 +4707,7 @@
     </message>
     <message>
         <source>robot {name} has no tip for a floor to limit</source>
-        <extracomment>To what ranges of axes were narrowed; replaced as a whole.</extracomment>
+        <extracomment>The tip&apos;s bounds; None where there is no tip. To what ranges of axes were narrowed; replaced as a whole.</extracomment>
         <translation>Roboter {name} hat keine Spitze, für die ein Boden gelten könnte</translation>
     </message>
     <message>
