@@ -127,9 +127,9 @@ class Homer(Driver, ABC):
                 else status.state
             )
             raise StateError(
-                message(
-                    "engine", "{name}: cannot home in {why}; wait, stop or clear it first"
-                ).fill(name=self.name, why=why)
+                message("engine", "{name}: cannot home ({why}); wait, stop or clear it first").fill(
+                    name=self.name, why=why
+                )
             )
         for axis in axes:
             if axis not in self.homing_axes:

@@ -100,8 +100,8 @@ class Compensator(Driver, ABC):
             )
         if axis not in self.robot.axes:
             raise LimitError(
-                message("engine", "{name}: no such axis {axis}; it has {names}").fill(
-                    name=self.name, axis=repr(axis), names=", ".join(self.axes)
+                message("engine", "{name}: no such axis {axis}; it has {axes}").fill(
+                    name=self.name, axis=repr(axis), axes=", ".join(self.axes)
                 )
             )
         if model is not None and model.axis != axis:
@@ -160,8 +160,8 @@ class Regulator(Driver, ABC):
             )
         if axis not in self.robot.axes:
             raise LimitError(
-                message("engine", "{name}: no such axis {axis}; it has {names}").fill(
-                    name=self.name, axis=repr(axis), names=", ".join(self.axes)
+                message("engine", "{name}: no such axis {axis}; it has {axes}").fill(
+                    name=self.name, axis=repr(axis), axes=", ".join(self.axes)
                 )
             )
         if regulation is not None:

@@ -18,7 +18,7 @@ ISO = {
     "reversal": marked("engine", "B, reversal value"),
     "mean_reversal": marked("engine", "B̄, mean reversal"),
     "systematic": marked("engine", "E, systematic deviation"),
-    "mean_bidirectional": marked("engine", "M, mean bidirectional"),
+    "mean_bidirectional": marked("engine", "M, mean bidirectional deviation"),
 }
 _LEAST_SHARE = 1e-3  # in %; below, in ppm
 ISO_HEAD = (

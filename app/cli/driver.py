@@ -103,7 +103,7 @@ def _warning(name: str, may_move: bool) -> Message:
         warning = message(
             "cli",
             "{name} runs in real time: ALL AXES WILL MOVE, also to the ends of their ranges. "
-            "Remove the tool, and keep the machine's emergency switch within reach.",
+            "Remove the tool, and keep the machine's emergency stop switch within reach.",
         )
     else:
         warning = message(

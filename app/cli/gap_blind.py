@@ -31,7 +31,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         type=shard,
         default=Shard(),
         metavar="I/N",
-        help="do every N-th case from the I-th",
+        help="run every N-th case, beginning with the I-th",
     )
     parser.add_argument("--from", dest="source", type=Path, metavar="DIR", help="cases of your own")
     parser.add_argument("--labels", type=Path, metavar="FILE", help="their labels, as JSON")

@@ -50,7 +50,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         type=Path,
         metavar="FILE",
         help="close the loop that this file of rotemina tune has chosen, with --compensate"
-        " as feedforward if given",
+        " as feed-forward if given",
     )
     parser.add_argument(
         "--seed", type=int, default=0, help="seed of the sensors' noise (default: 0)"

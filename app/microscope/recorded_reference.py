@@ -62,7 +62,7 @@ def recorded_reference(
             message(
                 "engine",
                 "{path}: none of the {count} pictures shows where the tip is; calibrate the "
-                "tables before recording",
+                "micro stage before recording",
             ).fill(path=recording.path, count=len(at_s))
         )
     values = np.full(len(at_s), np.nan)

@@ -61,8 +61,8 @@ class Loops:
             return None
         return message(
             "engine",
-            "driver {name} cannot close a loop: its samples are too rare and too late; use "
-            "feed-forward, or the simulator",
+            "driver {name} cannot close a loop: its samples are too infrequent and too late; "
+            "use feed-forward, or the simulator",
         ).fill(name=repr(driver.name))
 
     def apply(self, loop: NamedRegulation, *, permit: Permit | None = None) -> None:

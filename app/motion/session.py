@@ -235,7 +235,7 @@ class MotionSession:
                     these=", ".join(self.driver.axes),
                 )
             )
-        self.stop(message("engine", "another device is connected"))
+        self.stop(message("engine", "another device is being connected"))
         self._period_s = driver.service_period_s
         self._link.exchange(driver)
         self.inverses.forget()

@@ -71,7 +71,7 @@ TEXTS = (
     marked("engine", "peak speed"),
     marked("engine", "peak deviation"),
     marked("engine", "time [s]"),
-    marked("engine", "what"),
+    marked("engine", "event"),
     marked("engine", "text"),
     marked("engine", "The first {shown} of {all} events."),
     marked("engine", "Nothing was noted."),

@@ -214,7 +214,7 @@ def _view(window: _Window) -> list[Command]:
             translate("shell", "&Restore the layout"),
             "Ctrl+Shift+0",
             window.reset_layout,
-            translate("shell", "Restore all docks"),
+            translate("shell", "Restore all panels"),
         ),
         *(
             command(

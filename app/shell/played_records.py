@@ -127,5 +127,5 @@ class PlayedRecords(QObject):
                 self.compared.emit(run, path)
 
         # A kind of its own: each stretch has its gap in the library, however soon the next ends.
-        comparing = translate("shell", "Comparing model and real …")
+        comparing = translate("shell", "Comparing model and machine …")
         self._work(f"played {path.name}", comparing, compare, done)

@@ -25,7 +25,7 @@ from rotemina.drivers.clock import Clock
 
 RELEASE_AFTER_S = 1.0  # a second press in alarm must not release what the first one latched
 LOCKS_WITHIN_S = 1.0  # of a first press, a second one: alarm leads to the safer state
-_SOFTWARE = marked("shell", "This is a stop by software, not the machine's emergency switch.")
+_SOFTWARE = marked("shell", "This is a stop by software, not the machine's emergency stop switch.")
 
 
 class StopWatch(QObject):

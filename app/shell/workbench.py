@@ -239,9 +239,7 @@ class Workbench(Requests):
         def work() -> None:
             self.session.use_model(make())
 
-        self.work(
-            "model", translate("shell", "Carrying the history forward …"), work, lambda _: None
-        )
+        self.work("model", translate("shell", "Switching the model …"), work, lambda _: None)
 
     def use_nominal_model(self) -> None:
         """Go back to the model of the robot file."""
@@ -585,7 +583,7 @@ class Workbench(Requests):
         if run is not None:
             self.work(
                 "run again",
-                translate("shell", "Comparing model and real …"),
+                translate("shell", "Comparing model and machine …"),
                 lambda: compared_again(event.model, run, self.session.memory),
                 self._renew_run,
             )

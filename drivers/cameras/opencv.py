@@ -257,9 +257,9 @@ class Film(_OpenCvCamera):
         raise CameraLostError(
             message(
                 "engine",
-                "{address}: no video arrived within {timeout_ms} ms; check the address and "
+                "{address}: no video arrived within {timeout_s} s; check the address and "
                 "the network",
-            ).fill(address=self.identity.address, timeout_ms=_TIMEOUT_MS / 1000.0)
+            ).fill(address=self.identity.address, timeout_s=_TIMEOUT_MS / 1000.0)
         )
 
     def _first(self) -> Pixels:

@@ -116,7 +116,7 @@ class Opening:
                     message(
                         "engine",
                         "{where}: the axes still move {rest_s} s after a feed hold; use the "
-                        "machine's emergency switch",
+                        "machine's emergency stop switch",
                     ).fill(where=self._where, rest_s=_REST_S)
                 )
 

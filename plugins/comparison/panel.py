@@ -1,4 +1,4 @@
-"""Comparison of model and real over a run: figures of each tap, and traces of the chosen one."""
+"""Comparison of model and machine over a run: figures of each tap, and traces of the chosen one."""
 
 from collections.abc import Sequence
 from html import escape
@@ -39,7 +39,7 @@ COLUMNS = (
 class ComparisonPanel(Panel):
     """The last run: the real record beside the model's answer to the same commands."""
 
-    title = marked("panels", "Comparison of model and real")
+    title = marked("panels", "Comparison of model and machine")
     area = Area.BOTTOM
     order = 20
     help_page = "comparison.md"

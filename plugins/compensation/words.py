@@ -19,7 +19,7 @@ NO_FRONT = mark("there is no front: tune, or open gains")
 LIVE_LOOP = mark(
     "The simulated machine closes the loop live at 5 kHz, only if it is also "
     "stable on axes off by 5 %. The boards close no loop: there, only "
-    "feedforward is possible."
+    "feed-forward is possible."
 )
 AT_A_LIMIT = mark(
     "The loop demands more than the range of the axis: move the axis away from the end."

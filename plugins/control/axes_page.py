@@ -76,16 +76,17 @@ class AxesPage(QWidget):
         play, scale = self._play, self._scale
         stepper = isinstance(self._workbench.robot.axes[self._axis], StepperAxis)
         show_text(
-            self.play, tr("Measured play: {play}").format(play=scale.text(play)) if stepper else ""
+            self.play,
+            tr("Measured backlash: {play}").format(play=scale.text(play)) if stepper else "",
         )
         self.use_play.setVisible(stepper)
         none = None
         if play is None:
-            none = tr("the model in use has no backlash of this axis; diagnose")
+            none = tr("the model in use has no backlash of this axis; diagnose the axis first")
         allow(
             self.use_play,
             why or none,
-            tr("Make {factor} × the play of the model in use the width").format(
+            tr("Set the width to {factor} × the backlash of the model in use").format(
                 factor=rounded(OVER_PLAY)
             ),
         )

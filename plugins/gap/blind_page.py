@@ -131,7 +131,7 @@ class BlindPage(QDialog):
             return
         self.run.start(robot, int(self.cases.text()), seed, folder, score=score)
         self.progress.setRange(0, 0)
-        self.doing.setText(tr("scoring") if score else tr("drawing the first machine"))
+        self.doing.setText(tr("scoring") if score else tr("choosing the first machine"))
         self._show_state()
 
     def _name(self, seed: int) -> str:
@@ -221,7 +221,7 @@ class BlindPage(QDialog):
                 colour.setAlpha(round(_STRENGTH * share))
                 item = self.matrix.item(row, column)
                 item.setBackground(colour)
-                text = tr("{truth} named {told}: {share} of its cases")
+                text = tr("{truth}, diagnosed as {told}: {share} of its cases")
                 said = text.format(truth=title(there), told=_word(told), share=percent(share))
                 item.setToolTip(plain_tip(said))
 

@@ -29,8 +29,8 @@ HEAD = (
     mark("gap rms"),
     mark("floor"),
     mark("worst at"),
-    mark("while"),
-    mark("95 % of the share"),
+    mark("motion"),
+    mark("95 % interval"),
 )
 _TIPS = (
     mark("Signal: u is the voltage, ref the reference sensor, meas the machine's own sensor"),
@@ -154,7 +154,7 @@ class DistributionView(QSplitter):
 
     def _draw(self, heat: Heat) -> None:
         edges = [rounded(edge, 6) for edge in heat.edges_hz]
-        self.heat.set_head((tr("while"), tr("share"), *edges[:-1]))
+        self.heat.set_head((tr("motion"), tr("share"), *edges[:-1]))
         between = tr("{low} to {high} Hz")
         for column, (low, high) in enumerate(pairwise(edges), start=_BANDS):
             self.heat.horizontalHeaderItem(column).setToolTip(between.format(low=low, high=high))

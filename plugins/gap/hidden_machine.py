@@ -33,7 +33,7 @@ class HiddenMachineTrial(QObject):
         drawn = secrets.randbelow(_SEEDS) if seed is None else seed
         self._workbench.work(
             "hidden machine",
-            tr("Drawing a machine …"),
+            tr("Choosing a machine at random …"),
             lambda: draw_secret(robot, drawn),
             self._connect,
         )

@@ -37,7 +37,7 @@ FIGURES = (
     mark("exactly three effects"),
     mark("false cause named"),
     mark("verdict: explained or partly"),
-    mark("healthy machines blamed"),
+    mark("false alarms on healthy machines"),
     mark("unknown effects recognised"),
     mark("poor excitation recognised"),
     mark("gap closed on unseen data, median"),

@@ -123,7 +123,7 @@ def _figures(
         return scale_of(unit, size)
 
     figures = [
-        figure(mark("at frequency"), lambda _: Scale("s", 1.0), lambda each: each.start_s),
+        figure(mark("time of the step"), lambda _: Scale("s", 1.0), lambda each: each.start_s),
         figure(
             mark("size of the step"), output, lambda each: abs(each.output_to - each.output_from)
         ),

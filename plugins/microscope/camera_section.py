@@ -117,7 +117,7 @@ class SettingsSection(Section):
         rows.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self.exposure, self.gain, self.rate, self.region = (QLineEdit() for _ in range(4))
         self.pixel_type, self.trigger = (
-            SteadyChoice(tr("Kind of pixels"), letters=6),
+            SteadyChoice(tr("Pixel type"), letters=6),
             SteadyChoice(tr("Trigger"), letters=6),
         )
         self.repeat = QCheckBox(tr("Loop at the end"))
@@ -146,7 +146,7 @@ class SettingsSection(Section):
         )
         self.add_row(self.apply, self.cut)
         self.shoot = button(
-            tr("Save picture"),
+            tr("Take picture"),
             lambda: workbench.ask(microscope.camera.trigger),
             tr("Trigger the camera once"),
         )

@@ -57,10 +57,7 @@ class MapView(QWidget):
                     "Where the tip has been, from above. ◆: saved positions; circles: cells of the "
                     "list. Red is forbidden, the frame is what the axes can reach."
                 ),
-                tr(
-                    "Click to choose a place; nothing moves. Wheel: nearer or farther. Drag: move "
-                    "the map."
-                ),
+                tr("Click to choose a place; nothing moves. Wheel: zoom. Drag: move the map."),
             )
         )
 

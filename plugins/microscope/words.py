@@ -148,7 +148,7 @@ def cell_text(status: MicroscopeStatus) -> str:
         )
     ahead = membrane_text(status)
     return (
-        tr("{size}\nmembrane: {ahead} from head on").format(size=size, ahead=ahead)
+        tr("{size}\nmembrane: {ahead} from its normal").format(size=size, ahead=ahead)
         if ahead
         else size
     )

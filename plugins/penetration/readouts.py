@@ -29,7 +29,7 @@ _PLAN = {
     ),
 }
 _RUN = {
-    mark("Way"): mark("Commanded distance from the start of the run"),
+    mark("Distance"): mark("Commanded distance from the start of the run"),
     mark("Deviation"): mark(
         "Change of measured − model since the start of the run, opposite to the motion"
     ),

@@ -50,7 +50,7 @@ class RunBeside(QComboBox):
         self.setAccessibleName(tr("Another run beside the present one"))
         self.setToolTip(
             plain_tip(
-                tr("Keep this run: displays it next to the following one."),
+                tr("Keep this run: it stays visible beside the next one."),
                 tr("Latest run: the record that was opened or played last."),
                 tr("Record …: one of the library."),
             )

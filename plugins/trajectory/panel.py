@@ -274,7 +274,9 @@ class TrajectoryPanel(Panel):
                 for name, axis in plan.dry_run.axes.items()
                 if name in gaps
             ]
-            self.gaps.setText(tr("Model and real apart: {parts}").format(parts=" · ".join(parts)))
+            self.gaps.setText(
+                tr("Distance between model and machine: {parts}").format(parts=" · ".join(parts))
+            )
 
 
 def _table() -> QTableWidget:

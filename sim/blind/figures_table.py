@@ -20,7 +20,7 @@ ROWS: dict[str, tuple[str, str, str]] = {
     "three_exact": ("exactly three effects", "", "share"),
     "extra_causes": ("false cause named", "", "share"),
     "causes_named": ("verdict: explained or partly", "", "share"),
-    "false_accusations": ("healthy machines blamed", "0", "share"),
+    "false_accusations": ("false alarms on healthy machines", "0", "share"),
     "unknown_recall": ("unknown effects recognised", "≥ 85 %", "share"),
     "insufficient_recall": ("poor excitation recognised", "", "share"),
     "closure_median": ("gap closed on unseen data, median", "≥ 95 %", "share"),

@@ -217,7 +217,7 @@ HYSTERESIS = Effect(
                     "reach", "ℓ, length over which the loop bends", "q", 0.03, 2.0, 0.25, per="span"
                 ),
                 Parameter("sharpness", "n", "", 1.0, 6.0, 1.0),
-                Parameter("winding", "β; 1/2: straight after a reversal", "", 0.5, 1.5, 1.0),
+                Parameter("winding", "β; 1/2: straight line after a reversal", "", 0.5, 1.5, 1.0),
                 Parameter(
                     "asymmetry", "δ, asymmetry of the way up and the way down", "", -0.8, 0.8, 0.1
                 ),

@@ -65,7 +65,7 @@ def _inner_step(_values: Values, facts: Facts) -> float:
 
 
 _HARDENING = Parameter(
-    "hardening", "ε, share of further force at L from q₀", "", -0.01, 1.0, 0.05, linear=True
+    "hardening", "ε, share of added force at distance L from q₀", "", -0.01, 1.0, 0.05, linear=True
 )
 _CENTRE = Parameter(
     "centre", "position of the straight part, from mid-range", "q", -0.5, 0.5, 0.0, per="span"

@@ -104,7 +104,7 @@ def find_cell(image: Image, near: FloatArray, radii: tuple[float, float]) -> Cel
                 message(
                     "engine",
                     "cell: the line around {column}, {row} px absorbs {darker} % of the "
-                    "light, must be at least {least} %; focus on the membrane, or point into "
+                    "light, must be at least {least} %; focus on the membrane, or click into "
                     "the cell",
                 ).fill(
                     column=fixed(centre[0], 0),
@@ -120,7 +120,7 @@ def find_cell(image: Image, near: FloatArray, radii: tuple[float, float]) -> Cel
             message(
                 "engine",
                 "cell: the outline deviates from an ellipse by {rms} px rms, must be at most "
-                "{most} % of its radius; point into the middle of one cell",
+                "{most} % of its radius; click into the middle of one cell",
             ).fill(rms=fixed(rms, 1), most=rounded(100.0 * _MOST_RMS, 6))
         )
     return CellOutline(found, spread, path, darker)

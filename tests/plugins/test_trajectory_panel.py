@@ -69,7 +69,7 @@ def test_played_paused_stepped_and_gone_on_with(qtbot, window, panel):
         click(qtbot, transport.play)
     assert phase(panel) is PlaybackPhase.IDLE
     assert len(list(bench.played_folder.glob("*_swing.csv.gz"))) == 2
-    assert "Model and real apart: Z nano" in panel.gaps.text()
+    assert "Distance between model and machine: Z nano" in panel.gaps.text()
     assert notices(window) == []
     # Each stretch has its gap in the library.
     qtbot.waitUntil(

@@ -129,8 +129,8 @@ class Scale:
         if self.spring_hz:
             return message(
                 "engine",
-                "{name}: a way of {way} on a spring of {spring_hz} Hz is more than the axes can "
-                "accelerate; use at most {most}, or at most {other} Hz",
+                "{name}: a travel of {way} on a spring of {spring_hz} Hz is more than the axes "
+                "can accelerate; use at most {most}, or at most {other} Hz",
             ).fill(
                 name=name,
                 way=exact(self.way, unit),

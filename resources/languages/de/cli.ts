@@ -61,7 +61,7 @@
     </message>
     <message>
         <source>{inverse} was trained for robot {robot}, not for {name}; name that robot by --robot</source>
-        <translation>{inverse}: sie wurde für Roboter {robot} gelernt, nicht für {name}; jenen mit --robot nennen</translation>
+        <translation>{inverse}: sie wurde für Roboter {robot} trainiert, nicht für {name}; jenen mit --robot nennen</translation>
     </message>
     <message>
         <source>--simulate takes no records; leave out one or the other</source>
@@ -221,7 +221,7 @@
     </message>
     <message>
         <source>{inverse} is an inverse of axis {axis}, but {options_axis} is to be tuned; name one that was trained on this axis</source>
-        <translation>{inverse}: eine Inverse von Achse {axis}, abgestimmt werden soll {options_axis}; eine nennen, die auf dieser Achse gelernt wurde</translation>
+        <translation>{inverse}: eine Inverse von Achse {axis}, abgestimmt werden soll {options_axis}; eine nennen, die mit dieser Achse trainiert wurde</translation>
     </message>
     <message>
         <source>--jobs {jobs}: must be 1 or more</source>
@@ -237,7 +237,7 @@
     </message>
     <message>
         <source>--cluster {cluster} has no workers; start some by dask worker {cluster}</source>
-        <translation>--cluster {cluster}: er hat keine Worker; welche starten mit dask worker {cluster}</translation>
+        <translation>--cluster {cluster}: keine Worker; starten mit dask worker {cluster}</translation>
     </message>
     <message>
         <source>--cluster: a worker died repeatedly at the same task ({error}); check its memory and its log</source>
@@ -376,7 +376,7 @@ und prüfen mit `rotemina plugin check {name}` und `pytest {place}`.</translatio
         <translation>empfohlen: {why}</translation>
     </message>
     <message>
-        <source>{name} runs in real time: ALL AXES WILL MOVE, also to the ends of their ranges. Remove the tool, and keep the machine&apos;s emergency switch within reach.</source>
+        <source>{name} runs in real time: ALL AXES WILL MOVE, also to the ends of their ranges. Remove the tool, and keep the machine&apos;s emergency stop switch within reach.</source>
         <translation>{name} läuft in Echtzeit: ALLE ACHSEN WERDEN SICH BEWEGEN, auch bis an die Enden ihrer Bereiche. Das Werkzeug abnehmen; der Not-Halt der Maschine muss in Reichweite sein.</translation>
     </message>
     <message>

@@ -61,7 +61,7 @@
     </message>
     <message>
         <source>Play a trajectory or open a record of the real machine to compare it with the model.</source>
-        <translation>Eine Trajektorie abspielen oder eine Aufzeichnung der realen Maschine öffnen, um sie mit dem Modell zu vergleichen.</translation>
+        <translation>Eine Trajektorie abspielen oder eine Aufzeichnung der echten Maschine öffnen, um sie mit dem Modell zu vergleichen.</translation>
     </message>
     <message>
         <source>signal</source>
@@ -75,7 +75,7 @@
 <context>
     <name>panels</name>
     <message>
-        <source>Comparison of model and real</source>
+        <source>Comparison of model and machine</source>
         <translation>Vergleich Modell – Maschine</translation>
     </message>
 </context>

@@ -137,7 +137,7 @@
     </message>
     <message>
         <source>Load gains from a file that rotemina tune wrote</source>
-        <translation>Verstärkungen aus einer Datei von rotemina tune laden</translation>
+        <translation>Reglerparameter aus einer Datei von rotemina tune laden</translation>
     </message>
     <message>
         <source>Save inverses</source>
@@ -284,7 +284,7 @@
         <translation>es gibt keine Front: abstimmen oder Reglerparameter öffnen</translation>
     </message>
     <message>
-        <source>The simulated machine closes the loop live at 5 kHz, only if it is also stable on axes off by 5 %. The boards close no loop: there, only feedforward is possible.</source>
+        <source>The simulated machine closes the loop live at 5 kHz, only if it is also stable on axes off by 5 %. The boards close no loop: there, only feed-forward is possible.</source>
         <translation>Die simulierte Maschine schließt den Regelkreis live bei 5 kHz, nur wenn er auch bei Achsen mit 5 % Abweichung stabil ist. Die Steuerkarten schließen keinen: dort ist nur Vorsteuerung möglich.</translation>
     </message>
     <message>
@@ -325,11 +325,11 @@
     </message>
     <message>
         <source>Close a loop with these gains around the axis, or open it; the axis stays in place</source>
-        <translation>Mit diesen Verstärkungen einen Regelkreis um die Achse schließen oder ihn öffnen; die Achse bleibt stehen</translation>
+        <translation>Mit diesen Reglerparametern einen Regelkreis um die Achse schließen oder ihn öffnen; die Achse bleibt stehen</translation>
     </message>
     <message>
         <source>Apply the inverse to ends of moves, speeds and each row of a trajectory; the axis stays in place</source>
-        <translation>Die Inverse auf Enden von Bewegungen, Geschwindigkeiten und jede Zeile einer Trajektorie anwenden; die Achse bleibt stehen</translation>
+        <translation>Die Inverse auf Endpunkte von Bewegungen, Geschwindigkeiten und jede Zeile einer Trajektorie anwenden; die Achse bleibt stehen</translation>
     </message>
     <message>
         <source>the axis is moving</source>
@@ -361,7 +361,7 @@
     </message>
     <message>
         <source>work is in progress; stop it or wait</source>
-        <translation>eine Arbeit läuft; abbrechen oder warten</translation>
+        <translation>eine Berechnung läuft; abbrechen oder warten</translation>
     </message>
     <message>
         <source>there is no record</source>
@@ -381,7 +381,7 @@
     </message>
     <message>
         <source>Feed the reference forward through the current inverse</source>
-        <translation>Die Referenz durch die aktuelle Inverse vorsteuern</translation>
+        <translation>Den Sollwert durch die aktuelle Inverse vorsteuern</translation>
     </message>
     <message>
         <source>Save the front with the selected point</source>
@@ -389,7 +389,7 @@
     </message>
     <message>
         <source>Stop the work</source>
-        <translation>Die Arbeit anhalten</translation>
+        <translation>Die laufende Berechnung abbrechen</translation>
     </message>
     <message>
         <source>Save gains</source>
@@ -413,7 +413,7 @@
     </message>
     <message>
         <source>Residual of each inverse on validation rows</source>
-        <translation>Restfehler jeder Inverse auf Prüfzeilen</translation>
+        <translation>Restfehler jeder Inversen auf Prüfzeilen</translation>
     </message>
     <message>
         <source>Validation rows, over the command [{unit}]</source>

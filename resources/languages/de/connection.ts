@@ -57,7 +57,7 @@
     </message>
     <message>
         <source>seed</source>
-        <translation>Startzahl</translation>
+        <translation>Startwert</translation>
     </message>
     <message>
         <source>settle</source>
@@ -241,7 +241,7 @@
     </message>
     <message>
         <source>{name} cannot set a voltage</source>
-        <translation>{name} kann keine Spannung einstellen</translation>
+        <translation>{name} kann keine Spannung ausgeben</translation>
     </message>
     <message>
         <source>there is no floor</source>
@@ -473,7 +473,7 @@
     </message>
     <message>
         <source>Return to the position before the latest move: up, across, down</source>
-        <translation>Zur Position vor der letzten Bewegung zurückfahren: hoch, quer, ab</translation>
+        <translation>Zur Position vor der letzten Bewegung zurückfahren: heben, verfahren, absenken</translation>
     </message>
     <message>
         <source>No axis is moving.</source>

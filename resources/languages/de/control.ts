@@ -162,7 +162,7 @@
     </message>
     <message>
         <source>Change pin or dish</source>
-        <translation>Nadel oder Schale wechseln</translation>
+        <translation>Stift oder Schale wechseln</translation>
     </message>
     <message>
         <source>Skip</source>
@@ -170,7 +170,7 @@
     </message>
     <message>
         <source>Teach here?</source>
-        <translation>Hier einlernen?</translation>
+        <translation>Hier setzen?</translation>
     </message>
     <message>
         <source>Retract: Z to its upper end</source>
@@ -198,7 +198,7 @@
     </message>
     <message>
         <source>Lock; then change the pin or the dish by hand</source>
-        <translation>Sperren; dann Nadel oder Schale von Hand wechseln</translation>
+        <translation>Sperren; dann Stift oder Schale von Hand wechseln</translation>
     </message>
     <message>
         <source>Stop and lock</source>
@@ -214,7 +214,7 @@
     </message>
     <message>
         <source>Teach the floor where the tip touches</source>
-        <translation>Den Boden einlernen, wo die Spitze aufsetzt</translation>
+        <translation>Den Boden setzen, wo die Spitze aufsetzt</translation>
     </message>
     <message>
         <source>Teach floor</source>
@@ -290,7 +290,7 @@
     </message>
     <message>
         <source>Change the pin or the dish, step by step</source>
-        <translation>Nadel oder Schale Schritt für Schritt wechseln</translation>
+        <translation>Stift oder Schale Schritt für Schritt wechseln</translation>
     </message>
     <message>
         <source>Find the limit switches of all axes</source>
@@ -493,20 +493,20 @@
         <translation>die Maschine bewegt sich</translation>
     </message>
     <message>
-        <source>Measured play: {play}</source>
-        <translation>Gemessenes Spiel: {play}</translation>
+        <source>Measured backlash: {play}</source>
+        <translation>Gemessenes Umkehrspiel: {play}</translation>
     </message>
     <message>
-        <source>the model in use has no backlash of this axis; diagnose</source>
-        <translation>das Modell im Einsatz hat kein Umkehrspiel dieser Achse; diagnostizieren</translation>
+        <source>the model in use has no backlash of this axis; diagnose the axis first</source>
+        <translation>das verwendete Modell enthält kein Umkehrspiel dieser Achse; erst die Achse diagnostizieren</translation>
     </message>
     <message>
-        <source>Make {factor} × the play of the model in use the width</source>
-        <translation>Das {factor}-Fache des Spiels im Modell im Einsatz als Weite nehmen</translation>
+        <source>Set the width to {factor} × the backlash of the model in use</source>
+        <translation>Als Weite das {factor}-Fache des Umkehrspiels im verwendeten Modell setzen</translation>
     </message>
     <message>
         <source>Within {ends}</source>
-        <translation>Innerhalb {ends}</translation>
+        <translation>Innerhalb von {ends}</translation>
     </message>
     <message>
         <source>Range</source>
@@ -538,7 +538,7 @@
     </message>
     <message>
         <source>Return to the position before the latest move: up, across, down</source>
-        <translation>Zur Position vor der letzten Bewegung zurückfahren: hoch, quer, ab</translation>
+        <translation>Zur Position vor der letzten Bewegung zurückfahren: heben, verfahren, absenken</translation>
     </message>
     <message>
         <source>Go to position {name!r} along a safe path; save a new one by this name to move it</source>
@@ -562,7 +562,7 @@
     </message>
     <message>
         <source>Axis whose range and approach are set</source>
-        <translation>Achse, deren Bereich und Anfahrt gelten</translation>
+        <translation>Achse, deren Bereich und Anfahrt eingestellt werden</translation>
     </message>
     <message>
         <source>Overshoot of the approach</source>
@@ -622,7 +622,7 @@
     </message>
     <message>
         <source>Only the axis ranges limit the tip. Teach a floor in Connection, Tip.</source>
-        <translation>Nur die Achsbereiche begrenzen die Spitze. Unter Verbindung, Spitze einen Boden einlernen.</translation>
+        <translation>Nur die Achsbereiche begrenzen die Spitze. Unter Verbindung, Spitze einen Boden setzen.</translation>
     </message>
     <message>
         <source>{sign}: jogs and go-to approach from below.</source>
@@ -650,7 +650,7 @@
     </message>
     <message>
         <source>Tip at {height}; no floor is taught.</source>
-        <translation>Spitze auf {height}; kein Boden ist eingelernt.</translation>
+        <translation>Spitze auf {height}; kein Boden ist gesetzt.</translation>
     </message>
     <message>
         <source> Within {height} above the floor it descends at {speed} at most.</source>
@@ -666,7 +666,7 @@
     </message>
     <message>
         <source>Pin or dish changed, hands clear: release the lock</source>
-        <translation>Nadel oder Schale gewechselt, Hände entfernt: Sperre lösen</translation>
+        <translation>Stift oder Schale gewechselt, Hände entfernt: Sperre lösen</translation>
     </message>
     <message>
         <source>Move above the work position with Z raised</source>

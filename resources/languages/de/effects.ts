@@ -5,7 +5,7 @@
     <name>effects</name>
     <message>
         <source>Formulation</source>
-        <translation>Ansatz</translation>
+        <translation>Formulierung</translation>
     </message>
     <message>
         <source>from</source>
@@ -337,7 +337,7 @@
     </message>
     <message>
         <source>appendage</source>
-        <translation>Anhang</translation>
+        <translation>angehängte Masse</translation>
     </message>
     <message>
         <source>bouc wen</source>
@@ -505,7 +505,7 @@
     </message>
     <message>
         <source>ten plays</source>
-        <translation>zehn Spiele</translation>
+        <translation>zehn Play-Operatoren</translation>
     </message>
     <message>
         <source>third order</source>
@@ -605,7 +605,7 @@
     </message>
     <message>
         <source>of the play</source>
-        <translation>des Spiels</translation>
+        <translation>des Play-Operators</translation>
     </message>
     <message>
         <source>peak of c, as a share of the range</source>
@@ -640,16 +640,16 @@
         <translation>viskose Reibung vorwärts</translation>
     </message>
     <message>
-        <source>β; 1/2: straight after a reversal</source>
-        <translation>β; 1/2: gerade nach einer Umkehr</translation>
+        <source>β; 1/2: straight line after a reversal</source>
+        <translation>β; 1/2: nach einer Umkehr geradlinig</translation>
     </message>
     <message>
         <source>β; negative: met on the way down</source>
-        <translation>β; negativ: auf dem Weg abwärts getroffen</translation>
+        <translation>β; negativ: auf dem Weg abwärts berührt</translation>
     </message>
     <message>
-        <source>ε, share of further force at L from q₀</source>
-        <translation>ε, Anteil der weiteren Kraft bei L von q₀</translation>
+        <source>ε, share of added force at distance L from q₀</source>
+        <translation>ε, Anteil der zusätzlichen Kraft im Abstand L von q₀</translation>
     </message>
     <message>
         <source>κ, logarithm of the slopes&apos; ratio</source>
@@ -737,7 +737,7 @@
     </message>
     <message>
         <source>Choose an axis, an effect and its formulation</source>
-        <translation>Eine Achse, einen Effekt und seinen Ansatz wählen</translation>
+        <translation>Eine Achse, einen Effekt und seine Formulierung wählen</translation>
     </message>
     <message>
         <source>Simulate the machine of the robot file, or a worn one for demonstration</source>
@@ -761,7 +761,7 @@
     </message>
     <message>
         <source>Compare with the nominal machine: disable all effects until this is released</source>
-        <translation>Vergleich mit der nominellen Maschine: alle Effekte aus, bis dies gelöst wird</translation>
+        <translation>Vergleich mit der nominalen Maschine: alle Effekte aus, bis dies gelöst wird</translation>
     </message>
     <message>
         <source>Replace these effects by those of a robot file</source>
@@ -793,7 +793,7 @@
     </message>
     <message>
         <source>Formulation of the effect; its equations appear below</source>
-        <translation>Ansatz des Effekts; seine Gleichungen stehen darunter</translation>
+        <translation>Formulierung des Effekts; ihre Gleichungen stehen darunter</translation>
     </message>
     <message>
         <source>Axis in which the effect originates</source>
@@ -817,7 +817,7 @@
     </message>
     <message>
         <source>1: equal weights of all plays; more: larger weights of wide plays</source>
-        <translation>1: alle Spiele gleich gewichtet; mehr: breite stärker</translation>
+        <translation>1: alle Play-Operatoren gleich gewichtet; mehr: breite stärker</translation>
     </message>
     <message>
         <source>A, final drift</source>
@@ -889,7 +889,7 @@
     </message>
     <message>
         <source>n; an integer on a machine, any number here so that a fit can vary it</source>
-        <translation>n; an der Maschine ganz, hier beliebig, damit eine Anpassung es ändern kann</translation>
+        <translation>n; an der Maschine ganzzahlig, hier beliebig, damit eine Anpassung es variieren kann</translation>
     </message>
     <message>
         <source>duration of a dropout; 0: one sample</source>
@@ -917,7 +917,7 @@
     </message>
     <message>
         <source>relative to the axis&apos; own stiffness; negative: met on the way down</source>
-        <translation>relativ zur Steifigkeit der Achse; negativ: auf dem Weg abwärts getroffen</translation>
+        <translation>relativ zur Steifigkeit der Achse; negativ: auf dem Weg abwärts berührt</translation>
     </message>
     <message>
         <source>p, period of the grating</source>
@@ -1021,7 +1021,7 @@
     </message>
     <message>
         <source>{name}, weight of the play with threshold {threshold}</source>
-        <translation>{name}, Gewicht des Spiels mit Schwelle {threshold}</translation>
+        <translation>{name}, Gewicht des Play-Operators mit Schwelle {threshold}</translation>
     </message>
 </context>
 <context>

@@ -26,7 +26,7 @@
     </message>
     <message>
         <source>unexpected {name} from the driver: {error}</source>
-        <translation>unerwartet {name} vom Treiber: {error}</translation>
+        <translation>unerwarteter Fehler vom Treiber: {name}: {error}</translation>
     </message>
     <message>
         <source>axis {axis} reads {much} beyond its range</source>
@@ -58,7 +58,7 @@
         <translation>Treiber {name} gehört zu einem Roboter mit den Achsen {axes}; dieser hat {these}; das Programm mit jenem Roboter starten</translation>
     </message>
     <message>
-        <source>another device is connected</source>
+        <source>another device is being connected</source>
         <translation>ein anderes Gerät wird verbunden</translation>
     </message>
     <message>
@@ -99,7 +99,7 @@
     </message>
     <message>
         <source>the penetration is not armed; arm it first</source>
-        <translation>die Penetration ist nicht scharf; erst scharf schalten</translation>
+        <translation>die Penetration ist nicht scharf; erst scharfstellen</translation>
     </message>
     <message>
         <source>the retraction was stopped by the button</source>
@@ -192,23 +192,23 @@
     </message>
     <message>
         <source>another control took over an axis</source>
-        <translation>eine andere Bedienung hat eine Achse übernommen</translation>
+        <translation>eine andere Steuerung hat eine Achse übernommen</translation>
     </message>
     <message>
         <source>shaping = {shaping}: axis {axis} of {robot} has no resonance in its robot file; choose &apos;none&apos;</source>
-        <translation>Formung {shaping}: Achse {axis} von {robot} hat keine Resonanz in der Roboterdatei; „keine“ wählen</translation>
+        <translation>Impulsformung {shaping}: Achse {axis} von {robot} hat keine Resonanz in der Roboterdatei; „keine“ wählen</translation>
     </message>
     <message>
         <source>duration_s = {duration} s: input shaping {shaping} takes {taken} s of it; use at least {least} s, or another shaping</source>
-        <translation>Dauer {duration} s: die Impulsformung {shaping} braucht davon {taken} s; mindestens {least} s oder eine andere Formung</translation>
+        <translation>Dauer {duration} s: die Impulsformung {shaping} braucht davon {taken} s; mindestens {least} s oder eine andere Impulsformung</translation>
     </message>
     <message>
         <source>thrust: none of {count} samples lies after it</source>
-        <translation>Stoß: keiner von {count} Abtastwerten liegt dahinter</translation>
+        <translation>Einstich: keiner von {count} Abtastwerten liegt dahinter</translation>
     </message>
     <message>
         <source>thrust: none of {count} samples lies before it</source>
-        <translation>Stoß: keiner von {count} Abtastwerten liegt davor</translation>
+        <translation>Einstich: keiner von {count} Abtastwerten liegt davor</translation>
     </message>
     <message>
         <source>{capacity} commands are already waiting because the device does not keep up; wait, or stop</source>
@@ -266,7 +266,7 @@
     <message>
         <source>another profile is now in use</source>
         <extracomment>Whether devices are being set up: only stops are sent.</extracomment>
-        <translation>ein anderes Profil ist in Gebrauch</translation>
+        <translation>jetzt wird ein anderes Profil verwendet</translation>
     </message>
     <message>
         <source>device {key} is not plugged in, so no calibration can be applied</source>
@@ -311,7 +311,7 @@
     </message>
     <message>
         <source>the joystick&apos;s stop</source>
-        <translation>das Stopp des Joysticks</translation>
+        <translation>Halt am Joystick</translation>
     </message>
     <message>
         <source>the machine is {activity}</source>
@@ -419,12 +419,12 @@
         <translation>Achse {axis} zittert in Ruhe oder wurde bewegt: {low} bis {high} verlangt eine Totzone von {zone}, zulässig sind höchstens {most}; loslassen und neu messen, sonst reparieren lassen</translation>
     </message>
     <message>
-        <source>driver {name} cannot close a loop: its samples are too rare and too late; use feed-forward, or the simulator</source>
+        <source>driver {name} cannot close a loop: its samples are too infrequent and too late; use feed-forward, or the simulator</source>
         <translation>Treiber {name} kann keinen Regelkreis schließen: seine Messwerte sind dafür zu selten und zu spät; Vorsteuerung oder den Simulator verwenden</translation>
     </message>
     <message>
         <source>{name}: tuned for robot {robot}, not for {this}; tune on this robot</source>
-        <translation>{name}: für Roboter {robot} eingestellt, nicht für {this}; an diesem Roboter einstellen</translation>
+        <translation>{name}: für Roboter {robot} abgestimmt, nicht für {this}; an diesem Roboter abstimmen</translation>
     </message>
     <message>
         <source>{name}: tuned for outputs that are {delay} intervals late, but a device&apos;s loop outputs them at once; tune with a delay of 0</source>
@@ -436,11 +436,11 @@
     </message>
     <message>
         <source>tip: the profile moves at {speed} within {height} of the floor, where {most} is the limit; only an armed penetration may be faster</source>
-        <translation>Spitze: das Profil fährt mit {speed} weniger als {height} über dem Boden, wo {most} die Grenze ist; schneller darf dort nur eine scharfgeschaltete Penetration sein</translation>
+        <translation>Spitze: das Profil fährt mit {speed} weniger als {height} über dem Boden, wo {most} die Grenze ist; schneller darf dort nur eine scharfgestellte Penetration sein</translation>
     </message>
     <message>
         <source>tip: a thrust of {way} within {height} of the floor exceeds the limit of {most}</source>
-        <translation>Spitze: ein Stoß von {way} weniger als {height} über dem Boden überschreitet die Grenze von {most}</translation>
+        <translation>Spitze: ein Einstich von {way} weniger als {height} über dem Boden überschreitet die Grenze von {most}</translation>
     </message>
     <message>
         <source>{much} below its floor</source>
@@ -488,11 +488,11 @@
     </message>
     <message>
         <source>axis {axis}: target {target} is outside {low} to {high}, the training range of its inverse; stay inside, or remove the inverse</source>
-        <translation>Achse {axis}: Ziel {target} liegt außerhalb von {low} bis {high}, dem Trainingsbereich ihres inversen Modells; innerhalb bleiben oder das inverse Modell abschalten</translation>
+        <translation>Achse {axis}: Ziel {target} liegt außerhalb von {low} bis {high}, dem Trainingsbereich ihrer Inversen; innerhalb bleiben oder die Inverse abschalten</translation>
     </message>
     <message>
         <source>{name}: it was trained for robot {robot}, not for {this}; train one on this robot</source>
-        <translation>{name}: für Roboter {robot} trainiert, nicht für {this}; eines an diesem Roboter trainieren</translation>
+        <translation>{name}: für Roboter {robot} trainiert, nicht für {this}; eine an diesem Roboter trainieren</translation>
     </message>
     <message>
         <source>motion is locked: {locked}</source>
@@ -501,7 +501,7 @@
     </message>
     <message>
         <source>a motion of the nano stage is being planned; wait</source>
-        <translation>eine Bewegung der Nanostufe wird geplant; bitte warten</translation>
+        <translation>eine Bewegung des Nanotischs wird geplant; bitte warten</translation>
     </message>
     <message>
         <source>the machine is still moving; release the stick first</source>
@@ -530,7 +530,7 @@
     </message>
     <message>
         <source>Recorder: {message}</source>
-        <translation>Aufzeichnung: {message}</translation>
+        <translation>Rekorder: {message}</translation>
     </message>
     <message>
         <source>The loop of the input devices failed: {name}: {error}</source>
@@ -570,11 +570,11 @@
     </message>
     <message>
         <source>no profile was uploaded; upload one first</source>
-        <translation>es wurde kein Profil geladen; erst eines laden</translation>
+        <translation>es wurde kein Profil hochgeladen; erst eines hochladen</translation>
     </message>
     <message>
         <source>axis {axis} has moved since its profile was uploaded; upload it again</source>
-        <translation>Achse {axis} hat sich bewegt, seit ihr Profil geladen wurde; erneut laden</translation>
+        <translation>Achse {axis} hat sich bewegt, seit ihr Profil hochgeladen wurde; erneut hochladen</translation>
     </message>
     <message>
         <source>driver {name} cannot capture</source>
@@ -622,7 +622,7 @@
     </message>
     <message>
         <source>the playback is paused</source>
-        <translation>das Abspielen ist angehalten</translation>
+        <translation>die Wiedergabe ist pausiert</translation>
     </message>
     <message>
         <source>a trajectory is playing; pause or stop it first</source>
@@ -630,7 +630,7 @@
     </message>
     <message>
         <source>the playback is ended</source>
-        <translation>das Abspielen ist beendet</translation>
+        <translation>die Wiedergabe ist beendet</translation>
     </message>
     <message>
         <source>the camera is {state}: {reason}</source>
@@ -704,7 +704,7 @@
     </message>
     <message>
         <source>the picture is black; check lamp, shutter and exposure. Nothing moves</source>
-        <translation>das Bild ist schwarz; Lampe, Blende und Belichtung prüfen. Nichts bewegt sich</translation>
+        <translation>das Bild ist schwarz; Lampe, Verschluss und Belichtung prüfen. Nichts bewegt sich</translation>
     </message>
     <message>
         <source>the machine was stopped; it stays in place</source>
@@ -740,7 +740,7 @@
     </message>
     <message>
         <source>the picture is black; check lamp, shutter, lens cap and exposure</source>
-        <translation>das Bild ist schwarz; Lampe, Verschluss, Kappe und Belichtung prüfen</translation>
+        <translation>das Bild ist schwarz; Lampe, Verschluss, Objektivdeckel und Belichtung prüfen</translation>
     </message>
     <message>
         <source>the device provides no laser readings; record the laser with its own program, play the motion from its file, and fit both records (rotemina calibrate fit --laser)</source>
@@ -881,7 +881,7 @@
     </message>
     <message>
         <source>{name}: no such axis {axis}; it has {axes}</source>
-        <translation>{name}: keine Achse {axis}; es gibt {axes}</translation>
+        <translation>{name}: keine Achse {axis}; vorhanden: {axes}</translation>
     </message>
     <message>
         <source>a finite number</source>
@@ -900,7 +900,7 @@
         <translation>ein Fehler ({fault})</translation>
     </message>
     <message>
-        <source>{name}: cannot home in {why}; wait, stop or clear it first</source>
+        <source>{name}: cannot home ({why}); wait, stop or clear it first</source>
         <translation>{name}: keine Referenzfahrt möglich: {why}; erst warten, anhalten oder quittieren</translation>
     </message>
     <message>
@@ -985,7 +985,7 @@
     </message>
     <message>
         <source>tip: floor {floor} mm: must be between {low} and {high}, within the reach of the tip; teach it where the tip touches</source>
-        <translation>Spitze: Boden bei {floor} mm: muss zwischen {low} und {high} liegen, wo die Spitze sein kann; dort einlernen, wo die Spitze berührt</translation>
+        <translation>Spitze: Boden bei {floor} mm: muss zwischen {low} und {high} liegen, wo die Spitze sein kann; dort setzen, wo die Spitze aufsetzt</translation>
     </message>
     <message>
         <source>on the way</source>
@@ -1001,7 +1001,7 @@
     </message>
     <message>
         <source>tip: {lowest} high {where}, but its floor is {floor}; move elsewhere first, or teach the floor</source>
-        <translation>Spitze: {where} in der Höhe {lowest}: ihr Boden liegt bei {floor}; erst anderswohin fahren oder den Boden einlernen</translation>
+        <translation>Spitze: {where} in der Höhe {lowest}: ihr Boden liegt bei {floor}; erst anderswohin fahren oder den Boden setzen</translation>
     </message>
     <message>
         <source>tip: {lowest} high {where}, but its floor is {low}, where the objective is; stay above it</source>
@@ -1112,12 +1112,12 @@
         <translation>Zelle: Radien {low} bis {high} px; müssen größer als 2 und ansteigend sein</translation>
     </message>
     <message>
-        <source>cell: the line around {column}, {row} px absorbs {darker} % of the light, must be at least {least} %; focus on the membrane, or point into the cell</source>
-        <translation>Zelle: die Linie um {column}, {row} px absorbiert {darker} % des Lichts, mindestens {least} % sind nötig; auf die Membran fokussieren oder in die Zelle zeigen</translation>
+        <source>cell: the line around {column}, {row} px absorbs {darker} % of the light, must be at least {least} %; focus on the membrane, or click into the cell</source>
+        <translation>Zelle: die Linie um {column}, {row} px absorbiert {darker} % des Lichts, mindestens {least} % sind nötig; auf die Membran fokussieren oder in die Zelle klicken</translation>
     </message>
     <message>
-        <source>cell: the outline deviates from an ellipse by {rms} px rms, must be at most {most} % of its radius; point into the middle of one cell</source>
-        <translation>Zelle: ihr Umriss weicht {rms} px effektiv von einer Ellipse ab, höchstens {most} % des Radius; in die Mitte einer Zelle zeigen</translation>
+        <source>cell: the outline deviates from an ellipse by {rms} px rms, must be at most {most} % of its radius; click into the middle of one cell</source>
+        <translation>Zelle: ihr Umriss weicht {rms} px effektiv von einer Ellipse ab, höchstens {most} % des Radius; in die Mitte einer Zelle klicken</translation>
     </message>
     <message>
         <source>nothing matches it at its expected place</source>
@@ -1169,7 +1169,7 @@
     </message>
     <message>
         <source>table: permitted only for a thrust of shape &apos;table&apos;, which needs it (shape is {shape}, the table has {count} points)</source>
-        <translation>Tabelle: nötig für einen Stoß der Form &apos;table&apos; und für keinen anderen (die Form ist {shape}, die Tabelle hat {count} Punkte)</translation>
+        <translation>Tabelle: nötig für einen Einstich der Form &apos;table&apos; und für keinen anderen (die Form ist {shape}, die Tabelle hat {count} Punkte)</translation>
     </message>
     <message>
         <source>{name}: {error}</source>
@@ -1304,11 +1304,11 @@
     </message>
     <message>
         <source>impedance: with stiffness {stiffness} the force {force} reaches {travel} m (or rad), more than {most_travel}; use 0 for no spring</source>
-        <translation>Impedanz: mit Steifigkeit {stiffness} reicht die Kraft {force} bis {travel} m (oder rad), höchstens {most_travel} sind erlaubt; 0 bedeutet keine</translation>
+        <translation>Impedanz: mit Steifigkeit {stiffness} reicht die Kraft {force} bis {travel} m (oder rad), höchstens {most_travel} sind erlaubt; 0 für keine Feder verwenden</translation>
     </message>
     <message>
         <source>impedance: damping ratio {damping_ratio} is below {least_damping_ratio}, so the axis would ring; use a damping of {least_damping} or more</source>
-        <translation>Impedanz: Dämpfungsgrad {damping_ratio} liegt unter {least_damping_ratio}, sie würde schwingen; eine Dämpfung von mindestens {least_damping} verwenden</translation>
+        <translation>Impedanz: Dämpfungsgrad {damping_ratio} liegt unter {least_damping_ratio}, die Achse würde schwingen; eine Dämpfung von mindestens {least_damping} verwenden</translation>
     </message>
     <message>
         <source>scaling: step of {dt} s with a reaction of {reaction}: both must be finite, the step 0 or more</source>
@@ -1329,7 +1329,7 @@
     </message>
     <message>
         <source>{path}: the name of an interrupted recording ends with {unfinished}</source>
-        <translation>{path}: eine abgebrochene Aufzeichnung endet auf {unfinished}</translation>
+        <translation>{path}: eine abgebrochene Aufnahme endet auf {unfinished}</translation>
     </message>
     <message>
         <source>{error}; the recorded data are in {source}</source>
@@ -1345,27 +1345,27 @@
     </message>
     <message>
         <source>{target} already exists and is another recording; rename it, then recover {source}</source>
-        <translation>{target}: gibt es schon und ist eine andere Aufzeichnung; umbenennen, dann {source} wiederherstellen</translation>
+        <translation>{target}: gibt es schon und ist eine andere Aufnahme; umbenennen, dann {source} wiederherstellen</translation>
     </message>
     <message>
         <source>{path}: the recording is unfinished; recover it first</source>
-        <translation>{path}: die Aufzeichnung ist unvollendet; erst wiederherstellen</translation>
+        <translation>{path}: die Aufnahme ist unvollendet; erst wiederherstellen</translation>
     </message>
     <message>
         <source>name a recording</source>
-        <translation>eine Aufzeichnung nennen</translation>
+        <translation>eine Aufnahme nennen</translation>
     </message>
     <message>
         <source>{path}: not a recording of this program, or damaged ({error})</source>
-        <translation>{path}: keine Aufzeichnung dieses Programms oder eine beschädigte ({error})</translation>
+        <translation>{path}: keine Aufnahme dieses Programms oder eine beschädigte ({error})</translation>
     </message>
     <message>
         <source>{path}: not a recording of this program</source>
-        <translation>{path}: keine Aufzeichnung dieses Programms</translation>
+        <translation>{path}: keine Aufnahme dieses Programms</translation>
     </message>
     <message>
         <source>{path}: recording of version {decode}, but this program reads version {version}</source>
-        <translation>{path}: eine Aufzeichnung der Version {decode}; dieses Programm liest {version}</translation>
+        <translation>{path}: eine Aufnahme der Version {decode}; dieses Programm liest {version}</translation>
     </message>
     <message>
         <source>{path}: damaged, {names} missing</source>
@@ -1377,7 +1377,7 @@
     </message>
     <message>
         <source>{path}: damaged, {name} is not a table of a recording</source>
-        <translation>{path}: beschädigt, Tabelle {name} gehört zu keiner Aufzeichnung</translation>
+        <translation>{path}: beschädigt, Tabelle {name} gehört zu keiner Aufnahme</translation>
     </message>
     <message>
         <source>{path} already exists; record to another name</source>
@@ -1449,7 +1449,7 @@
     </message>
     <message>
         <source>{path}: not an interrupted recording of this program</source>
-        <translation>{path}: keine abgebrochene Aufzeichnung dieses Programms</translation>
+        <translation>{path}: keine abgebrochene Aufnahme dieses Programms</translation>
     </message>
     <message>
         <source>the robot file has changed</source>
@@ -1466,16 +1466,16 @@
     </message>
     <message>
         <source>the diagnosis belongs to an earlier state of the robot file {name}; the one in use, {robot_name}, differs: choose the model in use, and diagnose again</source>
-        <translation>die Diagnose gilt für die damalige Roboterdatei {name}; die jetzige, {robot_name}, ist eine andere: das Modell in Gebrauch als Modell wählen und neu diagnostizieren</translation>
+        <translation>die Diagnose gilt für die damalige Roboterdatei {name}; die jetzige, {robot_name}, ist eine andere: das verwendete Modell wählen und neu diagnostizieren</translation>
     </message>
     <message>
         <source>the diagnosis found nothing that commands can predict: the nominal model is as good</source>
-        <translation>die Diagnose fand nichts, was sich aus Befehlen vorhersagen lässt; das nominale Modell ist ebenso gut</translation>
+        <translation>die Diagnose fand nichts, was sich aus Sollwerten vorhersagen lässt; das nominale Modell ist ebenso gut</translation>
     </message>
     <message>
         <source>playback: the device went from row {from_row} to row {to_row} of a trajectory whose rows are 0 to {last}</source>
         <extracomment>The models&apos; answers for each row; None before its end or without models.</extracomment>
-        <translation>Abspielen: das Gerät sprang von Zeile {from_row} zu Zeile {to_row} einer Trajektorie mit den Zeilen 0 bis {last}</translation>
+        <translation>Wiedergabe: das Gerät sprang von Zeile {from_row} zu Zeile {to_row} einer Trajektorie mit den Zeilen 0 bis {last}</translation>
     </message>
     <message>
         <source>robot {name}: [microscope] pixel_size and magnification are missing; they determine the tip&apos;s shape in the picture</source>
@@ -1524,8 +1524,8 @@
         <translation>{path}: darin ist keine Spitze; kalibrieren und die Spitze beim Aufzeichnen verfolgen</translation>
     </message>
     <message>
-        <source>{path}: none of the {count} pictures shows where the tip is; calibrate the tables before recording</source>
-        <translation>{path}: {count} Bilder, und keines zeigt, wo die Spitze ist; vor dem Aufzeichnen die Tische kalibrieren</translation>
+        <source>{path}: none of the {count} pictures shows where the tip is; calibrate the micro stage before recording</source>
+        <translation>{path}: {count} Bilder, und keines zeigt, wo die Spitze ist; vor dem Aufzeichnen den Mikrotisch kalibrieren</translation>
     </message>
     <message>
         <source>{name}: its position is unknown; connect the machine first</source>
@@ -1538,7 +1538,7 @@
     </message>
     <message>
         <source>this microscope has no focus motor; use an axis, or focus by hand</source>
-        <translation>dieses Mikroskop hat keinen Fokusmotor; eine Achse verwenden oder von Hand drehen</translation>
+        <translation>dieses Mikroskop hat keinen Fokustrieb; eine Achse verwenden oder von Hand fokussieren</translation>
     </message>
     <message>
         <source>{name} cannot focus here; available: {known}</source>
@@ -1643,7 +1643,7 @@
     </message>
     <message>
         <source>{names} is not a stepper axis and has no steps</source>
-        <translation>{names} ist kein Schrittmotor: er hat keine Schritte</translation>
+        <translation>{names} ist keine Schrittmotorachse und hat keine Schritte</translation>
     </message>
     <message>
         <source>enter three readings, 0 to {most_reading}, then optionally buttons, 0 to {most_buttons}</source>
@@ -1991,7 +1991,7 @@
     </message>
     <message>
         <source>{name}: capture at {rate_hz} Hz: must be at least {most_period_us} Hz</source>
-        <translation>{name}: eine Erfassung mit {rate_hz} Hz: mindestens {most_period_us} Hz</translation>
+        <translation>{name}: schnelle Aufzeichnung mit {rate_hz} Hz: mindestens {most_period_us} Hz</translation>
     </message>
     <message>
         <source>{name}: {where} cannot run profiles</source>
@@ -2019,7 +2019,7 @@
     </message>
     <message>
         <source>axis {axis}: the set-points around t = {time} s lie {value} apart, beyond the limit {bound} in {period}; give a row every {period}, or stretch the trajectory&apos;s time by a factor of {factor} or more</source>
-        <translation>Achse {axis}: die Sollwerte um t = {time} s liegen {value} auseinander, über der Grenze von {bound} in {period}; geben Sie alle {period} eine Zeile an, oder strecken Sie die Zeit der Trajektorie mindestens auf das {factor}-Fache</translation>
+        <translation>Achse {axis}: die Sollwerte um t = {time} s liegen {value} auseinander, über der Grenze von {bound} in {period}; alle {period} eine Zeile angeben oder die Zeit der Trajektorie mindestens auf das {factor}-Fache strecken</translation>
     </message>
     <message>
         <source>robot {robot}: axis {axis} is moved by a {kind}; the MC68HC11 boards move stepping motors and piezos</source>
@@ -2036,10 +2036,6 @@
     <message>
         <source>{name}: cannot change a compensation while it is {state}; stop it or wait</source>
         <translation>{name}: eine Kompensation lässt sich nicht ändern, während der Zustand {state} ist; anhalten oder warten</translation>
-    </message>
-    <message>
-        <source>{name}: no such axis {axis}; it has {names}</source>
-        <translation>{name}: keine Achse {axis}; vorhanden: {names}</translation>
     </message>
     <message>
         <source>{name}: the inverse is for axis {axis}, not for {other}</source>
@@ -2071,7 +2067,7 @@
     </message>
     <message>
         <source>samples: a command or reading is not a finite number</source>
-        <translation>Abtastwerte: ein Befehl oder Messwert ist keine endliche Zahl</translation>
+        <translation>Abtastwerte: ein Sollwert oder Messwert ist keine endliche Zahl</translation>
     </message>
     <message>
         <source>{name} is closed; open it first</source>
@@ -2099,7 +2095,7 @@
     </message>
     <message>
         <source>{name} was opened with another robot than {robot_name}, which is now in use; close it and open it again</source>
-        <translation>{name} wurde mit einem anderen Roboter als {robot_name} geöffnet, der jetzt in Gebrauch ist; schließen und wieder öffnen</translation>
+        <translation>{name} wurde mit einem anderen Roboter als {robot_name} geöffnet, der jetzt verwendet wird; schließen und wieder öffnen</translation>
     </message>
     <message>
         <source>USB camera, video file or stream</source>
@@ -2146,8 +2142,8 @@
         <translation>{address}: diese Datei gibt es nicht; eine andere wählen</translation>
     </message>
     <message>
-        <source>{address}: no video arrived within {timeout_ms} ms; check the address and the network</source>
-        <translation>{address}: von dort kam in {timeout_ms} s kein Video; Adresse und Netz prüfen</translation>
+        <source>{address}: no video arrived within {timeout_s} s; check the address and the network</source>
+        <translation>{address}: von dort kam in {timeout_s} s kein Video; Adresse und Netz prüfen</translation>
     </message>
     <message>
         <source>{address}: {reason}; choose another file</source>
@@ -2251,8 +2247,8 @@
         <translation>setzte sich nicht zurück</translation>
     </message>
     <message>
-        <source>{where}: the axes still move {rest_s} s after a feed hold; use the machine&apos;s emergency switch</source>
-        <translation>{where}: die Achsen bewegen sich {rest_s} s nach einem Vorschubhalt noch; den Notschalter der Maschine benutzen</translation>
+        <source>{where}: the axes still move {rest_s} s after a feed hold; use the machine&apos;s emergency stop switch</source>
+        <translation>{where}: die Achsen bewegen sich {rest_s} s nach einem Vorschubhalt noch; den Not-Halt der Maschine benutzen</translation>
     </message>
     <message>
         <source>{where}: no answer to &apos;?&apos; within {limit_s} s; check that it is a GRBL controller, its power and the baud rate</source>
@@ -2268,11 +2264,11 @@
     </message>
     <message>
         <source>hard limit: a limit switch was reached</source>
-        <translation>harte Grenze: ein Endschalter wurde erreicht</translation>
+        <translation>Hardware-Grenze: ein Endschalter wurde erreicht</translation>
     </message>
     <message>
         <source>soft limit: a target lies beyond the travel</source>
-        <translation>weiche Grenze: ein Ziel liegt außerhalb des Verfahrwegs</translation>
+        <translation>Software-Grenze: ein Ziel liegt außerhalb des Verfahrwegs</translation>
     </message>
     <message>
         <source>it was reset during motion</source>
@@ -2426,7 +2422,7 @@
     </message>
     <message>
         <source>{where}: the loop of axis {axis} runs at {rate_hz} Hz, and all loops must run at one rate; open that loop, or tune for its rate</source>
-        <translation>{where}: der von Achse {axis} läuft mit {rate_hz} Hz, und alle müssen mit einer Rate laufen; den anderen öffnen oder für dessen Rate abstimmen</translation>
+        <translation>{where}: der Regelkreis von Achse {axis} läuft mit {rate_hz} Hz, und alle müssen mit derselben Rate laufen; jenen öffnen oder für seine Rate abstimmen</translation>
     </message>
     <message>
         <source>{where}: the robot&apos;s own controllers run at {sample_s} Hz; tune it for that rate, or set the simulator&apos;s sample_rate_hz to the loop&apos;s</source>
@@ -2504,11 +2500,11 @@
     </message>
     <message>
         <source>{name} does not belong to the driver in use</source>
-        <translation>{name} gehört nicht zum Treiber in Gebrauch</translation>
+        <translation>{name} gehört nicht zum verwendeten Treiber</translation>
     </message>
     <message>
         <source>{name}: another driver is in use now</source>
-        <translation>{name}: jetzt ist ein anderer Treiber in Gebrauch</translation>
+        <translation>{name}: jetzt wird ein anderer Treiber verwendet</translation>
     </message>
     <message>
         <source>{name} now has {axes} axes and {buttons} buttons instead of {axes_before} and {buttons_before}; open it again</source>
@@ -2664,7 +2660,7 @@
     </message>
     <message>
         <source>{name}: {place}: {first}; train it again, or use an unchanged copy</source>
-        <translation>{name}: {place}: {first}; neu lernen oder eine unveränderte Kopie nehmen</translation>
+        <translation>{name}: {place}: {first}; neu trainieren oder eine unveränderte Kopie nehmen</translation>
     </message>
     <message>
         <source>axis {axis}: robot {name} has no such piezo axis; use one of {value}</source>
@@ -2692,7 +2688,7 @@
     </message>
     <message>
         <source>there is no record to train on; name at least one</source>
-        <translation>keine Aufzeichnung zum Lernen; mindestens eine nennen</translation>
+        <translation>keine Aufzeichnung zum Trainieren; mindestens eine nennen</translation>
     </message>
     <message>
         <source>{name}: its rows come every {sample_s} s, those of {first_name} every {first_sample_s} s; resample them to one rate (rotemina convert)</source>
@@ -2704,7 +2700,7 @@
     </message>
     <message>
         <source>inverse of axis {axis}: a state of shape {shape} with finite numbers must have shape {state_shape}; use a state of this inverse</source>
-        <translation>Inverse von Achse {axis}: ein Zustand der Form {shape} aus endlichen Zahlen muss die Form {state_shape} haben; einen dieser Inverse nehmen</translation>
+        <translation>Inverse von Achse {axis}: ein Zustand der Form {shape} aus endlichen Zahlen muss die Form {state_shape} haben; einen Zustand dieser Inversen nehmen</translation>
     </message>
     <message>
         <source>inverse of axis {axis}: desired positions of shape {shape} must be one column of finite numbers</source>
@@ -2712,7 +2708,7 @@
     </message>
     <message>
         <source>inverse of axis {axis}: desired position {desired} at sample {at} lies outside {low} to {high}, which the inverse was trained on; stay inside, or train it on a wider record</source>
-        <translation>Inverse von Achse {axis}: gewünschte Position {desired} beim Abtastwert {at} liegt außerhalb von {low} bis {high}, wo die Inverse gelernt wurde; innerhalb bleiben oder auf einer weiteren Aufzeichnung lernen</translation>
+        <translation>Inverse von Achse {axis}: gewünschte Position {desired} beim Abtastwert {at} liegt außerhalb von {low} bis {high}, dem Trainingsbereich der Inversen; innerhalb bleiben oder mit einer größeren Bewegung trainieren</translation>
     </message>
     <message>
         <source>axis {axis}: robot {name} has no such piezo axis</source>
@@ -2720,7 +2716,7 @@
     </message>
     <message>
         <source>ANFIS: the training did not converge: after {count} epochs it leaves {error} rms of commands that vary by {spread}; nothing was replaced. Record slower motions over the whole range, or use another kind</source>
-        <translation>ANFIS: das Training konvergierte nicht: nach {count} Epochen bleiben {error} rms von Befehlen, die um {spread} schwanken; nichts wurde ersetzt. Langsamere Bewegungen über den ganzen Bereich aufzeichnen oder eine andere Art nehmen</translation>
+        <translation>ANFIS: das Training konvergierte nicht: nach {count} Epochen bleiben {error} rms von Sollwerten, die um {spread} schwanken; nichts wurde ersetzt. Langsamere Bewegungen über den ganzen Bereich aufzeichnen oder eine andere Art nehmen</translation>
     </message>
     <message>
         <source>lag and creep</source>
@@ -2728,15 +2724,15 @@
     </message>
     <message>
         <source>{name}: axis {axis}: fewer than {fewest} rows are left to train on, after the first swing over the whole range; record longer</source>
-        <translation>{name}: Achse {axis}: nach dem ersten Hub über den ganzen Bereich bleiben weniger als {fewest} Zeilen zum Lernen; länger aufzeichnen</translation>
+        <translation>{name}: Achse {axis}: nach dem ersten Hub über den ganzen Bereich bleiben weniger als {fewest} Zeilen zum Trainieren; länger aufzeichnen</translation>
     </message>
     <message>
         <source>plays</source>
-        <translation>Spiele</translation>
+        <translation>Play-Operatoren</translation>
     </message>
     <message>
         <source>ANFIS, epoch {epoch}: {error} unseen</source>
-        <translation>ANFIS, Epoche {epoch}: {error} ungesehen</translation>
+        <translation>ANFIS, Epoche {epoch}: {error} auf Prüfzeilen</translation>
     </message>
     <message>
         <source>done</source>
@@ -2748,7 +2744,7 @@
     </message>
     <message>
         <source>axis {axis}: the trajectory is already compensated ({metadata}); use the original one</source>
-        <translation>Achse {axis}: die Trajektorie ging schon durch eine Inverse ({metadata}); die ursprünglich gewünschte nehmen</translation>
+        <translation>Achse {axis}: die Trajektorie ist schon kompensiert ({metadata}); die ursprüngliche nehmen</translation>
     </message>
     <message>
         <source>trajectory: it has only one row; an inverse needs a path of several</source>
@@ -2768,7 +2764,7 @@
     </message>
     <message>
         <source>axis {axis}: no row lies within {low} to {high}, the training range of the inverse; use such a record for the check, or train with a wider one</source>
-        <translation>Achse {axis}: keine Zeile liegt zwischen {low} und {high}, wo die Inverse gelernt wurde; an einer solchen Aufzeichnung prüfen oder auf einer weiteren lernen</translation>
+        <translation>Achse {axis}: keine Zeile liegt zwischen {low} und {high}, dem Trainingsbereich der Inversen; mit einer solchen Aufzeichnung prüfen oder mit einer größeren Bewegung trainieren</translation>
     </message>
     <message>
         <source>{kind} {share}</source>
@@ -2776,11 +2772,11 @@
     </message>
     <message>
         <source>{kind} leaves {share} of the range on rows that no inverse was trained on; {others}.</source>
-        <translation>{kind} lässt {share} des Bereichs übrig, auf Zeilen, mit denen keine Inverse gelernt wurde; {others}.</translation>
+        <translation>{kind} lässt {share} des Bereichs übrig, auf Zeilen, mit denen keine Inverse trainiert wurde; {others}.</translation>
     </message>
     <message>
         <source>All swings have one size, so richer kinds would only guess at other sizes: train with swings that grow or fade.</source>
-        <translation>Alle Hübe sind gleich groß; reichere Arten könnten bei anderen Größen nur raten: mit wachsenden oder abklingenden Hüben lernen.</translation>
+        <translation>Alle Hübe sind gleich groß; reichere Arten könnten bei anderen Größen nur raten: mit wachsenden oder abklingenden Hüben trainieren.</translation>
     </message>
     <message>
         <source>It is the simplest of those within {share} of the least.</source>
@@ -3097,7 +3093,7 @@
     </message>
     <message>
         <source>perturbation: it has {count} rows; the commands have {rows}</source>
-        <translation>Störung: sie hat {count} Zeilen; die Befehle haben {rows}</translation>
+        <translation>Störung: sie hat {count} Zeilen; die Sollwerte haben {rows}</translation>
     </message>
     <message>
         <source>{array} is not a flat, contiguous array</source>
@@ -3109,7 +3105,7 @@
     </message>
     <message>
         <source>axis {axis}: the response grows without bound at t = {time_s} s; check the commands,{named} and the controller&apos;s gains</source>
-        <translation>Achse {axis}: die Antwort wächst bei t = {time_s} s unbegrenzt; die Befehle prüfen,{named} und die Verstärkungen des Reglers</translation>
+        <translation>Achse {axis}: die Antwort wächst bei t = {time_s} s unbegrenzt; die Sollwerte prüfen,{named} und die Verstärkungen des Reglers</translation>
     </message>
     <message>
         <source>axis {axis} of the record: robot {name} has only {known}</source>
@@ -3643,11 +3639,11 @@
     </message>
     <message>
         <source>input shaping for {frequency_hz} Hz and a damping ratio of {damping_ratio}: the frequency must be positive, the ratio at least 0 and less than 1</source>
-        <translation>Input-Shaping für {frequency_hz} Hz und Dämpfungsgrad {damping_ratio}: die Frequenz muss positiv, der Dämpfungsgrad mindestens 0 und kleiner als 1 sein</translation>
+        <translation>Impulsformung für {frequency_hz} Hz und Dämpfungsgrad {damping_ratio}: die Frequenz muss positiv, der Dämpfungsgrad mindestens 0 und kleiner als 1 sein</translation>
     </message>
     <message>
         <source>input shaping of order {order}: must be 1 (ZV) to {most_order}</source>
-        <translation>Input-Shaping der Ordnung {order}: 1 (ZV) bis {most_order}</translation>
+        <translation>Impulsformung der Ordnung {order}: 1 (ZV) bis {most_order}</translation>
     </message>
     <message>
         <source>{name} limit of a move: {value}: must be more than 0</source>
@@ -3699,11 +3695,11 @@
     </message>
     <message>
         <source>profile: {most_pieces} cubics leave an error of {error}, more than {most_error} (SI units); choose a smoother profile, or input shaping of a lower order</source>
-        <translation>Profil: {most_pieces} kubische Stücke lassen einen Fehler von {error}, höchstens {most_error} (SI-Einheiten); ein glatteres wählen oder Input-Shaping niedrigerer Ordnung</translation>
+        <translation>Profil: {most_pieces} kubische Stücke lassen einen Fehler von {error}, höchstens {most_error} (SI-Einheiten); ein glatteres wählen oder Impulsformung niedrigerer Ordnung</translation>
     </message>
     <message>
         <source>feed-forward: the acceleration of the profile jumps by {jump} (SI units), with a maximum of {greatest}; use an S-curve or minimum jerk, or input shaping</source>
-        <translation>Vorsteuerung: die Beschleunigung des Profils springt um {jump} (SI-Einheiten), höchstens {greatest}; eine S-Kurve, minimalen Ruck oder Input-Shaping verwenden</translation>
+        <translation>Vorsteuerung: die Beschleunigung des Profils springt um {jump} (SI-Einheiten), höchstens {greatest}; eine S-Kurve, minimalen Ruck oder Impulsformung verwenden</translation>
     </message>
     <message>
         <source>{name} {value}: must be {least} to {most}</source>
@@ -3751,7 +3747,7 @@
     </message>
     <message>
         <source>image: every pixel is {low}; the camera is dark, saturated or covered: check lamp, shutter and exposure</source>
-        <translation>Bild: jeder Bildpunkt ist {low}; die Kamera ist dunkel, übersteuert oder abgedeckt: Lampe, Blende und Belichtung prüfen</translation>
+        <translation>Bild: jeder Bildpunkt ist {low}; die Kamera ist dunkel, übersteuert oder abgedeckt: Lampe, Verschluss und Belichtung prüfen</translation>
     </message>
     <message>
         <source>background: {columns} × {rows} px against an image of {image_columns} × {image_rows} px; take it again with this camera setting</source>
@@ -3798,8 +3794,8 @@
         <translation>E, systematische Abweichung</translation>
     </message>
     <message>
-        <source>M, mean bidirectional</source>
-        <translation>M, mittlere beidseitige</translation>
+        <source>M, mean bidirectional deviation</source>
+        <translation>M, mittlere beidseitige Abweichung</translation>
     </message>
     <message>
         <source>{name}: {axis}: laser and sensor can be compared in {kept} of {count} rows, {least_kept} are needed ({losses}); align the laser and record again</source>
@@ -4341,7 +4337,7 @@
     </message>
     <message>
         <source>axis {axis}: robot {name} has no such axis; use one of {axes}</source>
-        <translation>Achse {axis}: Roboter {name} hat keine solche Achse; eine von {axes} verwenden</translation>
+        <translation>Achse {axis}: Roboter {name} hat keine solche Achse; möglich: {axes}</translation>
     </message>
     <message>
         <source>axis {axis}: the target {position} is not a finite number</source>
@@ -4417,10 +4413,10 @@
     </message>
     <message>
         <source>axis {axis}: a sweep from {start}: must begin between {low} and {high}, the training range of its inverse</source>
-        <translation>Achse {axis}: ein Hub ab {start}: er muss zwischen {low} und {high} beginnen, ihrem Bereich, soweit ihre Inverse ihn kennt</translation>
+        <translation>Achse {axis}: ein Hub ab {start}: er muss zwischen {low} und {high} beginnen, dem Trainingsbereich ihrer Inversen</translation>
     </message>
     <message>
-        <source>{name}: a way of {way} on a spring of {spring_hz} Hz is more than the axes can accelerate; use at most {most}, or at most {other} Hz</source>
+        <source>{name}: a travel of {way} on a spring of {spring_hz} Hz is more than the axes can accelerate; use at most {most}, or at most {other} Hz</source>
         <translation>{name}: ein Weg von {way} an einer Feder von {spring_hz} Hz ist mehr, als die Achsen beschleunigen können; höchstens {most} verwenden oder höchstens {other} Hz</translation>
     </message>
     <message>
@@ -4433,15 +4429,15 @@
     </message>
     <message>
         <source>axis {axis}: the one-sided approach to {target} begins at {begin}, outside {low} to {high}; stay {width} away from that end, or switch the approach off</source>
-        <translation>Achse {axis}: die einseitige Anfahrt zu {target} beginnt bei {begin}, außerhalb von {low} bis {high}; {width} Abstand von diesem Ende halten, oder die Anfahrt ausschalten</translation>
+        <translation>Achse {axis}: die einseitige Anfahrt zu {target} beginnt bei {begin}, außerhalb von {low} bis {high}; {width} Abstand von diesem Ende halten oder die Anfahrt ausschalten</translation>
     </message>
     <message>
         <source>{error}; the one-sided approach begins there: choose the other side, or switch it off</source>
-        <translation>{error}; dort beginnt die einseitige Anfahrt: die andere Seite nehmen, oder sie ausschalten</translation>
+        <translation>{error}; dort beginnt die einseitige Anfahrt: die andere Seite nehmen oder sie ausschalten</translation>
     </message>
     <message>
         <source>the device has sent nothing yet; wait, or reconnect</source>
-        <translation>das Gerät hat noch nichts gesendet; warten, oder neu verbinden</translation>
+        <translation>das Gerät hat noch nichts gesendet; warten oder neu verbinden</translation>
     </message>
     <message>
         <source>the inverse of axis {axis} sets its voltage; remove the inverse</source>
@@ -4482,31 +4478,31 @@
     </message>
     <message>
         <source>z-stack: {count} pictures of {each} MB: must be at most {most} MB together; use a larger step, or a part of the sensor</source>
-        <translation>Z-Stapel: {count} Bilder zu {each} MB: zusammen höchstens {most} MB; einen größeren Schritt nehmen, oder einen Teil des Sensors</translation>
+        <translation>Z-Stapel: {count} Bilder zu {each} MB: zusammen höchstens {most} MB; einen größeren Schritt nehmen oder einen Teil des Sensors</translation>
     </message>
     <message>
         <source>{path}: its contents are not those of the record {name}; choose the file that was moved</source>
-        <translation>{path}: Der Inhalt ist nicht der der Aufzeichnung {name}; wählen Sie die Datei, die verschoben wurde</translation>
+        <translation>{path}: der Inhalt ist nicht der der Aufzeichnung {name}; die verschobene Datei wählen</translation>
     </message>
     <message>
         <source>{path}: {rows} samples are too many for one record (at most {most}); export a section in the panel Recorder</source>
-        <translation>{path}: {rows} Abtastwerte sind zu viele für eine Aufzeichnung (höchstens {most}); exportieren Sie einen Abschnitt im Panel Rekorder</translation>
+        <translation>{path}: {rows} Abtastwerte sind zu viele für eine Aufzeichnung (höchstens {most}); im Panel Rekorder einen Abschnitt exportieren</translation>
     </message>
     <message>
         <source>{path} cannot be deleted ({reason}); give this user permission to write there</source>
-        <translation>{path}: Die Datei lässt sich nicht löschen ({reason}); geben Sie diesem Benutzer dort Schreibrecht</translation>
+        <translation>{path}: die Datei lässt sich nicht löschen ({reason}); diesem Benutzer dort Schreibrecht geben</translation>
     </message>
     <message>
         <source>{path}: the library of records cannot be used ({reason}); free disk space, or give this user permission to write there. The records themselves are untouched</source>
-        <translation>{path}: Die Bibliothek der Aufzeichnungen ist nicht benutzbar ({reason}); schaffen Sie Platz, oder geben Sie diesem Benutzer dort Schreibrecht. Die Aufzeichnungen selbst sind unberührt</translation>
+        <translation>{path}: die Bibliothek der Aufzeichnungen ist nicht benutzbar ({reason}); Platz schaffen oder diesem Benutzer dort Schreibrecht geben. Die Aufzeichnungen selbst sind unberührt</translation>
     </message>
     <message>
         <source>{path}: the library of records has version {version}, but this program uses {own}: start the newer program, or move the file away; the records are then listed again, without their names and notes</source>
-        <translation>{path}: Die Bibliothek der Aufzeichnungen hat Version {version}, dieses Programm benutzt {own}: Starten Sie das neuere Programm, oder verschieben Sie die Datei; die Aufzeichnungen werden dann neu aufgelistet, ohne eingegebene Namen und Notizen</translation>
+        <translation>{path}: die Bibliothek der Aufzeichnungen hat Version {version}, dieses Programm benutzt {own}: das neuere Programm starten oder die Datei verschieben; die Aufzeichnungen werden dann neu aufgelistet, ohne eingegebene Namen und Notizen</translation>
     </message>
     <message>
         <source>{path}: the library of records was damaged; it is kept as {aside}. The records are listed again from their files, without their names and notes</source>
-        <translation>{path}: Die Bibliothek der Aufzeichnungen war beschädigt; sie ist als {aside} aufbewahrt. Die Aufzeichnungen sind aus ihren Dateien neu aufgelistet, ohne eingegebene Namen und Notizen</translation>
+        <translation>{path}: die Bibliothek der Aufzeichnungen war beschädigt; sie ist als {aside} aufbewahrt. Die Aufzeichnungen sind aus ihren Dateien neu aufgelistet, ohne eingegebene Namen und Notizen</translation>
     </message>
     <message>
         <source>preference {key} = {text}: {error}</source>
@@ -4622,7 +4618,7 @@
     </message>
     <message>
         <source>tip path: {rms} rms, {peak} peak apart</source>
-        <translation>Bahn der Spitze: Abstand {rms} effektiv, {peak} Spitze</translation>
+        <translation>Bahn der Spitze: Abstand {rms} effektiv, {peak} maximal</translation>
     </message>
     <message>
         <source>there is no previous position</source>
@@ -4863,7 +4859,7 @@
     </message>
     <message>
         <source>inverse of axis {axis}: the command is {command}, but the inverse covers {low} to {high}: move the axis there first, or train with a wider record</source>
-        <translation>Inverse von Achse {axis}: der Sollwert ist {command}, die Inverse reicht von {low} bis {high}: die Achse erst dorthin fahren oder mit einer weiteren Aufzeichnung trainieren</translation>
+        <translation>Inverse von Achse {axis}: der Sollwert ist {command}, die Inverse reicht von {low} bis {high}: die Achse erst dorthin fahren oder mit einer größeren Bewegung trainieren</translation>
     </message>
     <message>
         <source>inverse of axis {axis}: row {row} of the trajectory needs a command outside {low} to {high}, the limits of the machine; stay farther from the ends of the range</source>
@@ -4883,7 +4879,7 @@
     </message>
     <message>
         <source>{where}: at {baud} baud no valid frame of a board arrives; check the baud rate (others: {others}), and whether an MC68HC11 board is connected to this port</source>
-        <translation>{where}: mit {baud} Baud kommt kein gültiger Rahmen einer Karte an; die Baudrate prüfen (andere: {others}) und ob an diesem Anschluss eine MC68HC11-Karte hängt</translation>
+        <translation>{where}: mit {baud} Baud kommt kein gültiger Rahmen einer Karte an; die Baudrate prüfen (andere: {others}) und ob an diesem Anschluss eine MC68HC11-Karte angeschlossen ist</translation>
     </message>
     <message>
         <source>a set-point was farther away than the axis can move in that time; it was refused</source>
@@ -4923,7 +4919,7 @@
     </message>
     <message>
         <source>{port}: the controller has not answered for {seconds} s; it ends its motion within half a second plus braking. Check the machine, then reconnect</source>
-        <translation>{port}: die Steuerung antwortet seit {seconds} s nicht; sie beendet ihre Bewegung binnen einer halben Sekunde und des Bremswegs. Die Maschine prüfen, dann neu verbinden</translation>
+        <translation>{port}: die Steuerung antwortet seit {seconds} s nicht; sie beendet ihre Bewegung innerhalb einer halben Sekunde zuzüglich der Bremszeit. Die Maschine prüfen, dann neu verbinden</translation>
     </message>
     <message>
         <source>{name}: axis {axis} is not a piezo in open loop, which {what} needs</source>
@@ -5108,7 +5104,7 @@
     </message>
     <message>
         <source>Gap: rms of measured − model in use, offset included, while anything moves and 0.5 s after.</source>
-        <translation>Abweichung: rms von gemessen − Modell im Einsatz, mit Versatz, solange sich etwas bewegt und 0,5 s danach.</translation>
+        <translation>Abweichung: rms von gemessen − verwendetes Modell, mit Versatz, solange sich etwas bewegt und 0,5 s danach.</translation>
     </message>
     <message>
         <source>No axis moved.</source>
@@ -5116,7 +5112,7 @@
     </message>
     <message>
         <source>Above: command, model in use and measured. Below: the gap; the band is the noise floor of the sensor.</source>
-        <translation>Oben: Sollwert, Modell im Einsatz und gemessen. Unten: die Abweichung; das Band ist die Rauschgrenze des Sensors.</translation>
+        <translation>Oben: Sollwert, verwendetes Modell und Messwert. Unten: die Abweichung; das Band ist die Rauschgrenze des Sensors.</translation>
     </message>
     <message>
         <source>began</source>
@@ -5151,8 +5147,8 @@
         <translation>Zeit [s]</translation>
     </message>
     <message>
-        <source>what</source>
-        <translation>was</translation>
+        <source>event</source>
+        <translation>Ereignis</translation>
     </message>
     <message>
         <source>text</source>
@@ -5188,7 +5184,7 @@
     </message>
     <message>
         <source>The figures are from the model {model}; {told} was in use during the run.</source>
-        <translation>Die Zahlen stammen vom Modell {model}; während des Laufs war {told} im Einsatz.</translation>
+        <translation>Die Zahlen stammen vom Modell {model}; während des Laufs wurde {told} verwendet.</translation>
     </message>
     <message>
         <source>date</source>
@@ -5208,7 +5204,7 @@
     </message>
     <message>
         <source>model in use</source>
-        <translation>Modell im Einsatz</translation>
+        <translation>verwendetes Modell</translation>
     </message>
     <message>
         <source>effects</source>
@@ -5240,7 +5236,7 @@
     </message>
     <message>
         <source>Command, model in use and measured of {axis}, and the gap</source>
-        <translation>Sollwert, Modell im Einsatz und Messwert von {axis}, und die Abweichung</translation>
+        <translation>Sollwert, verwendetes Modell und Messwert von {axis}, und die Abweichung</translation>
     </message>
     <message>
         <source>axis {axis}: {parameter} {asked} → {used} (× {factor}), for {cause}</source>

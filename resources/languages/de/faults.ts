@@ -29,7 +29,7 @@
     </message>
     <message>
         <source>double</source>
-        <translation>doppeln</translation>
+        <translation>verdoppeln</translation>
     </message>
     <message>
         <source>corrupt</source>
@@ -109,7 +109,7 @@
     </message>
     <message>
         <source>Stepper</source>
-        <translation>Stepper</translation>
+        <translation>Schrittmotor</translation>
     </message>
     <message>
         <source>Axis</source>

@@ -39,7 +39,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Use the model as it is. Effects that these motions do not excite are not ruled out.</source>
-        <translation>Das Modell so verwenden. Effekte, die diese Bewegungen nicht anregen, sind nicht ausgeschlossen.</translation>
+        <translation>Das Modell unverändert verwenden. Effekte, die diese Bewegungen nicht anregen, sind nicht ausgeschlossen.</translation>
     </message>
     <message>
         <source>Press “Use corrected model”; then “New motion …” shows how far the gap shrinks.</source>
@@ -114,8 +114,8 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>{done} von {count} Fällen bewertet</translation>
     </message>
     <message>
-        <source>{truth} named {told}: {share} of its cases</source>
-        <translation>{truth}, genannt {told}: {share} seiner Fälle</translation>
+        <source>{truth}, diagnosed as {told}: {share} of its cases</source>
+        <translation>{truth}, diagnostiziert als {told}: {share} der Fälle</translation>
     </message>
     <message>
         <source>figure</source>
@@ -171,11 +171,11 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>black box</source>
-        <translation>Blackbox</translation>
+        <translation>Black Box</translation>
     </message>
     <message>
         <source>{axis} {tap}, rms on unseen data: closed {share} ({interval})</source>
-        <translation>{axis} {tap}, rms auf neuen Daten: geschlossen {share} ({interval})</translation>
+        <translation>{axis} {tap}, rms auf Prüfdaten: geschlossen {share} ({interval})</translation>
     </message>
     <message>
         <source>{times:.3g} × smaller</source>
@@ -451,12 +451,8 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>am größten bei</translation>
     </message>
     <message>
-        <source>while</source>
-        <translation>während</translation>
-    </message>
-    <message>
-        <source>95 % of the share</source>
-        <translation>95 % des Anteils</translation>
+        <source>motion</source>
+        <translation>Bewegungsart</translation>
     </message>
     <message>
         <source>Share of the gap above the noise floors of all axes and channels</source>
@@ -524,7 +520,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>{effect}: {share} likely; {before} rms without it, {after} with it at {tap}, on unseen data; closes {closed} ({interval}).</source>
-        <translation>{effect}: zu {share} wahrscheinlich; {before} rms ohne, {after} damit bei {tap}, auf ungesehenen Daten; schließt {closed} ({interval}).</translation>
+        <translation>{effect}: zu {share} wahrscheinlich; {before} rms ohne, {after} damit bei {tap}, auf Prüfdaten; schließt {closed} ({interval}).</translation>
     </message>
     <message>
         <source>{parameter}, at its low bound</source>
@@ -664,7 +660,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>gap closed on unseen data, median</source>
-        <translation>Abweichung geschlossen, ungesehen, Median</translation>
+        <translation>Abweichung geschlossen auf Prüfdaten, Median</translation>
     </message>
     <message>
         <source>gap closed, 10th percentile</source>
@@ -712,7 +708,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>{listed}: no measured channel (u, ref or meas) but only commands; give records of the real machine</source>
-        <translation>{listed}: kein gemessener Kanal (u, ref oder meas), nur Befehle; Aufzeichnungen der realen Maschine angeben</translation>
+        <translation>{listed}: kein gemessener Kanal (u, ref oder meas), nur Sollwerte; Aufzeichnungen der echten Maschine angeben</translation>
     </message>
     <message>
         <source>{name}: robot {robot_name} has no axis {axis}; its axes are {names}; name the right robot by --robot</source>
@@ -816,7 +812,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>steps with long holds</source>
-        <translation>Schritte mit langem Halten</translation>
+        <translation>Sprünge mit langem Halten</translation>
     </message>
     <message>
         <source>ramps at two constant speeds</source>
@@ -860,7 +856,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>remainder on unseen data, rms [noise floors]; with probability</source>
-        <translation>Rest auf ungesehenen Daten, rms [Rauschgrenzen]; mit Wahrscheinlichkeit</translation>
+        <translation>Rest auf Prüfdaten, rms [Rauschgrenzen]; mit Wahrscheinlichkeit</translation>
     </message>
     <message>
         <source>Candidates, likeliest first: {names}</source>
@@ -930,11 +926,11 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Adding it to the model takes {gap} from {raw} to {corrected} rms on unseen data (noise floor {floor}).</source>
-        <translation>Im Modell ergänzt, bringt das {gap} auf ungesehenen Daten von {raw} auf {corrected} rms (Rauschgrenze {floor}).</translation>
+        <translation>Im Modell ergänzt, bringt das {gap} auf Prüfdaten von {raw} auf {corrected} rms (Rauschgrenze {floor}).</translation>
     </message>
     <message>
         <source>Adding them to the model takes {gap} from {raw} to {corrected} rms on unseen data (noise floor {floor}).</source>
-        <translation>Im Modell ergänzt, bringen sie {gap} auf ungesehenen Daten von {raw} auf {corrected} rms (Rauschgrenze {floor}).</translation>
+        <translation>Im Modell ergänzt, bringen sie {gap} auf Prüfdaten von {raw} auf {corrected} rms (Rauschgrenze {floor}).</translation>
     </message>
     <message>
         <source>The gap</source>
@@ -965,7 +961,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Trotzdem verwenden</translation>
     </message>
     <message>
-        <source>Drawing a machine …</source>
+        <source>Choosing a machine at random …</source>
         <translation>Eine Maschine wird ausgelost …</translation>
     </message>
     <message>
@@ -1086,7 +1082,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Rms of the model&apos;s gap within each band, in noise floors. Regimes overlap: forward motion is also fast or slow.</source>
-        <translation>Rms der Modellabweichung im jeweiligen Band, in Rauschgrenzen. Bewegungsarten überschneiden sich: wer vorwärts fährt, fährt auch schnell oder langsam.</translation>
+        <translation>Rms der Modellabweichung im jeweiligen Band, in Rauschgrenzen. Bewegungsarten überschneiden sich: eine Vorwärtsbewegung ist auch schnell oder langsam.</translation>
     </message>
     <message>
         <source>Which effect causes it</source>
@@ -1118,7 +1114,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Gaps are rms on data that the fit did not see; all other causes are in the model.</source>
-        <translation>Abweichungen sind rms auf Daten, die die Anpassung nicht sah; alle anderen Ursachen sind im Modell.</translation>
+        <translation>Abweichungen sind Effektivwerte auf Daten, die die Anpassung nicht sah; alle anderen Ursachen sind im Modell.</translation>
     </message>
     <message>
         <source>No effect is named.</source>
@@ -1130,7 +1126,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>remainder on unseen data [noise floors]</source>
-        <translation>Rest auf ungesehenen Daten [Rauschgrenzen]</translation>
+        <translation>Rest auf Prüfdaten [Rauschgrenzen]</translation>
     </message>
     <message>
         <source>How far the gap shrinks</source>
@@ -1165,16 +1161,16 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Rest, rms</translation>
     </message>
     <message>
-        <source>share of what closes (Shapley)</source>
-        <translation>Anteil an dem, was sich schließt (Shapley)</translation>
+        <source>share of the closed gap (Shapley)</source>
+        <translation>Anteil an der geschlossenen Abweichung (Shapley)</translation>
     </message>
     <message>
         <source>Left: the gap before (grey) and after (blue) over time; the band is the noise floor. Middle: reading over command, real and models. Right: the gap over the command. Each model is shifted to the mean of its record: constant offsets are not judged.</source>
-        <translation>Links: die Abweichung vorher (grau) und nachher (blau) über der Zeit; das Band ist die Rauschgrenze. Mitte: Messwert über dem Befehl, real und Modelle. Rechts: die Abweichung über dem Befehl. Jedes Modell ist auf den Mittelwert seiner Aufzeichnung verschoben: konstante Versätze werden nicht beurteilt.</translation>
+        <translation>Links: die Abweichung vorher (grau) und nachher (blau) über der Zeit; das Band ist die Rauschgrenze. Mitte: Messwert über dem Sollwert, real und Modelle. Rechts: die Abweichung über dem Sollwert. Jedes Modell ist auf den Mittelwert seiner Aufzeichnung verschoben: konstante Versätze werden nicht beurteilt.</translation>
     </message>
     <message>
         <source>From command to {tap} by Welch&apos;s method (H1), where the response is coherent; the band is the 95 % interval of the real one.</source>
-        <translation>Vom Befehl zu {tap} nach Welch (H1), wo die Antwort kohärent ist; das Band ist das 95-%-Intervall der realen.</translation>
+        <translation>Vom Sollwert zu {tap} nach Welch (H1), wo die Antwort kohärent ist; das Band ist das 95-%-Intervall der Maschine.</translation>
     </message>
     <message>
         <source>parameter</source>
@@ -1225,8 +1221,8 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>{tap}, wie es jeder Kandidat vorhersagt, angepasst an diese Aufzeichnungen.</translation>
     </message>
     <message>
-        <source>No experiment is needed, or none was found that would tell more.</source>
-        <translation>Kein Experiment ist nötig, oder keines wurde gefunden, das mehr verriete.</translation>
+        <source>No experiment is needed, or none was found that would give more information.</source>
+        <translation>Kein Experiment ist nötig, oder es wurde keines gefunden, das mehr Aufschluss gäbe.</translation>
     </message>
     <message>
         <source>Robot {robot}; axes</source>
@@ -1234,7 +1230,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Effects in the model before: {count}. Seed {seed}; RoTeMiNa {version}.</source>
-        <translation>Effekte, die schon im Modell waren: {count}. Seed {seed}; RoTeMiNa {version}.</translation>
+        <translation>Effekte, die schon im Modell waren: {count}. Startwert {seed}; RoTeMiNa {version}.</translation>
     </message>
     <message>
         <source>name</source>
@@ -1298,7 +1294,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Gap before and after over time, reading over command and gap over command, of the records {numbers} at {tap}</source>
-        <translation>Abweichung vorher und nachher über der Zeit, Messwert über dem Befehl und Abweichung über dem Befehl, der Aufzeichnungen {numbers} an {tap}</translation>
+        <translation>Abweichung vorher und nachher über der Zeit, Messwert über dem Sollwert und Abweichung über dem Sollwert, der Aufzeichnungen {numbers} an {tap}</translation>
     </message>
     <message>
         <source>phase [°]</source>
@@ -1310,7 +1306,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Frequency response from command to {tap}: real, model, corrected model</source>
-        <translation>Frequenzgang vom Befehl zu {tap}: real, Modell, korrigiertes Modell</translation>
+        <translation>Frequenzgang vom Sollwert zu {tap}: real, Modell, korrigiertes Modell</translation>
     </message>
     <message>
         <source>closed loop</source>
@@ -1350,19 +1346,19 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>axis {missing} of the commands: the motion before has {names}; name a record of all axes that are commanded</source>
-        <translation>Achse {missing} der Befehle: die Bewegung davor hat {names}; eine Aufzeichnung aller bewegten Achsen nennen</translation>
+        <translation>Achse {missing} der Sollwerte: die Bewegung davor hat {names}; eine Aufzeichnung aller bewegten Achsen nennen</translation>
     </message>
     <message>
         <source>the motion before and the commands differ in mode; name a record of one</source>
-        <translation>die Bewegung davor und die Befehle unterscheiden sich in mode; eine Aufzeichnung mit demselben nennen</translation>
+        <translation>die Bewegung davor und die Sollwerte unterscheiden sich in mode; eine Aufzeichnung mit demselben mode nennen</translation>
     </message>
     <message>
         <source>axis {axis} of the commands: the diagnosed robot {name} has {names}</source>
-        <translation>Achse {axis} der Befehle: der diagnostizierte Roboter {name} hat {names}</translation>
+        <translation>Achse {axis} der Sollwerte: der diagnostizierte Roboter {name} hat {names}</translation>
     </message>
     <message>
         <source>axis {axis} of the commands is in units of {units}, but the diagnosed robot {name} moves it in units of {unit}; correct the unit</source>
-        <translation>Achse {axis} der Befehle steht in Einheiten von {units}, der diagnostizierte Roboter {name} bewegt sie in Einheiten von {unit}; die Einheit berichtigen</translation>
+        <translation>Achse {axis} der Sollwerte steht in Einheiten von {units}, der diagnostizierte Roboter {name} bewegt sie in Einheiten von {unit}; die Einheit berichtigen</translation>
     </message>
     <message>
         <source>{name}: {axis}.{tap} does not follow {axis}.cmd but {other}.cmd (its gain is {gain} ± {deviation}): channels may be swapped; correct the columns</source>
@@ -1514,7 +1510,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>at its {end} bound</source>
-        <translation>an seiner Grenze {end}</translation>
+        <translation>an seiner Grenze ({end})</translation>
     </message>
     <message>
         <source>re-tuned {rms}</source>
@@ -1572,7 +1568,7 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     </message>
     <message>
         <source>Seed of the machines: the same seed draws the same machines</source>
-        <translation>Startwert der Maschinen: derselbe Startwert zieht dieselben</translation>
+        <translation>Startwert der Maschinen: derselbe Startwert ergibt dieselben Maschinen</translation>
     </message>
     <message>
         <source>Score finished cases</source>
@@ -1619,8 +1615,8 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>wird bewertet</translation>
     </message>
     <message>
-        <source>drawing the first machine</source>
-        <translation>die erste Maschine wird gezogen</translation>
+        <source>choosing the first machine</source>
+        <translation>die erste Maschine wird ausgelost</translation>
     </message>
     <message>
         <source>enter cases and seed</source>
@@ -1675,8 +1671,8 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>Urteil: erklärt oder zum Teil</translation>
     </message>
     <message>
-        <source>healthy machines blamed</source>
-        <translation>gesunde Maschinen beschuldigt</translation>
+        <source>false alarms on healthy machines</source>
+        <translation>Fehlalarme bei gesunden Maschinen</translation>
     </message>
     <message>
         <source>unknown effects recognised</source>
@@ -2032,7 +2028,7 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     </message>
     <message>
         <source>Its gap comes from the causes on other axes.</source>
-        <translation>Ihre Abweichung kommt von den Ursachen auf anderen Achsen.</translation>
+        <translation>Ihre Abweichung kommt von den Ursachen an anderen Achsen.</translation>
     </message>
     <message>
         <source>The computation failed, so no cause can be found: {error}.</source>
@@ -2144,11 +2140,11 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     </message>
     <message>
         <source>series of steps</source>
-        <translation>Reihe von Schritten</translation>
+        <translation>Folge von Sprüngen</translation>
     </message>
     <message>
         <source>one step back and forth with very long holds</source>
-        <translation>ein Schritt hin und zurück mit sehr langem Halten</translation>
+        <translation>ein Sprung hin und zurück mit sehr langem Halten</translation>
     </message>
     <message>
         <source>share of the channel</source>
@@ -2183,7 +2179,7 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
     <name>panels</name>
     <message>
         <source>Gap diagnosis</source>
-        <translation>Abweichungendiagnose</translation>
+        <translation>Abweichungsdiagnose</translation>
     </message>
 </context>
 </TS>

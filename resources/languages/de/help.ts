@@ -49,7 +49,7 @@
     </message>
     <message>
         <source>end when standard input closes</source>
-        <translation>enden, sobald die Standardeingabe schließt</translation>
+        <translation>enden, sobald die Standardeingabe geschlossen wird</translation>
     </message>
     <message>
         <source>calibrate the sensor of an axis against a laser</source>
@@ -133,7 +133,7 @@
     </message>
     <message>
         <source>Simulate the nominal model with the commands of a record, and print how far the real machine is from it in each measured signal (u, ref, meas). With --with, print how far two runs of the machine are apart.</source>
-        <translation>Simuliert das nominelle Modell mit den Sollwerten einer Aufzeichnung und gibt aus, wie weit die echte Maschine in jedem gemessenen Signal (u, ref, meas) davon entfernt ist. Mit --with: wie weit zwei Läufe der Maschine auseinanderliegen.</translation>
+        <translation>Simuliert das nominale Modell mit den Sollwerten einer Aufzeichnung und gibt aus, wie weit die echte Maschine in jedem gemessenen Signal (u, ref, meas) davon entfernt ist. Mit --with: wie weit zwei Läufe der Maschine auseinanderliegen.</translation>
     </message>
     <message>
         <source>a record file (.csv, .gz)</source>
@@ -425,7 +425,7 @@
     </message>
     <message>
         <source>Diagnose the gap between the model and records of the real machine.</source>
-        <translation>Diagnostiziert die Lücke zwischen dem Modell und Aufzeichnungen der echten Maschine.</translation>
+        <translation>Diagnostiziert die Abweichung zwischen dem Modell und Aufzeichnungen der echten Maschine.</translation>
     </message>
     <message>
         <source>write the corrected model&apos;s answer to new commands</source>
@@ -516,7 +516,7 @@
         <translation>Gleichungen, die die Fälle erzeugen (Vorgabe: first); jede Wahl hat eigene Zahlen</translation>
     </message>
     <message>
-        <source>do every N-th case from the I-th</source>
+        <source>run every N-th case, beginning with the I-th</source>
         <translation>jeden N-ten Fall ab dem I-ten bearbeiten</translation>
     </message>
     <message>
@@ -644,7 +644,7 @@
         <translation>jeden Sollwert durch die Inverse schicken, die diese Datei empfiehlt</translation>
     </message>
     <message>
-        <source>close the loop that this file of rotemina tune has chosen, with --compensate as feedforward if given</source>
+        <source>close the loop that this file of rotemina tune has chosen, with --compensate as feed-forward if given</source>
         <translation>den Regelkreis schließen, den diese Datei von rotemina tune gewählt hat, gegebenenfalls mit --compensate als Vorsteuerung</translation>
     </message>
     <message>
@@ -701,15 +701,15 @@
     </message>
     <message>
         <source>inspect recordings of sessions, recover and export them</source>
-        <translation>zeigt Aufzeichnungen von Sitzungen, stellt sie wieder her und exportiert sie</translation>
+        <translation>zeigt Aufnahmen von Sitzungen, stellt sie wieder her und exportiert sie</translation>
     </message>
     <message>
         <source>Inspect recordings of sessions, recover them after a crash, and export parts of them as records or as trajectories that can be played.</source>
-        <translation>Zeigt Aufzeichnungen von Sitzungen, stellt sie nach einem Absturz wieder her und exportiert Abschnitte als Aufzeichnungen oder als abspielbare Trajektorien.</translation>
+        <translation>Zeigt Aufnahmen von Sitzungen, stellt sie nach einem Absturz wieder her und exportiert Abschnitte als Aufzeichnungen oder als abspielbare Trajektorien.</translation>
     </message>
     <message>
         <source>print what a recording holds</source>
-        <translation>zeigt, was eine Aufzeichnung enthält</translation>
+        <translation>zeigt, was eine Aufnahme enthält</translation>
     </message>
     <message>
         <source>list the events as well</source>
@@ -717,11 +717,11 @@
     </message>
     <message>
         <source>print only the robot file of the recording</source>
-        <translation>nur die Roboterdatei der Aufzeichnung ausgeben</translation>
+        <translation>nur die Roboterdatei der Aufnahme ausgeben</translation>
     </message>
     <message>
         <source>complete recordings after a crash</source>
-        <translation>vervollständigt Aufzeichnungen nach einem Absturz</translation>
+        <translation>vervollständigt Aufnahmen nach einem Absturz</translation>
     </message>
     <message>
         <source>write a part as a record, or as a trajectory</source>
@@ -729,11 +729,11 @@
     </message>
     <message>
         <source>start of the part, in seconds from the start of the recording</source>
-        <translation>Anfang des Abschnitts, in Sekunden ab Beginn der Aufzeichnung</translation>
+        <translation>Anfang des Abschnitts, in Sekunden ab Beginn der Aufnahme</translation>
     </message>
     <message>
         <source>end of the part, in seconds from the start of the recording</source>
-        <translation>Ende des Abschnitts, in Sekunden ab Beginn der Aufzeichnung</translation>
+        <translation>Ende des Abschnitts, in Sekunden ab Beginn der Aufnahme</translation>
     </message>
     <message>
         <source>write the commands of the axes that moved as a checked trajectory</source>
@@ -967,7 +967,7 @@
     </message>
     <message>
         <source>*.arrows, or a text record</source>
-        <translation>*.arrows oder ein Datensatz als Text</translation>
+        <translation>*.arrows oder eine Aufzeichnung als Text</translation>
     </message>
 </context>
 </TS>

@@ -270,7 +270,7 @@
     </message>
     <message>
         <source>median coherence</source>
-        <translation>mediane Kohärenz</translation>
+        <translation>Median der Kohärenz</translation>
     </message>
     <message>
         <source>estimator</source>
@@ -310,7 +310,7 @@
     </message>
     <message>
         <source>misfit of the mode</source>
-        <translation>Fehlanpassung</translation>
+        <translation>Anpassungsfehler der Eigenform</translation>
     </message>
     <message>
         <source>now</source>
@@ -422,11 +422,11 @@
     </message>
     <message>
         <source>steps</source>
-        <translation>Schritte</translation>
+        <translation>Sprünge</translation>
     </message>
     <message>
         <source>size of the step</source>
-        <translation>Schrittgröße</translation>
+        <translation>Sprunghöhe</translation>
     </message>
     <message>
         <source>rise 10–90 %</source>
@@ -490,7 +490,7 @@
     </message>
     <message>
         <source>Steps</source>
-        <translation>Schritte</translation>
+        <translation>Sprünge</translation>
     </message>
     <message>
         <source>Fitted model</source>
@@ -562,7 +562,7 @@
     </message>
     <message>
         <source>Dry run: within all limits and the bounds of the tip.</source>
-        <translation>Trockenlauf: innerhalb aller Grenzen, auch der Spitze.</translation>
+        <translation>Probelauf: innerhalb aller Grenzen, auch der Spitze.</translation>
     </message>
     <message>
         <source>Excite an axis, play a trajectory or open a record to identify the machine.</source>
@@ -610,7 +610,7 @@
     </message>
     <message>
         <source>The frequency is uncertain by {deviation:.2g} Hz, more than {rough:.0f} %: the record hardly excites the mode. Use faster steps or a multisine.</source>
-        <translation>Die Frequenz ist um {deviation:.2g} Hz unsicher, mehr als {rough:.0f} %: die Aufzeichnung regt die Eigenform kaum an. Schnellere Schritte oder einen Multisinus verwenden.</translation>
+        <translation>Die Frequenz ist um {deviation:.2g} Hz unsicher, mehr als {rough:.0f} %: die Aufzeichnung regt die Eigenform kaum an. Schnellere Sprünge oder einen Multisinus verwenden.</translation>
     </message>
     <message>
         <source>program error: {kind}: {error}</source>
@@ -619,6 +619,10 @@
     <message>
         <source>at frequency</source>
         <translation>bei Frequenz</translation>
+    </message>
+    <message>
+        <source>time of the step</source>
+        <translation>Zeitpunkt des Sprungs</translation>
     </message>
     <message>
         <source>The input excites only {n} lines, up to {highest:.4g} Hz ({wanted} lines are needed). Record a multisine or a chirp to see higher frequencies.</source>
@@ -642,7 +646,7 @@
     </message>
     <message>
         <source>The nominal model is not shown: {reason}</source>
-        <translation>Das nominelle Modell fehlt: {reason}</translation>
+        <translation>Das nominale Modell fehlt: {reason}</translation>
     </message>
     <message>
         <source>width at mid-range</source>
@@ -682,7 +686,7 @@
     </message>
     <message>
         <source>time since the step [ms]</source>
-        <translation>Zeit seit dem Schritt [ms]</translation>
+        <translation>Zeit seit dem Sprung [ms]</translation>
     </message>
     <message>
         <source>The input takes up to {ramp:.3g} ms from level to level, as fast as its limits allow. All times count from the start of that ramp, for the model too.</source>
@@ -690,11 +694,11 @@
     </message>
     <message>
         <source>{n} of {steps} steps are smaller than 10 times the noise, which determines overshoot and times. Record larger steps.</source>
-        <translation>{n} von {steps} Schritten sind kleiner als das 10-fache Rauschen, das Überschwingen und Zeiten bestimmt. Größere Schritte aufzeichnen.</translation>
+        <translation>{n} von {steps} Sprüngen sind kleiner als das 10-fache Rauschen, das Überschwingen und Zeiten bestimmt. Größere Sprünge aufzeichnen.</translation>
     </message>
     <message>
         <source>{name}: {n} of {steps} steps give no value; at the end of the hold the axis still moves, or noise exceeds the band.</source>
-        <translation>{name}: {n} von {steps} Schritten ergeben keinen Wert; am Ende der Haltezeit bewegt sich die Achse noch, oder das Rauschen überschreitet das Band.</translation>
+        <translation>{name}: {n} von {steps} Sprüngen ergeben keinen Wert; am Ende der Haltezeit bewegt sich die Achse noch, oder das Rauschen überschreitet das Band.</translation>
     </message>
     <message>
         <source>There is no card of this axis yet. Store this one to compare with it later.</source>

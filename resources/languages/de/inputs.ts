@@ -441,7 +441,7 @@
     </message>
     <message>
         <source>Next control mode: micro, nano and so on</source>
-        <translation>Nächste Steuerungsart: Mikro, Nano und so weiter</translation>
+        <translation>Nächster Modus: Mikro, Nano und so weiter</translation>
     </message>
     <message>
         <source>Next scaling law</source>
@@ -489,11 +489,11 @@
     </message>
     <message>
         <source>Moves {axes}, depending on the control mode</source>
-        <translation>Bewegt {axes}, je nach Steuerungsart</translation>
+        <translation>Bewegt {axes}, je nach Modus</translation>
     </message>
     <message>
         <source>{names} may control the robot{seat}.</source>
-        <translation>{names} darf den Roboter steuern{seat}.</translation>
+        <translation>Den Roboter darf steuern: {names}{seat}.</translation>
     </message>
     <message>
         <source>{seat}, waiting for {waiting}</source>

@@ -88,8 +88,8 @@
         <translation>Kameraeinstellungen</translation>
     </message>
     <message>
-        <source>Kind of pixels</source>
-        <translation>Art der Pixel</translation>
+        <source>Pixel type</source>
+        <translation>Pixeltyp</translation>
     </message>
     <message>
         <source>Trigger</source>
@@ -109,7 +109,7 @@
     </message>
     <message>
         <source>Rate [Hz]</source>
-        <translation>Rate [Hz]</translation>
+        <translation>Bildrate [Hz]</translation>
     </message>
     <message>
         <source>Region [px]</source>
@@ -132,7 +132,7 @@
         <translation>Sichtbares</translation>
     </message>
     <message>
-        <source>Save picture</source>
+        <source>Take picture</source>
         <translation>Bild aufnehmen</translation>
     </message>
     <message>
@@ -599,7 +599,7 @@
     </message>
     <message>
         <source>Position of the focus drive, µm</source>
-        <translation>Position des Fokusantriebs, µm</translation>
+        <translation>Position des Fokustriebs, µm</translation>
     </message>
     <message>
         <source>Target of the drive, µm, within its range</source>
@@ -731,9 +731,9 @@
     </message>
     <message>
         <source>{size}
-membrane: {ahead} from head on</source>
+membrane: {ahead} from its normal</source>
         <translation>{size}
-Membran: {ahead} gegen frontal</translation>
+Membran: {ahead} zur Membrannormalen</translation>
     </message>
     <message>
         <source>watching</source>
@@ -757,7 +757,7 @@ Membran: {ahead} gegen frontal</translation>
     </message>
     <message>
         <source>With Move, above the picture, a click or a drag sends the tip there. Esc or any stop ends this mode.</source>
-        <translation>Mit „Fahren“ über dem Bild fährt die Spitze zum Klick oder Zugende. Esc oder jeder Halt beendet das.</translation>
+        <translation>Mit „Fahren“ über dem Bild fährt die Spitze zur Klickstelle oder zum Ende des Zugs. Esc oder jeder Halt beendet das.</translation>
     </message>
     <message>
         <source>Stage that a click moves; nano within its range</source>
@@ -1034,8 +1034,8 @@ Membran: {ahead} gegen frontal</translation>
         <translation>Wo die Spitze war, von oben. ◆: gespeicherte Positionen; Kreise: Zellen der Liste. Rot ist verboten, der Rahmen ist, was die Achsen erreichen.</translation>
     </message>
     <message>
-        <source>Click to choose a place; nothing moves. Wheel: nearer or farther. Drag: move the map.</source>
-        <translation>Klick: einen Ort wählen; nichts bewegt sich. Rad: näher oder weiter. Ziehen: die Karte verschieben.</translation>
+        <source>Click to choose a place; nothing moves. Wheel: zoom. Drag: move the map.</source>
+        <translation>Klick: einen Ort wählen; nichts bewegt sich. Rad: zoomen. Ziehen: die Karte verschieben.</translation>
     </message>
 </context>
 <context>

@@ -316,7 +316,7 @@
     </message>
     <message>
         <source>Speed of the approach</source>
-        <translation>Geschwindigkeit der Annäherung</translation>
+        <translation>Geschwindigkeit der Anfahrt</translation>
     </message>
     <message>
         <source>At most</source>
@@ -407,7 +407,7 @@
         <translation>Anfahrt, Anhalten und Einstich zusammen</translation>
     </message>
     <message>
-        <source>Way</source>
+        <source>Distance</source>
         <translation>Weg</translation>
     </message>
     <message>
@@ -669,7 +669,7 @@
     </message>
     <message>
         <source>Suppresses the resonance of the axis in the robot file. ZV, ZVD, ZVDD: impulses, increasingly slow and robust; inverse model: best tracking</source>
-        <translation>Unterdrückt die Resonanz der Achse laut Roboterdatei. ZV, ZVD, ZVDD: Impulse, zunehmend langsam und robust; inverses Modell: bestes Folgen</translation>
+        <translation>Unterdrückt die Resonanz der Achse laut Roboterdatei. ZV, ZVD, ZVDD: Impulse, zunehmend langsam und robust; inverses Modell: bestes Folgeverhalten</translation>
     </message>
     <message>
         <source>More settings of the contact detection</source>
@@ -693,7 +693,7 @@
     </message>
     <message>
         <source>Desired: planned motion of the tip. Commanded: output of the device. Measured: latest run, constant delay removed.</source>
-        <translation>Gewünscht: die geplante Bewegung der Spitze. Befohlen: die Ausgabe des Geräts. Gemessen: der letzte Lauf ohne seine konstante Verzögerung.</translation>
+        <translation>Gewünscht: die geplante Bewegung der Spitze. Sollwert: die Ausgabe des Geräts. Gemessen: der letzte Lauf ohne seine konstante Verzögerung.</translation>
     </message>
     <message>
         <source>Move Z nano back as far as needed; Z compensates, so the tip stays in place</source>
@@ -801,7 +801,7 @@
     </message>
     <message>
         <source>Go to the next waiting cell: up, across, down</source>
-        <translation>Zur nächsten wartenden Zelle fahren: hoch, quer, ab</translation>
+        <translation>Zur nächsten wartenden Zelle fahren: heben, verfahren, absenken</translation>
     </message>
     <message>
         <source>Skip this cell</source>
@@ -809,7 +809,7 @@
     </message>
     <message>
         <source>Arm for this cell; motion begins only with Start, above</source>
-        <translation>Für diese Zelle scharfstellen; erst Start, oben, bewegt</translation>
+        <translation>Für diese Zelle scharfstellen; die Bewegung beginnt erst mit Start, oben</translation>
     </message>
     <message>
         <source>Remove the selected cell</source>

@@ -176,7 +176,7 @@
     </message>
     <message>
         <source>hub along the pin</source>
-        <translation>Nabe längs der Nadel</translation>
+        <translation>Nabe längs des Stifts</translation>
     </message>
     <message>
         <source>plate between hub and rim</source>
@@ -208,11 +208,11 @@
     </message>
     <message>
         <source>{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they agree with the shipped robot within {tolerance}</source>
-        <translation>{axial:.3f} N/µm längs der Nadel; {x:.4g} und {y:.4g} N m/rad beim Kippen: stimmen mit dem mitgelieferten Roboter auf {tolerance} überein</translation>
+        <translation>{axial:.3f} N/µm längs des Stifts; {x:.4g} und {y:.4g} N m/rad beim Kippen: stimmen mit dem mitgelieferten Roboter auf {tolerance} überein</translation>
     </message>
     <message>
         <source>{axial:.3f} N/µm along the pin; {x:.4g} and {y:.4g} N m/rad in tilt: they do not agree with the shipped robot within {tolerance}</source>
-        <translation>{axial:.3f} N/µm längs der Nadel; {x:.4g} und {y:.4g} N m/rad beim Kippen: stimmen mit dem mitgelieferten Roboter nicht auf {tolerance} überein</translation>
+        <translation>{axial:.3f} N/µm längs des Stifts; {x:.4g} und {y:.4g} N m/rad beim Kippen: stimmen mit dem mitgelieferten Roboter nicht auf {tolerance} überein</translation>
     </message>
     <message>
         <source>Whole range: {safety}, at {pose}</source>

@@ -179,7 +179,7 @@
         <translation>Es gibt keinen zweiten Lauf zum Ausrichten: einen wählen.</translation>
     </message>
     <message>
-        <source>Keep this run: displays it next to the following one.</source>
+        <source>Keep this run: it stays visible beside the next one.</source>
         <translation>Lauf merken: er bleibt neben dem folgenden zu sehen.</translation>
     </message>
     <message>

@@ -68,11 +68,11 @@
     </message>
     <message>
         <source>Recover</source>
-        <translation>Herstellen</translation>
+        <translation>Wiederherstellen</translation>
     </message>
     <message>
         <source>Recovering …</source>
-        <translation>Wird hergestellt …</translation>
+        <translation>Wird wiederhergestellt …</translation>
     </message>
     <message>
         <source>Recovering {names} …</source>

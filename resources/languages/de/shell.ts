@@ -33,15 +33,15 @@
     </message>
     <message>
         <source>applying an inverse</source>
-        <translation>inverses Modell einschalten</translation>
+        <translation>Inverse einschalten</translation>
     </message>
     <message>
         <source>removing an inverse</source>
-        <translation>inverses Modell abschalten</translation>
+        <translation>Inverse abschalten</translation>
     </message>
     <message>
         <source>teaching the floor</source>
-        <translation>Boden einlernen</translation>
+        <translation>Boden setzen</translation>
     </message>
     <message>
         <source>removing the floor</source>
@@ -321,7 +321,7 @@
     </message>
     <message>
         <source>disarmed</source>
-        <translation>gesichert</translation>
+        <translation>entschärft</translation>
     </message>
     <message>
         <source>armed</source>
@@ -947,8 +947,8 @@
         <translation>Bleiben</translation>
     </message>
     <message>
-        <source>This is a stop by software, not the machine&apos;s emergency switch.</source>
-        <translation>Dies ist ein Halt durch Software, nicht der Not-Aus-Schalter der Maschine.</translation>
+        <source>This is a stop by software, not the machine&apos;s emergency stop switch.</source>
+        <translation>Dies ist ein Halt durch Software, nicht der Not-Halt der Maschine.</translation>
     </message>
     <message>
         <source>Stop and lock</source>
@@ -1320,8 +1320,8 @@
         <translation>Zeit der Wiedergabe</translation>
     </message>
     <message>
-        <source>Carrying the history forward …</source>
-        <translation>Vorgeschichte wird fortgeführt …</translation>
+        <source>Switching the model …</source>
+        <translation>Modell wird gewechselt …</translation>
     </message>
     <message>
         <source>There is no trajectory to play: load one first.</source>
@@ -1349,15 +1349,15 @@
     </message>
     <message>
         <source>The recording is being merged into one file.</source>
-        <translation>Die Aufzeichnung wird zu einer Datei zusammengefasst.</translation>
+        <translation>Die Aufnahme wird zu einer Datei zusammengefasst.</translation>
     </message>
     <message>
         <source>Playback paused: {text}. Check the machine, then resume or end the playback.</source>
-        <translation>Abspielen angehalten: {text}. Die Maschine prüfen, dann fortsetzen oder beenden.</translation>
+        <translation>Wiedergabe pausiert: {text}. Die Maschine prüfen, dann fortsetzen oder beenden.</translation>
     </message>
     <message>
         <source>The nominal model is in use again: {why}.</source>
-        <translation>Das Nominalmodell wird wieder verwendet: {why}.</translation>
+        <translation>Das nominale Modell wird wieder verwendet: {why}.</translation>
     </message>
     <message>
         <source>{name}: stopped before its first row was played.</source>
@@ -1368,7 +1368,7 @@
         <translation>{name}: nach {duration_s:.2f} s angehalten.</translation>
     </message>
     <message>
-        <source>Comparing model and real …</source>
+        <source>Comparing model and machine …</source>
         <translation>Modell und Maschine werden verglichen …</translation>
     </message>
     <message>
@@ -1413,7 +1413,7 @@
     </message>
     <message>
         <source>Back to nominal</source>
-        <translation>Zurück zum Nominalmodell</translation>
+        <translation>Zurück zum nominalen Modell</translation>
     </message>
     <message>
         <source>The model that plots, comparison, dry run and 3-D view use.</source>
@@ -1421,7 +1421,7 @@
     </message>
     <message>
         <source>Nominal model</source>
-        <translation>Nominalmodell</translation>
+        <translation>Nominales Modell</translation>
     </message>
     <message>
         <source>Corrected: {effects}</source>
@@ -1679,15 +1679,15 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>The built-in simulator: no real machine moves.</source>
-        <translation>Der eingebaute Simulator: keine wirkliche Maschine bewegt sich.</translation>
+        <translation>Der eingebaute Simulator: keine echte Maschine bewegt sich.</translation>
     </message>
     <message>
         <source>Boards that this computer emulates on its own ports: no real machine moves.</source>
-        <translation>Karten, die dieser Rechner an eigenen Anschlüssen nachbildet: keine wirkliche Maschine bewegt sich.</translation>
+        <translation>Karten, die dieser Rechner an eigenen Anschlüssen nachbildet: keine echte Maschine bewegt sich.</translation>
     </message>
     <message>
         <source>Commands of this window move a real machine.</source>
-        <translation>Befehle dieses Fensters bewegen eine wirkliche Maschine.</translation>
+        <translation>Befehle dieses Fensters bewegen eine echte Maschine.</translation>
     </message>
     <message>
         <source>Other files</source>
@@ -1755,7 +1755,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>The simulator moves no real machine</source>
-        <translation>Der Simulator bewegt keine wirkliche Maschine</translation>
+        <translation>Der Simulator bewegt keine echte Maschine</translation>
     </message>
     <message>
         <source>A trajectory for this robot, checked on the model first</source>
@@ -1794,7 +1794,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
         <translation>Die Anordnung unter einem Namen speichern</translation>
     </message>
     <message>
-        <source>Restore all docks</source>
+        <source>Restore all panels</source>
         <translation>Alle Panels zurücksetzen</translation>
     </message>
     <message>
@@ -1974,7 +1974,7 @@ Bedienfenster eines hybriden Roboters zur Zellmanipulation, mit Diagnose der Abw
     </message>
     <message>
         <source>its package has the driver in use; restart the program</source>
-        <translation>sein Paket hat den Treiber im Einsatz; das Programm neu starten</translation>
+        <translation>sein Paket enthält den verwendeten Treiber; das Programm neu starten</translation>
     </message>
     <message>
         <source>Importing {name} …</source>

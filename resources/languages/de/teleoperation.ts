@@ -32,7 +32,7 @@
     </message>
     <message>
         <source>{name} reference in {unit}</source>
-        <translation>{name} Referenz in {unit}</translation>
+        <translation>{name} Sollwert in {unit}</translation>
     </message>
     <message>
         <source>Reference that the stick commands and the axes follow</source>
@@ -60,15 +60,15 @@
     </message>
     <message>
         <source>Scales</source>
-        <translation>Skalen</translation>
+        <translation>Maßstäbe</translation>
     </message>
     <message>
         <source>Coordinate whose scale is shown</source>
-        <translation>Koordinate, deren Skala gezeigt wird</translation>
+        <translation>Koordinate, deren Maßstab gezeigt wird</translation>
     </message>
     <message>
         <source>Coordinate whose scale is shown below</source>
-        <translation>Koordinate, deren Skala unten gezeigt wird</translation>
+        <translation>Koordinate, deren Maßstab unten gezeigt wird</translation>
     </message>
     <message>
         <source>Presets</source>
@@ -76,7 +76,7 @@
     </message>
     <message>
         <source>Reset all scales of this mode to their presets</source>
-        <translation>Alle Skalen dieses Modus auf die Vorgaben zurücksetzen</translation>
+        <translation>Alle Maßstäbe dieses Modus auf die Vorgaben zurücksetzen</translation>
     </message>
     <message>
         <source>{title} of {name} {unit}</source>
@@ -512,7 +512,7 @@ Leer  Kupplung</translation>
     </message>
     <message>
         <source>all scales have their presets</source>
-        <translation>alle Skalen haben ihre Vorgaben</translation>
+        <translation>alle Maßstäbe haben ihre Vorgaben</translation>
     </message>
     <message>
         <source>Keyboard, when the pad has the focus: arrows x and y, page up and down z, shift coarse, ctrl fine, space clutch.</source>

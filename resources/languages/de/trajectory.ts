@@ -59,8 +59,8 @@
         <translation>{name}, neu abgetastet</translation>
     </message>
     <message>
-        <source>Model and real apart: {parts}</source>
-        <translation>Abstand Modell–Maschine: {parts}</translation>
+        <source>Distance between model and machine: {parts}</source>
+        <translation>Abstand zwischen Modell und Maschine: {parts}</translation>
     </message>
     <message>
         <source>hold – as a device does between rows</source>
@@ -124,7 +124,7 @@
     </message>
     <message>
         <source>{rms} rms, {peak} peak</source>
-        <translation>{rms} effektiv, {peak} Spitze</translation>
+        <translation>{rms} effektiv, {peak} maximal</translation>
     </message>
     <message>
         <source>{share} of {bound}</source>

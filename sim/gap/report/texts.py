@@ -70,7 +70,7 @@ TEXTS = (
     marked("gap", "with"),
     marked("gap", "on"),
     marked("gap", "remainder, rms"),
-    marked("gap", "share of what closes (Shapley)"),
+    marked("gap", "share of the closed gap (Shapley)"),
     marked(
         "gap",
         "Left: the gap before (grey) and after (blue) over time; the band is the noise floor. "
@@ -98,7 +98,7 @@ TEXTS = (
     marked("gap", "None."),
     marked("gap", "The reading as each rival, fitted to these records, predicts it."),
     marked("gap", "{tap} as each rival, fitted to these records, predicts it."),
-    marked("gap", "No experiment is needed, or none was found that would tell more."),
+    marked("gap", "No experiment is needed, or none was found that would give more information."),
     marked("gap", "Robot {robot}; axes"),
     marked("gap", "Effects in the model before: {count}. Seed {seed}; RoTeMiNa {version}."),
     marked("gap", "record"),

@@ -155,7 +155,7 @@ def test_a_stop_leaves_it_on_and_a_new_connection_ends_it(machine):
 def test_a_device_that_closes_none_refuses(machine, monkeypatch):
     monkeypatch.setattr("rotemina.app.motion.regulation.Regulator", type("Other", (), {}))
     assert machine.session.loops.applied == {}
-    with pytest.raises(RefusedError, match="cannot close a loop: its samples are too rare"):
+    with pytest.raises(RefusedError, match="cannot close a loop: its samples are too infrequent"):
         machine.session.loops.apply(LOOP)
 
 

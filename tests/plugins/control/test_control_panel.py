@@ -321,7 +321,7 @@ def test_a_range_is_narrowed_and_an_approach_is_chosen_on_the_page_of_axes(qtbot
     qtbot.waitUntil(lambda: session.at_rest, timeout=LONG_MS)
     session.use_model(replace(session.model, id="corrected", effects=(found,)))
     qtbot.waitUntil(page.use_play.isEnabled, timeout=LONG_MS)
-    assert page.play.text() == "Measured play: 0.0010 mm"
+    assert page.play.text() == "Measured backlash: 0.0010 mm"
     qtbot.mouseClick(page.use_play, Qt.MouseButton.LeftButton)
     assert session.backlash.applied == {"x": Approach(pytest.approx(1.5e-6), rising=True)}
     page.axis.setCurrentIndex(page.axis.findData("zn"))

@@ -63,7 +63,7 @@ def test_figures_stand_beside_their_levels(result):
     assert reached == {
         "… where the gap is ≥ 5 floors": True,
         "mean size of the set": False,
-        "healthy machines blamed": True,
+        "false alarms on healthy machines": True,
         "seconds per case, maximum": False,
         "first cause correct, one effect": None,
         "exactly two effects": None,

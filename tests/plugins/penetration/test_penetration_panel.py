@@ -147,7 +147,7 @@ def test_armed_aborted_in_hold_logged_and_reported(qtbot, window, panel, tmp_pat
     qtbot.waitUntil(lambda: phase(panel) is Phase.HOLD, timeout=LONG_MS)
     qtbot.waitUntil(lambda: panel.bar.phase.text() == "hold", timeout=LONG_MS)
     assert panel.bar.strip[Phase.HOLD].property("tone") == "busy"
-    assert panel.readouts.run.values["Way"].text() not in ("–", "0.00 µm")
+    assert panel.readouts.run.values["Distance"].text() not in ("–", "0.00 µm")
     assert "of 10 µm" in panel.readouts.load.format()
     assert panel.readouts.load.value() > 0
 
