@@ -132,8 +132,8 @@ class ChangeGuide(QDialog):
                 lambda state: _rests_at(state, self._places().get(LOAD, {})),
             ),
             Step(
-                tr("Forget the floor and the tip in the picture"),
-                tr("Forget them"),
+                tr("Discard the floor and the tip in the picture"),
+                tr("Discard"),
                 self._forget,
                 to_move,
                 lambda _: self._floor() is None,

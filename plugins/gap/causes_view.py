@@ -27,7 +27,7 @@ from rotemina.sim.quantities import amount, amounts, percent, percents
 
 HEAD = (mark("candidate"), mark("probability"), mark("remainder (noise floors)"), "95 %")
 _TIPS = (
-    mark("Alternatives to the leading cause, likeliest first; possible causes are highlighted"),
+    mark("Alternatives to the leading cause, most likely first; possible causes are highlighted"),
     mark("Probability of being the cause, among the candidates and an unknown cause"),
     mark("Rms of the remaining gap on validation data, in noise floors; noise alone is 1"),
     mark("95 % interval of the remainder, in noise floors"),
@@ -42,7 +42,7 @@ class CausesView(QSplitter):
         self._theme = theme
         self._shown: tuple[Answer, str] | None = None
         self.ranking = Table(
-            tr("Candidates, likeliest first"), [tr(text) for text in HEAD], choose=False
+            tr("Candidates, most likely first"), [tr(text) for text in HEAD], choose=False
         )
         for column, text in enumerate(_TIPS):
             self.ranking.horizontalHeaderItem(column).setToolTip(plain_tip(tr(text)))

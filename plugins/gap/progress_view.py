@@ -15,7 +15,7 @@ STAGES = {
     "reading": mark("Reading the records."),
     "where": mark("Locating the gap by axis, channel and frequency."),
     "screening": mark("Screening all effects that the axis may have."),
-    "fitting": mark("Fitting the likeliest candidates to the records, in parallel."),
+    "fitting": mark("Fitting the most likely candidates to the records, in parallel."),
     "deciding": mark("Deciding between the candidates on validation data."),
     "drawing": mark("Drawing the result."),
 }

@@ -63,7 +63,7 @@ class MapSection(Section):
             tr("Show everything within reach of the axes"),
         )
         self.clear = button(
-            tr("Clear trail"), self._clear, tr("Forget where the tip has been; nothing moves")
+            tr("Clear trail"), self._clear, tr("Clear the trail of the tip; nothing moves")
         )
         try:
             self._map: TipMap | None = TipMap(workbench.robot)

@@ -17,7 +17,7 @@ from rotemina.sim.quantities import fixed, rounded
 MOST = 50
 COLUMNS = (
     mark("Time"),
-    mark("Verdict"),
+    mark("Outcome"),
     mark("Contact"),
     mark("Depth"),
     mark("Average"),
@@ -33,7 +33,7 @@ COLUMN_TIPS = (
     mark("Average speed of the thrust, measured"),
     mark("Maximum speed of the thrust, measured over five samples"),
     mark("Maximum distance from the profile, without a constant delay"),
-    mark("Reason for the verdict"),
+    mark("Reason for the outcome"),
 )
 
 

@@ -13,7 +13,7 @@ from rotemina.plugins.trajectory import mark, tr
 
 STEPS = (1, 10, 100, 1000)  # rows
 _EMPTY = mark("no trajectory is loaded")
-_FORBIDDEN = mark("the dry run found an objection")
+_FORBIDDEN = mark("the dry run found a problem")
 
 
 def against_playing(workbench: Workbench, session: SessionState) -> str | None:

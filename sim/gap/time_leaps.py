@@ -115,9 +115,9 @@ def check_leaps(records: Sequence[Record], names: Sequence[str]) -> Iterator[Cau
             raise GapError(
                 message(
                     "gap",
-                    "{name}: time leaps {count} ×, by up to {longest_s} s, and no piece between "
+                    "{name}: time jumps {count} ×, by up to {longest_s} s, and no piece between "
                     "has more than {max} rows; a diagnosis needs {least_rows} or more without a "
-                    "leap: leave the record out, or record without losses",
+                    "jump: leave the record out, or record without losses",
                 ).fill(
                     name=name,
                     count=len(leaps),
@@ -130,7 +130,7 @@ def check_leaps(records: Sequence[Record], names: Sequence[str]) -> Iterator[Cau
         left_out = message("gap", "; {rows} rows in pieces shorter than {least} are omitted")
         said = message(
             "gap",
-            "Time leaps {n} ×, by up to {time} s: the record is split there, and the "
+            "Time jumps {n} ×, by up to {time} s: the record is split there, and the "
             "history of each piece is unknown{left_out}.",
         ).fill(
             n=str(len(leaps)),

@@ -83,7 +83,7 @@ class Chain:
                     message(
                         "engine",
                         "robot {name}: axis {axis} may tilt from {low} rad to {high} rad; "
-                        "the chain holds for tilts below {most} rad",
+                        "the kinematic chain is valid for tilts below {most} rad",
                     ).fill(
                         name=repr(robot.name),
                         axis=AxisName(name),

@@ -77,8 +77,8 @@ def applied(robot: Robot, solutions: UnitSolutions) -> tuple[Robot, tuple[Entry,
             message(
                 "engine",
                 "the plate yields within the range of motion: {stress} MPa {place_text} at zn {zn} "
-                "µm, thx {thx} µrad, thy {thy} µrad; it bears {yield_stress} MPa: make it thinner "
-                "or wider",
+                "µm, thx {thx} µrad, thy {thy} µrad; its yield strength is {yield_stress} MPa: "
+                "make it thinner or wider",
             ).fill(
                 stress=fixed(1e-06 * least.point.stress, 0),
                 place_text=place_text(least.point, robot.plate),

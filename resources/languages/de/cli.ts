@@ -17,7 +17,7 @@
     </message>
     <message>
         <source>--bus is one line; name only one port</source>
-        <translation>--bus ist eine einzige Leitung; nur einen Anschluss nennen</translation>
+        <translation>--bus ist eine einzige Leitung; nur einen Anschluss angeben</translation>
     </message>
     <message>
         <source>--bus: the robot&apos;s axes need only one board, which shares no line</source>
@@ -49,7 +49,7 @@
     </message>
     <message>
         <source>--laser: {count} files for {records} records; give one for each</source>
-        <translation>--laser: {count} Dateien für {records} Aufzeichnungen; für jede eine nennen</translation>
+        <translation>--laser: {count} Dateien für {records} Aufzeichnungen; für jede eine angeben</translation>
     </message>
     <message>
         <source>--fit re-fits the model, which --with does not use; use only one of them</source>
@@ -61,7 +61,7 @@
     </message>
     <message>
         <source>{inverse} was trained for robot {robot}, not for {name}; name that robot by --robot</source>
-        <translation>{inverse}: sie wurde für Roboter {robot} trainiert, nicht für {name}; jenen mit --robot nennen</translation>
+        <translation>{inverse}: sie wurde für Roboter {robot} trainiert, nicht für {name}; den passenden Roboter mit --robot angeben</translation>
     </message>
     <message>
         <source>--simulate takes no records; leave out one or the other</source>
@@ -69,7 +69,7 @@
     </message>
     <message>
         <source>no record is named; name one, or use --simulate</source>
-        <translation>keine Aufzeichnung genannt; eine nennen oder --simulate verwenden</translation>
+        <translation>keine Aufzeichnung genannt; eine angeben oder --simulate verwenden</translation>
     </message>
     <message>
         <source>--effects and --seed belong to --simulate; leave them out, or add it</source>
@@ -89,11 +89,11 @@
     </message>
     <message>
         <source>{path}: its piezo axes are {found}; name one by --axis</source>
-        <translation>{path}: die Piezoachsen darin sind {found}; eine mit --axis nennen</translation>
+        <translation>{path}: die Piezoachsen darin sind {found}; eine mit --axis angeben</translation>
     </message>
     <message>
         <source>{output} is the input file; name another by -o</source>
-        <translation>{output} ist die Eingabedatei; mit -o eine andere nennen</translation>
+        <translation>{output} ist die Eingabedatei; mit -o eine andere angeben</translation>
     </message>
     <message>
         <source>--units {chosen}: a position&apos;s unit is a length or an angle</source>
@@ -153,7 +153,7 @@
     </message>
     <message>
         <source>gap: name a subcommand: diagnose, predict, twin, blind or bench (see --help)</source>
-        <translation>gap: einen Unterbefehl nennen: diagnose, predict, twin, blind oder bench (siehe --help)</translation>
+        <translation>gap: einen Unterbefehl angeben: diagnose, predict, twin, blind oder bench (siehe --help)</translation>
     </message>
     <message>
         <source>{output} is named twice; give each file its own name</source>
@@ -161,7 +161,7 @@
     </message>
     <message>
         <source>--pause: name the previous motion by --after</source>
-        <translation>--pause: die vorausgegangene Bewegung mit --after nennen</translation>
+        <translation>--pause: die vorausgegangene Bewegung mit --after angeben</translation>
     </message>
     <message>
         <source>{output} already exists; name the record by -o</source>
@@ -173,7 +173,7 @@
     </message>
     <message>
         <source>{other} would be overwritten by a suggested experiment of {document}; name another file by --json</source>
-        <translation>{other} würde von einem vorgeschlagenen Experiment von {document} überschrieben; mit --json eine andere Datei nennen</translation>
+        <translation>{other} würde von einem vorgeschlagenen Experiment von {document} überschrieben; mit --json eine andere Datei angeben</translation>
     </message>
     <message>
         <source>--zn, --thx, --thy: must be finite numbers</source>
@@ -209,11 +209,11 @@
     </message>
     <message>
         <source>tune: name the axis by --axis, or a point by --choose</source>
-        <translation>tune: die Achse mit --axis oder einen Punkt mit --choose nennen</translation>
+        <translation>tune: die Achse mit --axis oder einen Punkt mit --choose angeben</translation>
     </message>
     <message>
         <source>{output} was tuned for robot {robot}, not for {name}; name the robot by --robot</source>
-        <translation>{output} ist für Roboter {robot} abgestimmt, nicht für {name}; den Roboter mit --robot nennen</translation>
+        <translation>{output} ist für Roboter {robot} abgestimmt, nicht für {name}; den Roboter mit --robot angeben</translation>
     </message>
     <message>
         <source>{output}: there is no folder {parent}; create it first</source>
@@ -221,7 +221,7 @@
     </message>
     <message>
         <source>{inverse} is an inverse of axis {axis}, but {options_axis} is to be tuned; name one that was trained on this axis</source>
-        <translation>{inverse}: eine Inverse von Achse {axis}, abgestimmt werden soll {options_axis}; eine nennen, die mit dieser Achse trainiert wurde</translation>
+        <translation>{inverse}: eine Inverse von Achse {axis}, abgestimmt werden soll {options_axis}; eine angeben, die mit dieser Achse trainiert wurde</translation>
     </message>
     <message>
         <source>--jobs {jobs}: must be 1 or more</source>
@@ -233,7 +233,7 @@
     </message>
     <message>
         <source>--cluster {cluster} cannot be reached ({error}); name the address of a running Dask scheduler</source>
-        <translation>--cluster {cluster}: nicht erreichbar ({error}); die Adresse eines laufenden Dask-Schedulers nennen</translation>
+        <translation>--cluster {cluster}: nicht erreichbar ({error}); die Adresse eines laufenden Dask-Schedulers angeben</translation>
     </message>
     <message>
         <source>--cluster {cluster} has no workers; start some by dask worker {cluster}</source>

@@ -189,12 +189,12 @@
         <translation>Anfahren</translation>
     </message>
     <message>
-        <source>Forget the floor and the tip in the picture</source>
-        <translation>Boden und Spitze im Bild vergessen</translation>
+        <source>Discard the floor and the tip in the picture</source>
+        <translation>Boden und Spitze im Bild verwerfen</translation>
     </message>
     <message>
-        <source>Forget them</source>
-        <translation>Vergessen</translation>
+        <source>Discard</source>
+        <translation>Verwerfen</translation>
     </message>
     <message>
         <source>Lock; then change the pin or the dish by hand</source>
@@ -226,11 +226,11 @@
     </message>
     <message>
         <source>Name for the present position</source>
-        <translation>Name für die jetzige Position</translation>
+        <translation>Name für die aktuelle Position</translation>
     </message>
     <message>
         <source>Name for the present position; at most {most} letters</source>
-        <translation>Name für die jetzige Position; höchstens {most} Buchstaben</translation>
+        <translation>Name für die aktuelle Position; höchstens {most} Buchstaben</translation>
     </message>
     <message>
         <source>Delete</source>
@@ -270,11 +270,11 @@
     </message>
     <message>
         <source>Save the present target of all axes</source>
-        <translation>Das jetzige Ziel aller Achsen speichern</translation>
+        <translation>Das aktuelle Ziel aller Achsen speichern</translation>
     </message>
     <message>
         <source>Not set: press twice to save the present target of all axes</source>
-        <translation>Nicht gesetzt: zweimal drücken, um das jetzige Ziel aller Achsen zu speichern</translation>
+        <translation>Nicht gesetzt: zweimal drücken, um das aktuelle Ziel aller Achsen zu speichern</translation>
     </message>
     <message>
         <source>the position is not known</source>

@@ -55,7 +55,7 @@
     </message>
     <message>
         <source>driver {name} is for a robot with axes {axes}; this one has {these}; start the program with that robot</source>
-        <translation>Treiber {name} gehört zu einem Roboter mit den Achsen {axes}; dieser hat {these}; das Programm mit jenem Roboter starten</translation>
+        <translation>Treiber {name} gehört zu einem Roboter mit den Achsen {axes}; dieser hat {these}; das Programm mit dem passenden Roboter starten</translation>
     </message>
     <message>
         <source>another device is being connected</source>
@@ -956,8 +956,8 @@
         <translation>Roboter {name}: pin_length {pin_length} muss größer sein als das Ende des Bereichs von zn, {end}</translation>
     </message>
     <message>
-        <source>robot {name}: axis {axis} may tilt from {low} rad to {high} rad; the chain holds for tilts below {most} rad</source>
-        <translation>Roboter {name}: Achse {axis} darf von {low} rad bis {high} rad kippen; die Kette gilt für Kippwinkel unter {most} rad</translation>
+        <source>robot {name}: axis {axis} may tilt from {low} rad to {high} rad; the kinematic chain is valid for tilts below {most} rad</source>
+        <translation>Roboter {name}: Achse {axis} darf von {low} rad bis {high} rad kippen; die kinematische Kette gilt für Kippwinkel unter {most} rad</translation>
     </message>
     <message>
         <source>axis {axis}: position {value} is outside its bounds, {low} to {high}; choose a tip position or a tilt inside the workspace</source>
@@ -1057,7 +1057,7 @@
     </message>
     <message>
         <source>calibration: residuals of {rms} px rms (greatest at move {worst}), must be at most {most} px; backlash, drift or a loose tool: let the stage settle, home it, and start again</source>
-        <translation>Kalibrierung: Restfehler {rms} px effektiv (größter bei Bewegung {worst}), höchstens {most} px; Umkehrspiel, Drift oder loses Werkzeug: Tisch ruhen lassen, Referenzfahrt, neu beginnen</translation>
+        <translation>Kalibrierung: Restfehler {rms} px rms (größter bei Bewegung {worst}), höchstens {most} px; Umkehrspiel, Drift oder loses Werkzeug: Tisch ruhen lassen, Referenzfahrt, neu beginnen</translation>
     </message>
     <message>
         <source>calibration: both axes move the picture in nearly the same direction ({angle}° apart, must be at least {least}°); one of them does not move, or moves along the view</source>
@@ -1065,7 +1065,7 @@
     </message>
     <message>
         <source>calibration: the pixel size is uncertain by {known} %, must be at most {asked} %; make larger or more moves</source>
-        <translation>Kalibrierung: die Pixelgröße ist auf {known} % bekannt, verlangt {asked} %; größere oder mehr Bewegungen machen</translation>
+        <translation>Kalibrierung: die Pixelgröße ist auf {known} % unsicher, höchstens {asked} % sind erlaubt; größere oder mehr Bewegungen ausführen</translation>
     </message>
     <message>
         <source>focus: {count} pictures, must be at least {least_looks} with finite sharpness; use more positions</source>
@@ -1117,7 +1117,7 @@
     </message>
     <message>
         <source>cell: the outline deviates from an ellipse by {rms} px rms, must be at most {most} % of its radius; click into the middle of one cell</source>
-        <translation>Zelle: ihr Umriss weicht {rms} px effektiv von einer Ellipse ab, höchstens {most} % des Radius; in die Mitte einer Zelle klicken</translation>
+        <translation>Zelle: ihr Umriss weicht {rms} px rms von einer Ellipse ab, höchstens {most} % des Radius; in die Mitte einer Zelle klicken</translation>
     </message>
     <message>
         <source>nothing matches it at its expected place</source>
@@ -1353,7 +1353,7 @@
     </message>
     <message>
         <source>name a recording</source>
-        <translation>eine Aufnahme nennen</translation>
+        <translation>eine Aufnahme angeben</translation>
     </message>
     <message>
         <source>{path}: not a recording of this program, or damaged ({error})</source>
@@ -1466,7 +1466,7 @@
     </message>
     <message>
         <source>the diagnosis belongs to an earlier state of the robot file {name}; the one in use, {robot_name}, differs: choose the model in use, and diagnose again</source>
-        <translation>die Diagnose gilt für die damalige Roboterdatei {name}; die jetzige, {robot_name}, ist eine andere: das verwendete Modell wählen und neu diagnostizieren</translation>
+        <translation>die Diagnose gilt für die damalige Roboterdatei {name}; die aktuelle, {robot_name}, ist eine andere: das verwendete Modell wählen und neu diagnostizieren</translation>
     </message>
     <message>
         <source>the diagnosis found nothing that commands can predict: the nominal model is as good</source>
@@ -1919,7 +1919,7 @@
     </message>
     <message>
         <source>{url}: another program uses it; close that program</source>
-        <translation>{url}: ein anderes Programm verwendet ihn; jenes Programm schließen</translation>
+        <translation>{url}: ein anderes Programm verwendet ihn; das andere Programm schließen</translation>
     </message>
     <message>
         <source>{url} cannot be opened: {said}</source>
@@ -2422,7 +2422,7 @@
     </message>
     <message>
         <source>{where}: the loop of axis {axis} runs at {rate_hz} Hz, and all loops must run at one rate; open that loop, or tune for its rate</source>
-        <translation>{where}: der Regelkreis von Achse {axis} läuft mit {rate_hz} Hz, und alle müssen mit derselben Rate laufen; jenen öffnen oder für seine Rate abstimmen</translation>
+        <translation>{where}: der Regelkreis von Achse {axis} läuft mit {rate_hz} Hz, und alle müssen mit derselben Rate laufen; diesen öffnen oder für seine Rate abstimmen</translation>
     </message>
     <message>
         <source>{where}: the robot&apos;s own controllers run at {sample_s} Hz; tune it for that rate, or set the simulator&apos;s sample_rate_hz to the loop&apos;s</source>
@@ -2572,7 +2572,7 @@
     </message>
     <message>
         <source>{where}: another program uses it; close that program ({said})</source>
-        <translation>{where}: ein anderes Programm verwendet es; jenes schließen ({said})</translation>
+        <translation>{where}: ein anderes Programm verwendet es; das andere schließen ({said})</translation>
     </message>
     <message>
         <source>{where} cannot be opened ({said}); unplug it and plug it in again; see docs/inputs.md</source>
@@ -2624,7 +2624,7 @@
     </message>
     <message>
         <source>name a CSV file</source>
-        <translation>eine CSV-Datei nennen</translation>
+        <translation>eine CSV-Datei angeben</translation>
     </message>
     <message>
         <source>{path}: cannot be read: {error}</source>
@@ -2672,7 +2672,7 @@
     </message>
     <message>
         <source>{name}: axis {axis} needs the columns {axis}.{source} and {axis}.{meas} or {axis}.{ref}; record them, or name an axis that has them</source>
-        <translation>{name}: Achse {axis} braucht die Spalten {axis}.{source} und {axis}.{meas} oder {axis}.{ref}; sie aufzeichnen oder eine Achse nennen, die sie hat</translation>
+        <translation>{name}: Achse {axis} braucht die Spalten {axis}.{source} und {axis}.{meas} oder {axis}.{ref}; sie aufzeichnen oder eine Achse angeben, die sie hat</translation>
     </message>
     <message>
         <source>{name}: axis {axis} is commanded over {travel}, less than {least_travel} of its range of {span}; record larger motions</source>
@@ -2688,7 +2688,7 @@
     </message>
     <message>
         <source>there is no record to train on; name at least one</source>
-        <translation>keine Aufzeichnung zum Trainieren; mindestens eine nennen</translation>
+        <translation>keine Aufzeichnung zum Trainieren; mindestens eine angeben</translation>
     </message>
     <message>
         <source>{name}: its rows come every {sample_s} s, those of {first_name} every {first_sample_s} s; resample them to one rate (rotemina convert)</source>
@@ -2840,7 +2840,7 @@
     </message>
     <message>
         <source>excitation: no axis is named; name at least one</source>
-        <translation>Anregung: keine Achse genannt; mindestens eine nennen</translation>
+        <translation>Anregung: keine Achse genannt; mindestens eine angeben</translation>
     </message>
     <message>
         <source>seed {seed}: must be 0 or more</source>
@@ -3223,7 +3223,7 @@
     </message>
     <message>
         <source>name a record file</source>
-        <translation>eine Datei mit einer Aufzeichnung nennen</translation>
+        <translation>eine Datei mit einer Aufzeichnung angeben</translation>
     </message>
     <message>
         <source>{name}:{line}: the compressed file expands to more than {expanded_bytes} bytes; unpack or split it</source>
@@ -3407,11 +3407,11 @@
     </message>
     <message>
         <source>{where}:{index}: the header names {found} where you named {asked}; use the same name, or omit it</source>
-        <translation>{where}:{index}: die Kopfzeile nennt {found}, genannt wurde {asked}; dasselbe nennen oder es der Kopfzeile überlassen</translation>
+        <translation>{where}:{index}: die Kopfzeile nennt {found}, genannt wurde {asked}; dasselbe angeben oder es der Kopfzeile überlassen</translation>
     </message>
     <message>
         <source>{where}:1: the file has no header row; name its columns, such as &apos;{example}&apos;</source>
-        <translation>{where}:1: die Datei hat keine Kopfzeile; ihre Spalten nennen, etwa &apos;{example}&apos;</translation>
+        <translation>{where}:1: die Datei hat keine Kopfzeile; ihre Spalten benennen, etwa &apos;{example}&apos;</translation>
     </message>
     <message>
         <source>{name}: no such shipped models; choose from {names}</source>
@@ -3467,7 +3467,7 @@
     </message>
     <message>
         <source>{name} already exists; name another file</source>
-        <translation>{name}: gibt es schon; eine andere Datei nennen</translation>
+        <translation>{name}: gibt es schon; eine andere Datei angeben</translation>
     </message>
     <message>
         <source>{source}: would not read back to the same {names}</source>
@@ -3763,11 +3763,11 @@
     </message>
     <message>
         <source>{name} is a folder; name a file in it</source>
-        <translation>{name}: das ist ein Ordner; eine Datei darin nennen</translation>
+        <translation>{name}: das ist ein Ordner; eine Datei darin angeben</translation>
     </message>
     <message>
         <source>{name} is a device, not a file; name a file</source>
-        <translation>{name}: das ist ein Gerät und keine Datei; eine Datei nennen</translation>
+        <translation>{name}: das ist ein Gerät und keine Datei; eine Datei angeben</translation>
     </message>
     <message>
         <source>{name} cannot be written ({reason}); choose another folder, or free disk space</source>
@@ -4136,7 +4136,7 @@
     </message>
     <message>
         <source>{side}: no channel chosen; name at least one</source>
-        <translation>{side}: kein Kanal gewählt; mindestens einen nennen</translation>
+        <translation>{side}: kein Kanal gewählt; mindestens einen angeben</translation>
     </message>
     <message>
         <source>{side}: the record has no {channel}; it has {names}</source>
@@ -4289,7 +4289,7 @@
     </message>
     <message>
         <source>robot {name} has no axis {missing}; the plate carries {axes}: name a robot that has them</source>
-        <translation>Roboter {name}: keine Achse {missing}; die Platte trägt {axes}: einen Roboter nennen, der sie hat</translation>
+        <translation>Roboter {name}: keine Achse {missing}; die Platte trägt {axes}: einen Roboter angeben, der sie hat</translation>
     </message>
     <message>
         <source>at the hub</source>
@@ -4308,8 +4308,8 @@
         <translation>Steifigkeit {name}</translation>
     </message>
     <message>
-        <source>the plate yields within the range of motion: {stress} MPa {place_text} at zn {zn} µm, thx {thx} µrad, thy {thy} µrad; it bears {yield_stress} MPa: make it thinner or wider</source>
-        <translation>die Platte fließt innerhalb des Bewegungsbereichs: {stress} MPa {place_text} bei zn {zn} µm, thx {thx} µrad, thy {thy} µrad; sie trägt {yield_stress} MPa: dünner oder breiter machen</translation>
+        <source>the plate yields within the range of motion: {stress} MPa {place_text} at zn {zn} µm, thx {thx} µrad, thy {thy} µrad; its yield strength is {yield_stress} MPa: make it thinner or wider</source>
+        <translation>die Platte fließt innerhalb des Bewegungsbereichs: {stress} MPa {place_text} bei zn {zn} µm, thx {thx} µrad, thy {thy} µrad; ihre Streckgrenze ist {yield_stress} MPa: dünner oder breiter machen</translation>
     </message>
     <message>
         <source>robot {robot}: axis.{axis} has no mass and stiffness of its own; give mass, damping and stiffness to put the plate&apos;s there</source>
@@ -4530,7 +4530,7 @@
     </message>
     <message>
         <source>{folder}: folder not found; create it, or name another one</source>
-        <translation>{folder}: diesen Ordner gibt es nicht; anlegen oder einen anderen nennen</translation>
+        <translation>{folder}: diesen Ordner gibt es nicht; anlegen oder einen anderen angeben</translation>
     </message>
     <message>
         <source>{place} already exists and is not overwritten; choose another name or folder</source>
@@ -4618,7 +4618,7 @@
     </message>
     <message>
         <source>tip path: {rms} rms, {peak} peak apart</source>
-        <translation>Bahn der Spitze: Abstand {rms} effektiv, {peak} maximal</translation>
+        <translation>Bahn der Spitze: Abstand {rms} rms, {peak} maximal</translation>
     </message>
     <message>
         <source>there is no previous position</source>
@@ -5048,7 +5048,7 @@
     </message>
     <message>
         <source>no answer within {limit} s</source>
-        <translation>keine Antwort binnen {limit} s</translation>
+        <translation>keine Antwort innerhalb von {limit} s</translation>
     </message>
     <message>
         <source>en</source>
@@ -5104,7 +5104,7 @@
     </message>
     <message>
         <source>Gap: rms of measured − model in use, offset included, while anything moves and 0.5 s after.</source>
-        <translation>Abweichung: rms von gemessen − verwendetes Modell, mit Versatz, solange sich etwas bewegt und 0,5 s danach.</translation>
+        <translation>Abweichung: Effektivwert von gemessen − verwendetes Modell, mit Versatz, solange sich etwas bewegt und 0,5 s danach.</translation>
     </message>
     <message>
         <source>No axis moved.</source>
@@ -5236,7 +5236,7 @@
     </message>
     <message>
         <source>Command, model in use and measured of {axis}, and the gap</source>
-        <translation>Sollwert, verwendetes Modell und Messwert von {axis}, und die Abweichung</translation>
+        <translation>Sollwert, verwendetes Modell und Messwert von {axis} sowie die Abweichung</translation>
     </message>
     <message>
         <source>axis {axis}: {parameter} {asked} → {used} (× {factor}), for {cause}</source>

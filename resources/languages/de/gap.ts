@@ -511,7 +511,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>95-%-Intervall des Rests, in Rauschgrenzen</translation>
     </message>
     <message>
-        <source>Candidates, likeliest first</source>
+        <source>Candidates, most likely first</source>
         <translation>Kandidaten, der wahrscheinlichste zuerst</translation>
     </message>
     <message>
@@ -704,7 +704,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>no record was given; name at least one</source>
-        <translation>keine Aufzeichnung angegeben; mindestens eine nennen</translation>
+        <translation>keine Aufzeichnung angegeben; mindestens eine angeben</translation>
     </message>
     <message>
         <source>{listed}: no measured channel (u, ref or meas) but only commands; give records of the real machine</source>
@@ -712,7 +712,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>{name}: robot {robot_name} has no axis {axis}; its axes are {names}; name the right robot by --robot</source>
-        <translation>{name}: Roboter {robot_name} hat keine Achse {axis}; seine Achsen sind {names}; den richtigen Roboter mit --robot nennen</translation>
+        <translation>{name}: Roboter {robot_name} hat keine Achse {axis}; seine Achsen sind {names}; den richtigen Roboter mit --robot angeben</translation>
     </message>
     <message>
         <source>{name}: axis {axis} is in units of {units}, but robot {robot_name} moves it in units of {unit}; correct the unit</source>
@@ -859,7 +859,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Rest auf Prüfdaten, rms [Rauschgrenzen]; mit Wahrscheinlichkeit</translation>
     </message>
     <message>
-        <source>Candidates, likeliest first: {names}</source>
+        <source>Candidates, most likely first: {names}</source>
         <translation>Kandidaten, der wahrscheinlichste zuerst: {names}</translation>
     </message>
     <message>
@@ -989,7 +989,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
         <translation>Aufzeichnung {number} ({rows} Zeilen, {duration} s)</translation>
     </message>
     <message>
-        <source>{name}: time leaps {count} ×, by up to {longest_s} s, and no piece between has more than {max} rows; a diagnosis needs {least_rows} or more without a leap: leave the record out, or record without losses</source>
+        <source>{name}: time jumps {count} ×, by up to {longest_s} s, and no piece between has more than {max} rows; a diagnosis needs {least_rows} or more without a jump: leave the record out, or record without losses</source>
         <translation>{name}: die Zeit springt {count}-mal, um bis zu {longest_s} s, und kein Stück dazwischen hat mehr als {max} Zeilen; eine Diagnose braucht mindestens {least_rows} ohne Sprung: die Aufzeichnung weglassen oder ohne Verluste aufzeichnen</translation>
     </message>
     <message>
@@ -1082,7 +1082,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Rms of the model&apos;s gap within each band, in noise floors. Regimes overlap: forward motion is also fast or slow.</source>
-        <translation>Rms der Modellabweichung im jeweiligen Band, in Rauschgrenzen. Bewegungsarten überschneiden sich: eine Vorwärtsbewegung ist auch schnell oder langsam.</translation>
+        <translation>Effektivwert der Modellabweichung im jeweiligen Band, in Rauschgrenzen. Bewegungsarten überschneiden sich: eine Vorwärtsbewegung ist auch schnell oder langsam.</translation>
     </message>
     <message>
         <source>Which effect causes it</source>
@@ -1138,7 +1138,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>Rms of the gap on data that no fit saw: with the model as it is, with its own parameters re-tuned, and with one effect after another.</source>
-        <translation>Rms der Abweichung auf Daten, die keine Anpassung sah: mit dem Modell, wie es ist, mit neu abgestimmten eigenen Parametern und mit einem Effekt nach dem anderen.</translation>
+        <translation>Effektivwert der Abweichung auf Daten, die keine Anpassung sah: mit dem Modell, wie es ist, mit neu abgestimmten eigenen Parametern und mit einem Effekt nach dem anderen.</translation>
     </message>
     <message>
         <source>raw</source>
@@ -1346,11 +1346,11 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>axis {missing} of the commands: the motion before has {names}; name a record of all axes that are commanded</source>
-        <translation>Achse {missing} der Sollwerte: die Bewegung davor hat {names}; eine Aufzeichnung aller bewegten Achsen nennen</translation>
+        <translation>Achse {missing} der Sollwerte: die Bewegung davor hat {names}; eine Aufzeichnung aller bewegten Achsen angeben</translation>
     </message>
     <message>
         <source>the motion before and the commands differ in mode; name a record of one</source>
-        <translation>die Bewegung davor und die Sollwerte unterscheiden sich in mode; eine Aufzeichnung mit demselben mode nennen</translation>
+        <translation>die Bewegung davor und die Sollwerte unterscheiden sich in mode; eine Aufzeichnung mit demselben mode angeben</translation>
     </message>
     <message>
         <source>axis {axis} of the commands: the diagnosed robot {name} has {names}</source>
@@ -1370,7 +1370,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>name the JSON file of a diagnosis</source>
-        <translation>die JSON-Datei einer Diagnose nennen</translation>
+        <translation>die JSON-Datei einer Diagnose angeben</translation>
     </message>
     <message>
         <source>the document</source>
@@ -1378,7 +1378,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>{name}: format = {short}: must be {format}; name a file that &apos;rotemina gap diagnose --json&apos; wrote</source>
-        <translation>{name}: format = {short}: muss {format} sein; eine Datei nennen, die &apos;rotemina gap diagnose --json&apos; geschrieben hat</translation>
+        <translation>{name}: format = {short}: muss {format} sein; eine Datei angeben, die &apos;rotemina gap diagnose --json&apos; geschrieben hat</translation>
     </message>
     <message>
         <source>{name}: model.effects = {short}: must be a list</source>
@@ -1386,7 +1386,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>{name}: {key} = {short}: must be an object; name a file that &apos;rotemina gap diagnose --json&apos; wrote</source>
-        <translation>{name}: {key} = {short}: muss ein Objekt sein; eine Datei nennen, die &apos;rotemina gap diagnose --json&apos; geschrieben hat</translation>
+        <translation>{name}: {key} = {short}: muss ein Objekt sein; eine Datei angeben, die &apos;rotemina gap diagnose --json&apos; geschrieben hat</translation>
     </message>
     <message>
         <source>{name}: {key} = {short}: must be one of {names}</source>
@@ -1538,7 +1538,7 @@ Press “New motion …”, or play any trajectory of the diagnosed axes.</sourc
     </message>
     <message>
         <source>{fspath} already exists; name another file</source>
-        <translation>{fspath}: gibt es schon; eine andere Datei nennen</translation>
+        <translation>{fspath}: gibt es schon; eine andere Datei angeben</translation>
     </message>
     <message>
         <source>Record and signal</source>
@@ -1871,7 +1871,7 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>Alle Effekte, die die Achse haben kann, werden gesichtet.</translation>
     </message>
     <message>
-        <source>Fitting the likeliest candidates to the records, in parallel.</source>
+        <source>Fitting the most likely candidates to the records, in parallel.</source>
         <translation>Die wahrscheinlichsten Kandidaten werden parallel an die Aufzeichnungen angepasst.</translation>
     </message>
     <message>
@@ -1951,7 +1951,7 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>Während {record}: {noted}.</translation>
     </message>
     <message>
-        <source>Alternatives to the leading cause, likeliest first; possible causes are highlighted</source>
+        <source>Alternatives to the leading cause, most likely first; possible causes are highlighted</source>
         <translation>Alternativen zur führenden Ursache, die wahrscheinlichste zuerst; mögliche Ursachen sind hervorgehoben</translation>
     </message>
     <message>
@@ -1995,7 +1995,7 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>; {rows} Zeilen in Stücken von weniger als {least} bleiben weg</translation>
     </message>
     <message>
-        <source>Time leaps {n} ×, by up to {time} s: the record is split there, and the history of each piece is unknown{left_out}.</source>
+        <source>Time jumps {n} ×, by up to {time} s: the record is split there, and the history of each piece is unknown{left_out}.</source>
         <translation>Die Zeit springt {n} ×, um bis zu {time} s: die Aufzeichnung wird dort geteilt, und die Vorgeschichte jedes Stücks ist unbekannt{left_out}.</translation>
     </message>
     <message>

@@ -57,7 +57,7 @@
     </message>
     <message>
         <source>Calibrate the sensor of an axis against a laser: &quot;plan&quot; writes the motion, &quot;fit&quot; makes a calibration from records with meas and ref of the axis, &quot;run&quot; does both on the simulator, &quot;show&quot; prints a calibration, &quot;list&quot; prints the stored ones.</source>
-        <translation>Kalibriert den Sensor einer Achse gegen einen Laser: „plan“ schreibt die Bewegung, „fit“ macht aus Aufzeichnungen mit meas und ref der Achse eine Kalibrierung, „run“ macht beides am Simulator, „show“ zeigt eine Kalibrierung, „list“ die gespeicherten.</translation>
+        <translation>Kalibriert den Sensor einer Achse gegen einen Laser: „plan“ schreibt die Bewegung, „fit“ erstellt aus Aufzeichnungen mit meas und ref der Achse eine Kalibrierung, „run“ erledigt beides am Simulator, „show“ zeigt eine Kalibrierung, „list“ die gespeicherten.</translation>
     </message>
     <message>
         <source>print what a calibration holds</source>
@@ -73,7 +73,7 @@
     </message>
     <message>
         <source>make a calibration from records</source>
-        <translation>macht aus Aufzeichnungen eine Kalibrierung</translation>
+        <translation>erstellt aus Aufzeichnungen eine Kalibrierung</translation>
     </message>
     <message>
         <source>record of the laser itself, one for each RECORD; the motion matches their clocks</source>
@@ -397,7 +397,7 @@
     </message>
     <message>
         <source>make a test motion that stays inside the robot&apos;s limits</source>
-        <translation>macht eine Testbewegung innerhalb der Grenzen des Roboters</translation>
+        <translation>erzeugt eine Testbewegung innerhalb der Grenzen des Roboters</translation>
     </message>
     <message>
         <source>Write a trajectory that excites axes of a robot. It never leaves the range, voltage, speed and acceleration of an axis; a request beyond them is reduced and reported. A value can be given per axis: --amplitude x=5um,thx=200urad</source>
@@ -621,7 +621,7 @@
     </message>
     <message>
         <source>Turn the plate into entries of a robot file, and print how far they are from its present ones. Damping stays.</source>
-        <translation>Macht aus der Platte Einträge einer Roboterdatei und gibt aus, wie weit sie von den vorhandenen entfernt sind. Die Dämpfung bleibt.</translation>
+        <translation>Wandelt die Platte in Einträge einer Roboterdatei um und gibt aus, wie weit sie von den vorhandenen entfernt sind. Die Dämpfung bleibt.</translation>
     </message>
     <message>
         <source>elements around the circumference (default: %(default)s)</source>

@@ -522,7 +522,7 @@
     </message>
     <message>
         <source>Move around the present position; off: around the middle of the range</source>
-        <translation>Um die jetzige Position bewegen; aus: um die Mitte des Bereichs</translation>
+        <translation>Um die aktuelle Position bewegen; aus: um die Mitte des Bereichs</translation>
     </message>
     <message>
         <source>Play the motion and analyse the record</source>

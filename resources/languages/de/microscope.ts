@@ -518,8 +518,8 @@
         <translation>Spur löschen</translation>
     </message>
     <message>
-        <source>Forget where the tip has been; nothing moves</source>
-        <translation>Die Spur der Spitze vergessen; nichts bewegt sich</translation>
+        <source>Clear the trail of the tip; nothing moves</source>
+        <translation>Die Spur der Spitze löschen; nichts bewegt sich</translation>
     </message>
     <message>
         <source>no place is chosen</source>
@@ -913,7 +913,7 @@ Membran: {ahead} zur Membrannormalen</translation>
     </message>
     <message>
         <source>Search distance each way from the present position, above 0 µm</source>
-        <translation>Suchweite je Richtung von der jetzigen Position, über 0 µm</translation>
+        <translation>Suchweite je Richtung von der aktuellen Position, über 0 µm</translation>
     </message>
     <message>
         <source>search distance</source>
@@ -983,7 +983,7 @@ Membran: {ahead} zur Membrannormalen</translation>
     </message>
     <message>
         <source>Open this camera and close the present one</source>
-        <translation>Diese Kamera öffnen und die jetzige schließen</translation>
+        <translation>Diese Kamera öffnen und die aktuelle schließen</translation>
     </message>
     <message>
         <source>Objective in use; each has its own calibration. Enter a name to add one</source>

@@ -479,10 +479,6 @@
         <translation>Zeit</translation>
     </message>
     <message>
-        <source>Verdict</source>
-        <translation>Ausgang</translation>
-    </message>
-    <message>
         <source>Contact</source>
         <translation>Kontakt</translation>
     </message>
@@ -528,7 +524,7 @@
     </message>
     <message>
         <source>noise, rms</source>
-        <translation>Rauschen, effektiv</translation>
+        <translation>Rauschen, rms</translation>
     </message>
     <message>
         <source>detector&apos;s threshold</source>
@@ -797,7 +793,7 @@
     </message>
     <message>
         <source>Add a cell at the present position, with the tip above it</source>
-        <translation>Eine Zelle an der jetzigen Position hinzufügen, die Spitze darüber</translation>
+        <translation>Eine Zelle an der aktuellen Position hinzufügen, die Spitze darüber</translation>
     </message>
     <message>
         <source>Go to the next waiting cell: up, across, down</source>
@@ -877,7 +873,7 @@
         <translation>Größter Abstand vom Profil, ohne konstante Totzeit</translation>
     </message>
     <message>
-        <source>Reason for the verdict</source>
+        <source>Reason for the outcome</source>
         <translation>Grund des Ausgangs</translation>
     </message>
     <message>
@@ -918,7 +914,7 @@
     </message>
     <message>
         <source>Travel from the present position to the end of the range, towards the cell</source>
-        <translation>Weg von der jetzigen Position bis zum Ende des Bereichs, in Richtung der Zelle</translation>
+        <translation>Weg von der aktuellen Position bis zum Ende des Bereichs, in Richtung der Zelle</translation>
     </message>
     <message>
         <source>Commanded distance from the start of the run</source>
@@ -1023,7 +1019,7 @@
     </message>
     <message>
         <source>Place a cell ahead of the present position of the axis, or move it there</source>
-        <translation>Eine Zelle vor der jetzigen Position der Achse setzen oder dorthin verschieben</translation>
+        <translation>Eine Zelle vor der aktuellen Position der Achse setzen oder dorthin verschieben</translation>
     </message>
     <message>
         <source>Place cell</source>

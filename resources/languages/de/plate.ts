@@ -188,7 +188,7 @@
     </message>
     <message>
         <source>{stress:.1f} MPa von Mises {place}; safety {factor:.2f} against yield at {limit:.0f} MPa</source>
-        <translation>{stress:.1f} MPa von Mises {place}; Sicherheit {factor:.2f} gegen {limit:.0f} MPa</translation>
+        <translation>{stress:.1f} MPa von Mises {place}; Sicherheit {factor:.2f} gegen Fließen bei {limit:.0f} MPa</translation>
     </message>
     <message>
         <source>THE PLATE YIELDS: {said}</source>

@@ -76,7 +76,7 @@
     </message>
     <message>
         <source>Another run beside the present one</source>
-        <translation>Ein anderer Lauf neben dem jetzigen</translation>
+        <translation>Ein anderer Lauf neben dem aktuellen</translation>
     </message>
     <message>
         <source>No other run</source>
@@ -148,7 +148,7 @@
     </message>
     <message>
         <source>Record beside the present run</source>
-        <translation>Aufzeichnung neben dem jetzigen Lauf</translation>
+        <translation>Aufzeichnung neben dem aktuellen Lauf</translation>
     </message>
     <message>
         <source>The library has no records: play or record a motion first.</source>

@@ -328,11 +328,11 @@
     </message>
     <message>
         <source>Start the section at the present time of the replay</source>
-        <translation>Den Abschnitt am jetzigen Zeitpunkt der Wiedergabe beginnen</translation>
+        <translation>Den Abschnitt am aktuellen Zeitpunkt der Wiedergabe beginnen</translation>
     </message>
     <message>
         <source>End the section at the present time of the replay</source>
-        <translation>Den Abschnitt am jetzigen Zeitpunkt der Wiedergabe beenden</translation>
+        <translation>Den Abschnitt am aktuellen Zeitpunkt der Wiedergabe beenden</translation>
     </message>
     <message>
         <source>Delete {names}? This permanently deletes {size} from the disk. Files in other folders stay; only their entries are removed.</source>
@@ -372,7 +372,7 @@
     </message>
     <message>
         <source>Enter writes the remark into the recording with the present time</source>
-        <translation>Enter schreibt die Bemerkung mit der jetzigen Zeit in die Aufnahme</translation>
+        <translation>Enter schreibt die Bemerkung mit der aktuellen Zeit in die Aufnahme</translation>
     </message>
     <message>
         <source>Start a recording whenever the program starts</source>
@@ -392,7 +392,7 @@
     </message>
     <message>
         <source>Write the remark into the recording with the present time</source>
-        <translation>Die Bemerkung mit der jetzigen Zeit in die Aufnahme schreiben</translation>
+        <translation>Die Bemerkung mit der aktuellen Zeit in die Aufnahme schreiben</translation>
     </message>
     <message>
         <source>Starting the recording …</source>

@@ -1719,7 +1719,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>State of the machine at that time; the tool bar shows the present state</source>
-        <translation>Damaliger Zustand der Maschine; die Werkzeugleiste zeigt den jetzigen</translation>
+        <translation>Damaliger Zustand der Maschine; die Werkzeugleiste zeigt den aktuellen</translation>
     </message>
     <message>
         <source>The machine is moving now</source>
@@ -1940,7 +1940,7 @@ Das Programm enthält keine Seite {name!r}. [Alle Seiten]</translation>
     </message>
     <message>
         <source>{name}: recorded on robot {robot!r} with axes {axes}, but the robot of this window has {here}. Start a window for that robot: rotemina recording info --robot-file {path} &gt; {file} &amp;&amp; rotemina --robot {file}</source>
-        <translation>{name}: aufgenommen am Roboter {robot!r} mit den Achsen {axes}, aber der Roboter dieses Fensters hat {here}. Ein Fenster für jenen Roboter starten: rotemina recording info --robot-file {path} &gt; {file} &amp;&amp; rotemina --robot {file}</translation>
+        <translation>{name}: aufgenommen am Roboter {robot!r} mit den Achsen {axes}, aber der Roboter dieses Fensters hat {here}. Ein Fenster für diesen Roboter starten: rotemina recording info --robot-file {path} &gt; {file} &amp;&amp; rotemina --robot {file}</translation>
     </message>
     <message>
         <source>{name} cannot be shown: the machine is moving; wait, or stop it first</source>

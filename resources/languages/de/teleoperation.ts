@@ -344,7 +344,7 @@ Leer  Kupplung</translation>
     </message>
     <message>
         <source>Present factor</source>
-        <translation>Jetziger Faktor</translation>
+        <translation>Aktueller Faktor</translation>
     </message>
     <message>
         <source>to mid-range while the tables hold the tip in place</source>
@@ -368,11 +368,11 @@ Leer  Kupplung</translation>
     </message>
     <message>
         <source>Position, and impedance with a spring</source>
-        <translation>Position, und Impedanz mit Feder</translation>
+        <translation>Position sowie Impedanz mit Feder</translation>
     </message>
     <message>
         <source>Rate, and impedance without a spring</source>
-        <translation>Rate, und Impedanz ohne Feder</translation>
+        <translation>Rate sowie Impedanz ohne Feder</translation>
     </message>
     <message>
         <source>Impedance without a spring: time in which the virtual mass reaches its speed</source>

@@ -16,7 +16,7 @@
     </message>
     <message>
         <source>Resample …</source>
-        <translation>Rate …</translation>
+        <translation>Neu abtasten …</translation>
     </message>
     <message>
         <source>{name} – {seconds:.3f} s, {rows} rows</source>
@@ -124,7 +124,7 @@
     </message>
     <message>
         <source>{rms} rms, {peak} peak</source>
-        <translation>{rms} effektiv, {peak} maximal</translation>
+        <translation>{rms} rms, {peak} maximal</translation>
     </message>
     <message>
         <source>{share} of {bound}</source>
@@ -132,7 +132,7 @@
     </message>
     <message>
         <source>{rms} rms</source>
-        <translation>{rms} effektiv</translation>
+        <translation>{rms} rms</translation>
     </message>
     <message>
         <source>the model gives no prediction for this trajectory</source>
@@ -248,7 +248,7 @@
     </message>
     <message>
         <source>Make trajectory</source>
-        <translation>Trajektorie machen</translation>
+        <translation>Trajektorie erzeugen</translation>
     </message>
     <message>
         <source>{n} taught points</source>
@@ -292,11 +292,11 @@
     </message>
     <message>
         <source>Add the present target of the machine after the selected point</source>
-        <translation>Das jetzige Ziel der Maschine hinter dem gewählten Punkt hinzufügen</translation>
+        <translation>Das aktuelle Ziel der Maschine hinter dem gewählten Punkt hinzufügen</translation>
     </message>
     <message>
         <source>Replace the selected point by the present target of the machine</source>
-        <translation>Den gewählten Punkt durch das jetzige Ziel der Maschine ersetzen</translation>
+        <translation>Den gewählten Punkt durch das aktuelle Ziel der Maschine ersetzen</translation>
     </message>
     <message>
         <source>Remove the selected point</source>
@@ -304,7 +304,7 @@
     </message>
     <message>
         <source>Make a trajectory from the points and check it in a dry run</source>
-        <translation>Aus den Punkten eine Trajektorie machen und im Probelauf prüfen</translation>
+        <translation>Aus den Punkten eine Trajektorie erzeugen und im Probelauf prüfen</translation>
     </message>
     <message>
         <source>Path of the tip from above and from the side; dashed: approach to the first row; red: forbidden by floor, objective or radius; frame: reach of the axes.</source>
@@ -315,8 +315,8 @@
         <translation>Ein Klick wechselt zwischen ganzer Reichweite und Bahn.</translation>
     </message>
     <message>
-        <source>the dry run found an objection</source>
-        <translation>der Probelauf fand einen Einwand</translation>
+        <source>the dry run found a problem</source>
+        <translation>der Probelauf fand ein Problem</translation>
     </message>
     <message>
         <source>the axes are still moving</source>
@@ -356,7 +356,7 @@
     </message>
     <message>
         <source>Make a trajectory from taught points</source>
-        <translation>Eine Trajektorie aus eingelernten Punkten machen</translation>
+        <translation>Eine Trajektorie aus eingelernten Punkten erzeugen</translation>
     </message>
     <message>
         <source>Start of the playback in seconds</source>

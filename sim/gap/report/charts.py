@@ -98,7 +98,7 @@ def ranking(candidates: Sequence[Ranked]) -> Markup | None:
         )
 
     names = ", ".join(map(candidate_name, ranked))
-    about = said(marked("gap", "Candidates, likeliest first: {names}"), names=names)
+    about = said(marked("gap", "Candidates, most likely first: {names}"), names=names)
     return picture(_WIDTH, 0.9 + 0.27 * len(ranked), draw, about)
 
 

@@ -24,7 +24,7 @@ def test_a_refusal_is_german_where_german_is_asked_for_or_spoken(capsys, monkeyp
     english = "rotemina: missing.csv cannot be read (file not found); name a record file\n"
     german = (
         "rotemina: missing.csv kann nicht gelesen werden (Datei nicht gefunden); eine Datei "
-        "mit einer Aufzeichnung nennen\n"
+        "mit einer Aufzeichnung angeben\n"
     )
     assert refusal(capsys) == english
     assert refusal(capsys, "--language", "de") == german

@@ -151,4 +151,4 @@ def test_a_split_record_is_diagnosed_in_pieces():
     lost = Record(record.time_s[kept], record.columns, record.values[kept], record.units)
     answer = diagnose(ROBOT, [lost])
     assert answer.causes[0].effect == "gain_error"
-    assert any(str(one).startswith("Time leaps 1 ×") for one in answer.axes["x"].remarks)
+    assert any(str(one).startswith("Time jumps 1 ×") for one in answer.axes["x"].remarks)

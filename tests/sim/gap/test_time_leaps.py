@@ -25,7 +25,7 @@ def test_a_record_is_split_where_time_leaps():
     [caution] = check(ROBOT, [record])
     assert (caution.axis, caution.record) == (None, 0)
     assert str(caution.text) == (
-        "Time leaps 3 ×, by up to 1.5 s: the record is split there, and the history of "
+        "Time jumps 3 ×, by up to 1.5 s: the record is split there, and the history of "
         "each piece is unknown; 100 rows in pieces shorter than 100 are omitted."
     )
     first, second = pieces([record], ["a.csv"])
@@ -45,7 +45,7 @@ def test_what_came_before_a_piece_of_a_periodic_record_is_unknown():
 def test_short_leaps_split_where_an_axis_is_under_way():
     record = measured()
     [caution] = check(ROBOT, [with_leap(record, 0.25, 1000)])
-    assert str(caution.text).startswith("Time leaps 1 ×, by up to 0.251 s: the record is split")
+    assert str(caution.text).startswith("Time jumps 1 ×, by up to 0.251 s: the record is split")
     at_rest = with_leap(record, 0.25, 3900)
     assert len(pieces([at_rest])) == 1
     [caution] = check(ROBOT, [at_rest])
@@ -64,8 +64,8 @@ def test_slow_rows_are_no_leaps():
 def test_a_record_of_which_no_piece_is_long_enough_is_refused():
     record = with_leap(measured(rows=300), 2.0, 99, 198, 210)
     assert refusal(record, measured(seed=1), names=["a.csv", "b.csv"]) == (
-        "a.csv: time leaps 3 ×, by up to 2 s, and no piece between has more than 99 rows; a "
-        "diagnosis needs 100 or more without a leap: leave the record out, or record without losses"
+        "a.csv: time jumps 3 ×, by up to 2 s, and no piece between has more than 99 rows; a "
+        "diagnosis needs 100 or more without a jump: leave the record out, or record without losses"
     )
 
 

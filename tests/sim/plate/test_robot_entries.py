@@ -69,7 +69,9 @@ def test_coupling_that_the_plate_has_not_goes(solutions):
 def test_plate_that_yields_in_its_range_is_refused_with_the_place(solutions):
     weak = replace(ROBOT.plate, yield_stress=2.0e8)
     held = replace(solutions.held, plate=weak)
-    with pytest.raises(PlateError, match=r"yields .*: 278 MPa at the hub, .* bears 200"):
+    with pytest.raises(
+        PlateError, match=r"yields .*: 278 MPa at the hub, .* yield strength is 200"
+    ):
         applied(replace(ROBOT, plate=weak), replace(solutions, held=held))
 
 

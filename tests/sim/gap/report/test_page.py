@@ -253,5 +253,5 @@ def test_what_could_not_be_worked_out_has_no_place_in_the_drawings(diagnosis, re
     )
     page = Page(report_text(replace(diagnosis, axes={"thx": open_ended}), records))
     assert "nan" not in page.text
-    assert "Candidates, likeliest first" not in " ".join(page.values("aria-label"))
+    assert "Candidates, most likely first" not in " ".join(page.values("aria-label"))
     assert "width 120 µrad/m – 0.00012 rad/m high" in page.text
