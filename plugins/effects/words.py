@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from rotemina.plugins.effects import tr
 from rotemina.sim.effects.formulation import Effect, Stage
-from rotemina.sim.effects.registry import all_effects
+from rotemina.sim.effects.registry import all_effects, is_built_in
 
 _WEIGHT = re.compile(r"(?P<name>w\d+), weight of the play with threshold (?P<threshold>\S+)")
 
@@ -17,7 +17,7 @@ def catalogue() -> Iterator[str]:
     """Yield the words of the shipped effects: ``make languages`` looks here for what is said."""
     yield from (stage.value for stage in Stage)
     for effect in all_effects()[0].values():
-        if type(effect).__module__.startswith("rotemina."):
+        if is_built_in(effect.id):
             yield from (effect.title, effect.summary)
             for formulation in effect.formulations:
                 yield spoken(formulation.name)

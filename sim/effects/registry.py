@@ -30,6 +30,11 @@ def _built_in(point: EntryPoint) -> bool:
     return point.value.startswith("rotemina.sim.effects.")
 
 
+def is_built_in(effect_id: str) -> bool:
+    """Tell whether an installed effect is one of the program's own, and no plugin's."""
+    return _built_in(_points()[effect_id])
+
+
 def effect_ids() -> tuple[str, ...]:
     """Return the ids of all installed effects, sorted."""
     return tuple(sorted(_points()))
