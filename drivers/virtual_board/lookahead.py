@@ -13,9 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
+from rotemina.sim.plant.effect_switch import taken_over
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.random_draws import Chance
 from rotemina.sim.plant.state import PlantState
+from rotemina.sim.robot.model import AxisEffect
 
 _AHEAD = 100  # ticks
 
@@ -99,6 +101,13 @@ class PlantRun:
         if len(parts) == 1:
             return parts[0]
         return Response(*(np.concatenate(both) for both in zip(*parts, strict=True)))
+
+    def go_on_with(self, effects: tuple[AxisEffect, ...]) -> None:
+        """Continue with other effects, from where the axes are and as fast as they are."""
+        self._settle()
+        robot = replace(self._plant.robot, effects=effects)
+        plant = Plant.of(robot, closed_loop=True)
+        self._plant, self._state = plant, taken_over(plant, self._plant, self._state)
 
     def _use(self, beyond: _Prediction, ticks: int) -> Response:
         """Return what was found ahead of the next ticks, as far as it goes."""

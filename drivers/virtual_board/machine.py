@@ -8,7 +8,7 @@ from rotemina.drivers.mc68hc11.axes import BoardAxis
 from rotemina.drivers.virtual_board.lookahead import PlantRun
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.plant.plant import Plant
-from rotemina.sim.robot.model import Robot, StepperAxis
+from rotemina.sim.robot.model import AxisEffect, Robot, StepperAxis
 
 Preview = Callable[[int], FloatArray | None]  # whole steps (ticks, own axes) that will come next
 
@@ -87,6 +87,11 @@ class Machine:
     def thaw(self, index: int) -> None:
         """Release a frozen sensor."""
         self._frozen.pop(index, None)
+
+    def set_effects(self, effects: tuple[AxisEffect, ...]) -> None:
+        """Continue with other effects, from where the axes are and as fast as they are."""
+        self.simulate()
+        self._run.go_on_with(effects)
 
     def add(self, steps: FloatArray) -> None:
         """Let commands (ticks, axes), whole steps, act at the next ticks."""
