@@ -38,7 +38,7 @@ _BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
 _AS_SLOW = 0.7  # the same for what is as slow as a wander
 _LIKELIER = 0.6  # probability from which a rival takes a cause's place
 _TIMES_LIKELIER = 2.5  # the same beside that of the cause
-_TURNS = 2  # in which rivals may take a cause's place: one may be simpler beside another
+_TURNS = 6  # at most, in which rivals take a cause's place until none is likelier
 _AS_GOOD = 1.03  # times a score
 _WELL = 1.5  # times a score, above which a twin that was tried is fitted again
 _LOAD_ABOVE = 1.8  # times an axis' resonance, from where that of a mass on it is looked for
@@ -120,7 +120,8 @@ def _with_the_likeliest(
 def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
     """Return the explanation with a rival in the place of a cause, if that is by far likelier.
 
-    It does about as well with fewer parameters.
+    It does about as well with fewer parameters. Of those by the same effects, which began at
+    different numbers, the one that leaves least.
     """
     found = [
         own[0]
@@ -131,8 +132,13 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
             or own[0].probability >= _TIMES_LIKELIER * probability(own, key)
         )
     ]
-    surest = max(found, key=lambda one: one.probability, default=None)
-    return None if surest is None else surest.explanation
+    if not found:
+        return None
+    ids = max(found, key=lambda one: one.probability).explanation.ids
+    alike = [
+        one.explanation for own in ranked.values() for one in own if one.explanation.ids == ids
+    ]
+    return min(alike, key=lambda one: one.score)
 
 
 def _doubt(

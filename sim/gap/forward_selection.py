@@ -55,7 +55,8 @@ _WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one
 _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
 _MUCH_OF_IT = 0.7  # of a gap, that a stop closes where a curve may but follow a softer contact
 _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
-_MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
+_PARTLY_OWN = 0.5  # of the gap, that re-tuning closes for causes to be looked for beside it
+_MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes where its mode is no further cause
 _MUCH_ALONE = 0.3  # of the gap, that a cause closes alone for others to do as well
 _AS_WELL = 1.1  # times its score
 _LEAST_PROMISE = 0.7  # of the score: a best candidate that leaves more is no clear cause
@@ -108,7 +109,7 @@ def select(
     most = MOST_CAUSES if until is None else len(until)
     best = alone if enters(bare, alone) else bare
     beam, tried = [bare], [alone]
-    if alone.score >= NOTICED and closed(bare.score, alone.score) >= _MOSTLY_OWN:
+    if alone.score >= NOTICED and closed(bare.score, alone.score) >= _PARTLY_OWN:
         beam = [bare, alone]
     for level in range(MOST_CAUSES):
         found = _all_extended(evidence, beam, own, bare, account, jobs)

@@ -5,6 +5,9 @@ import json
 import pytest
 
 from rotemina.sim.gap.diagnosis_pipeline import diagnose
+from rotemina.sim.gap.diagnosis_progress import Account
+from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.examination import examine
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot
 
@@ -22,3 +25,11 @@ def test_an_example_is_diagnosed_right(shared_dir, number):
     assert {(cause.axis, cause.effect, cause.from_axis) for cause in found.causes} == {
         (effect["axis"], effect["effect"], effect["from_axis"]) for effect in answer["effects"]
     }
+
+
+def test_a_lateness_is_found_where_the_models_own_parameters_follow_it_half_way(shared_dir):
+    """From one record: a slower and better damped axis closes four fifths of a delay's gap."""
+    robot = load_robot("rotemina")
+    record = read_record(shared_dir / "examples" / "example_20" / "train_1.csv.gz", robot=robot)
+    found = examine(Evidence.of(robot, "y", [record]), Account("y"), jobs=2)
+    assert found.best.ids == (("delay", None),)
