@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
 
+import numpy as np
+
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.kinship import Family
@@ -55,8 +57,9 @@ _WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one
 _WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
 _MUCH_OF_IT = 0.7  # of a gap, that a stop closes where a curve may but follow a softer contact
 _PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
-_PARTLY_OWN = 0.5  # of the gap, that re-tuning closes for causes to be looked for beside it
-_MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes where its mode is no further cause
+_MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
+_PARTLY_OWN = 0.5  # the same, where a first look at the original model is misled
+_MISLED = 2.0  # times what its slopes promise of a re-tuning, that this leaves
 _MUCH_ALONE = 0.3  # of the gap, that a cause closes alone for others to do as well
 _AS_WELL = 1.1  # times its score
 _LEAST_PROMISE = 0.7  # of the score: a best candidate that leaves more is no clear cause
@@ -109,7 +112,7 @@ def select(
     most = MOST_CAUSES if until is None else len(until)
     best = alone if enters(bare, alone) else bare
     beam, tried = [bare], [alone]
-    if alone.score >= NOTICED and closed(bare.score, alone.score) >= _PARTLY_OWN:
+    if alone.score >= NOTICED and closed(bare.score, alone.score) >= _least_own(bare, alone):
         beam = [bare, alone]
     for level in range(MOST_CAUSES):
         found = _all_extended(evidence, beam, own, bare, account, jobs)
@@ -135,6 +138,16 @@ def select(
             break
     simplest = _simplified(evidence, enters, best)
     return Selection(bare, alone, simplest, tuple(sorted(tried, key=lambda one: one.score)))
+
+
+def _least_own(bare: Explanation, alone: Explanation) -> float:
+    """Return the share of the gap from which causes are looked for beside a re-tuned model too.
+
+    A first look leaves out what the slopes of the model's own parameters promise to follow. Where
+    their bounds or curves do not keep that promise, it passes over what is really there.
+    """
+    promised = float(np.mean(bare.fit.beside**2))
+    return _PARTLY_OWN if alone.fit.cost > _MISLED * promised else _MOSTLY_OWN
 
 
 def possible_causes(evidence: Evidence) -> list[AxisEffect]:
