@@ -1357,7 +1357,7 @@
     </message>
     <message>
         <source>The nominal model is in use again: {why}.</source>
-        <translation>Das nominale Modell wird wieder verwendet: {why}.</translation>
+        <translation>Das Nominalmodell wird wieder verwendet: {why}.</translation>
     </message>
     <message>
         <source>{name}: stopped before its first row was played.</source>
@@ -1413,7 +1413,7 @@
     </message>
     <message>
         <source>Back to nominal</source>
-        <translation>Zurück zum nominalen Modell</translation>
+        <translation>Zurück zum Nominalmodell</translation>
     </message>
     <message>
         <source>The model that plots, comparison, dry run and 3-D view use.</source>
@@ -1421,7 +1421,7 @@
     </message>
     <message>
         <source>Nominal model</source>
-        <translation>Nominales Modell</translation>
+        <translation>Nominalmodell</translation>
     </message>
     <message>
         <source>Corrected: {effects}</source>

@@ -16,7 +16,7 @@
     </message>
     <message>
         <source>Resample …</source>
-        <translation>Neu abtasten …</translation>
+        <translation>Abtastung …</translation>
     </message>
     <message>
         <source>{name} – {seconds:.3f} s, {rows} rows</source>
