@@ -273,7 +273,7 @@
     </message>
     <message>
         <source>a run is in progress</source>
-        <translation>ein Lauf ist im Gange</translation>
+        <translation>ein Lauf ist im Gang</translation>
     </message>
     <message>
         <source>Compute the motion and check it against all limits</source>
@@ -289,7 +289,7 @@
     </message>
     <message>
         <source>no run is in progress</source>
-        <translation>kein Lauf ist im Gange</translation>
+        <translation>kein Lauf ist im Gang</translation>
     </message>
 </context>
 <context>

@@ -417,7 +417,7 @@
     </message>
     <message>
         <source>Set the floor at the present height of the tip; nothing moves below it</source>
-        <translation>Den Boden auf die aktuelle Höhe der Spitze setzen; darunter bewegt sich nichts</translation>
+        <translation>Den Boden auf die jetzige Höhe der Spitze setzen; darunter bewegt sich nichts</translation>
     </message>
     <message>
         <source>Remove the lower limit of the tip; only the axis ranges remain</source>
@@ -437,7 +437,7 @@
     </message>
     <message>
         <source>Set the floor at {height}, the present height of the tip? So far {old}.</source>
-        <translation>Den Boden auf {height} setzen, die aktuelle Höhe der Spitze? Bisher {old}.</translation>
+        <translation>Den Boden auf {height} setzen, die jetzige Höhe der Spitze? Bisher {old}.</translation>
     </message>
     <message>
         <source>Remove the floor at {height}? Without a floor only the axis ranges limit the tip.</source>
@@ -473,7 +473,7 @@
     </message>
     <message>
         <source>Return to the position before the latest move: up, across, down</source>
-        <translation>Zur Position vor der letzten Bewegung zurückfahren: heben, verfahren, absenken</translation>
+        <translation>Zur Position vor der letzten Bewegung zurückfahren: hoch, quer, ab</translation>
     </message>
     <message>
         <source>No axis is moving.</source>

@@ -226,11 +226,11 @@
     </message>
     <message>
         <source>Name for the present position</source>
-        <translation>Name für die aktuelle Position</translation>
+        <translation>Name für die jetzige Position</translation>
     </message>
     <message>
         <source>Name for the present position; at most {most} letters</source>
-        <translation>Name für die aktuelle Position; höchstens {most} Buchstaben</translation>
+        <translation>Name für die jetzige Position; höchstens {most} Buchstaben</translation>
     </message>
     <message>
         <source>Delete</source>
@@ -270,11 +270,11 @@
     </message>
     <message>
         <source>Save the present target of all axes</source>
-        <translation>Das aktuelle Ziel aller Achsen speichern</translation>
+        <translation>Das jetzige Ziel aller Achsen speichern</translation>
     </message>
     <message>
         <source>Not set: press twice to save the present target of all axes</source>
-        <translation>Nicht gesetzt: zweimal drücken, um das aktuelle Ziel aller Achsen zu speichern</translation>
+        <translation>Nicht gesetzt: zweimal drücken, um das jetzige Ziel aller Achsen zu speichern</translation>
     </message>
     <message>
         <source>the position is not known</source>
@@ -506,7 +506,7 @@
     </message>
     <message>
         <source>Within {ends}</source>
-        <translation>Innerhalb von {ends}</translation>
+        <translation>Innerhalb {ends}</translation>
     </message>
     <message>
         <source>Range</source>
@@ -538,7 +538,7 @@
     </message>
     <message>
         <source>Return to the position before the latest move: up, across, down</source>
-        <translation>Zur Position vor der letzten Bewegung zurückfahren: heben, verfahren, absenken</translation>
+        <translation>Zur Position vor der letzten Bewegung zurückfahren: hoch, quer, ab</translation>
     </message>
     <message>
         <source>Go to position {name!r} along a safe path; save a new one by this name to move it</source>
@@ -562,7 +562,7 @@
     </message>
     <message>
         <source>Axis whose range and approach are set</source>
-        <translation>Achse, deren Bereich und Anfahrt eingestellt werden</translation>
+        <translation>Achse, deren Bereich und Anfahrt gelten</translation>
     </message>
     <message>
         <source>Overshoot of the approach</source>

@@ -5,7 +5,7 @@
     <name>effects</name>
     <message>
         <source>Formulation</source>
-        <translation>Formulierung</translation>
+        <translation>Ansatz</translation>
     </message>
     <message>
         <source>from</source>
@@ -337,7 +337,7 @@
     </message>
     <message>
         <source>appendage</source>
-        <translation>angehängte Masse</translation>
+        <translation>Anhang</translation>
     </message>
     <message>
         <source>bouc wen</source>
@@ -505,7 +505,7 @@
     </message>
     <message>
         <source>ten plays</source>
-        <translation>zehn Play-Operatoren</translation>
+        <translation>zehn Spiele</translation>
     </message>
     <message>
         <source>third order</source>
@@ -605,7 +605,7 @@
     </message>
     <message>
         <source>of the play</source>
-        <translation>des Play-Operators</translation>
+        <translation>des Spiels</translation>
     </message>
     <message>
         <source>peak of c, as a share of the range</source>
@@ -737,7 +737,7 @@
     </message>
     <message>
         <source>Choose an axis, an effect and its formulation</source>
-        <translation>Eine Achse, einen Effekt und seine Formulierung wählen</translation>
+        <translation>Eine Achse, einen Effekt und seinen Ansatz wählen</translation>
     </message>
     <message>
         <source>Simulate the machine of the robot file, or a worn one for demonstration</source>
@@ -793,7 +793,7 @@
     </message>
     <message>
         <source>Formulation of the effect; its equations appear below</source>
-        <translation>Formulierung des Effekts; ihre Gleichungen stehen darunter</translation>
+        <translation>Ansatz des Effekts; seine Gleichungen stehen darunter</translation>
     </message>
     <message>
         <source>Axis in which the effect originates</source>
@@ -817,7 +817,7 @@
     </message>
     <message>
         <source>1: equal weights of all plays; more: larger weights of wide plays</source>
-        <translation>1: alle Play-Operatoren gleich gewichtet; mehr: breite stärker</translation>
+        <translation>1: alle Spiele gleich gewichtet; mehr: breite stärker</translation>
     </message>
     <message>
         <source>A, final drift</source>
@@ -889,7 +889,7 @@
     </message>
     <message>
         <source>n; an integer on a machine, any number here so that a fit can vary it</source>
-        <translation>n; an der Maschine ganzzahlig, hier beliebig, damit eine Anpassung es variieren kann</translation>
+        <translation>n; an der Maschine ganz, hier beliebig, damit eine Anpassung es ändern kann</translation>
     </message>
     <message>
         <source>duration of a dropout; 0: one sample</source>
@@ -1021,7 +1021,7 @@
     </message>
     <message>
         <source>{name}, weight of the play with threshold {threshold}</source>
-        <translation>{name}, Gewicht des Play-Operators mit Schwelle {threshold}</translation>
+        <translation>{name}, Gewicht des Spiels mit Schwelle {threshold}</translation>
     </message>
 </context>
 <context>

@@ -29,7 +29,7 @@
     </message>
     <message>
         <source>double</source>
-        <translation>verdoppeln</translation>
+        <translation>doppeln</translation>
     </message>
     <message>
         <source>corrupt</source>
@@ -109,7 +109,7 @@
     </message>
     <message>
         <source>Stepper</source>
-        <translation>Schrittmotor</translation>
+        <translation>Stepper</translation>
     </message>
     <message>
         <source>Axis</source>

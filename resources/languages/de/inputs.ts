@@ -493,7 +493,7 @@
     </message>
     <message>
         <source>{names} may control the robot{seat}.</source>
-        <translation>Den Roboter darf steuern: {names}{seat}.</translation>
+        <translation>{names} darf den Roboter steuern{seat}.</translation>
     </message>
     <message>
         <source>{seat}, waiting for {waiting}</source>
@@ -633,7 +633,7 @@
     </message>
     <message>
         <source>Choose the axes to measure. Tick the ones that rest at an end, such as triggers and pedals.</source>
-        <translation>Die zu messenden Achsen wählen. Diejenigen ankreuzen, die am Ende ruhen, etwa Abzüge und Pedale.</translation>
+        <translation>Die zu messenden Achsen wählen. Jene ankreuzen, die am Ende ruhen, etwa Abzüge und Pedale.</translation>
     </message>
     <message>
         <source>1 of 2: release the device and do not touch it.</source>
@@ -691,7 +691,7 @@
     </message>
     <message>
         <source>No device. A device that is plugged in appears within a second.</source>
-        <translation>Kein Gerät. Ein angestecktes Gerät erscheint innerhalb einer Sekunde.</translation>
+        <translation>Kein Gerät. Ein angestecktes Gerät erscheint binnen einer Sekunde.</translation>
     </message>
     <message>
         <source>Connected input devices</source>

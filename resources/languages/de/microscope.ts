@@ -109,7 +109,7 @@
     </message>
     <message>
         <source>Rate [Hz]</source>
-        <translation>Bildrate [Hz]</translation>
+        <translation>Rate [Hz]</translation>
     </message>
     <message>
         <source>Region [px]</source>
@@ -757,7 +757,7 @@ Membran: {ahead} zur Membrannormalen</translation>
     </message>
     <message>
         <source>With Move, above the picture, a click or a drag sends the tip there. Esc or any stop ends this mode.</source>
-        <translation>Mit „Fahren“ über dem Bild fährt die Spitze zur Klickstelle oder zum Ende des Zugs. Esc oder jeder Halt beendet das.</translation>
+        <translation>Mit „Fahren“ über dem Bild fährt die Spitze zum Klick oder Zugende. Esc oder jeder Halt beendet das.</translation>
     </message>
     <message>
         <source>Stage that a click moves; nano within its range</source>
@@ -913,7 +913,7 @@ Membran: {ahead} zur Membrannormalen</translation>
     </message>
     <message>
         <source>Search distance each way from the present position, above 0 µm</source>
-        <translation>Suchweite je Richtung von der aktuellen Position, über 0 µm</translation>
+        <translation>Suchweite je Richtung von der jetzigen Position, über 0 µm</translation>
     </message>
     <message>
         <source>search distance</source>
@@ -983,7 +983,7 @@ Membran: {ahead} zur Membrannormalen</translation>
     </message>
     <message>
         <source>Open this camera and close the present one</source>
-        <translation>Diese Kamera öffnen und die aktuelle schließen</translation>
+        <translation>Diese Kamera öffnen und die jetzige schließen</translation>
     </message>
     <message>
         <source>Objective in use; each has its own calibration. Enter a name to add one</source>
