@@ -223,13 +223,14 @@ def test_the_window_is_german_and_all_of_its_commands_work(qtbot, german):
     assert menus == ["&Datei", "&Bewegung", "&Ansicht", "&Hilfe"]
     assert german.docks["control"].windowTitle() == "Steuerung"
     assert german.stop_button.text() == "HALT (Esc)"
-    _a_panels_notice_is_german(german)
+    _a_panels_notice_is_german(qtbot, german)
     _the_palette_finds_and_does(qtbot, german)
     _every_command_works(german)
 
 
-def _a_panels_notice_is_german(window):
+def _a_panels_notice_is_german(qtbot, window):
     row = window.panels["control"].rows["x"]
+    qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)  # it is locked until a reading is fresh
     row.target.setText("1.500,0")
     row.go.click()
     assert "ist keine Position" in notices(window)[0]
