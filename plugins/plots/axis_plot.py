@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 
 from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.recent_history import LiveWindow
-from rotemina.app.shell.gap_words import live_gap, run_gap, size, small_print
+from rotemina.app.shell.gap_words import LIVE_S, live_gap, run_gap, size, small_print
 from rotemina.app.shell.plot import LINES
 from rotemina.app.shell.theme import Theme
 from rotemina.app.shell.workbench import Workbench
@@ -175,8 +175,9 @@ class AxisPlot(QWidget):
         lines = [(live_gap(live, unit), small_print(live, unit))]
         if run is not None:
             lines.append((run_gap(run, unit), small_print(run, unit)))
-        # Where the plot is narrow the figure stays, and its name is in the tooltip.
-        self.figures.show_text("  ·  ".join(text for text, _ in lines), size(live, unit))
+        # Where the plot is narrow the figure stays with its span; its name is in the tooltip.
+        short = f"{LIVE_S:g} s: {size(live, unit)}"
+        self.figures.show_text("  ·  ".join(text for text, _ in lines), short)
         self.figures.setToolTip(plain_tip(*(f"{text} ({small})" for text, small in lines)))
 
     def read_cursors(self) -> None:
