@@ -19,7 +19,8 @@ class ElidedLabel(QLabel):
 
     def __init__(self) -> None:
         super().__init__()
-        self._text = self._short = ""
+        self._text = ""
+        self._shorter: tuple[str, ...] = ()
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
 
@@ -33,14 +34,14 @@ class ElidedLabel(QLabel):
             super().setText(" " if text else "")  # for its height
         if self.accessibleName() == self._text:
             self.setAccessibleName(text)
-        self._text, self._short = text, ""
+        self._text, self._shorter = text, ()
         self.update()
 
-    def show_text(self, text: str, short: str = "") -> None:
-        """Show another text, or its short form where there is no room for all of it."""
+    def show_text(self, text: str, *shorter: str) -> None:
+        """Show another text, or the first of its ever shorter forms that there is room for."""
         if text != self._text:
             self.setText(text)
-            self._short = short
+            self._shorter = shorter
             self.setToolTip(plain_tip(text) if text else "")
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
@@ -56,8 +57,8 @@ class ElidedLabel(QLabel):
         painter = QPainter(self)
         painter.setPen(self.palette().color(self.foregroundRole()))
         metrics, room = self.fontMetrics(), self.contentsRect().width()
-        fits = not self._short or metrics.horizontalAdvance(self._text) <= room
-        text = self._text if fits else self._short
+        forms = (self._text, *self._shorter)
+        text = next((one for one in forms if metrics.horizontalAdvance(one) <= room), forms[-1])
         cut = metrics.elidedText(text, Qt.TextElideMode.ElideRight, room)
         painter.drawText(self.contentsRect(), int(Qt.AlignmentFlag.AlignVCenter), cut)
         painter.end()

@@ -175,9 +175,10 @@ class AxisPlot(QWidget):
         lines = [(live_gap(live, unit), small_print(live, unit))]
         if run is not None:
             lines.append((run_gap(run, unit), small_print(run, unit)))
-        # Where the plot is narrow the figure stays with its span; its name is in the tooltip.
-        short = f"{LIVE_S:g} s: {size(live, unit)}"
-        self.figures.show_text("  ·  ".join(text for text, _ in lines), short)
+        # Where the plot is narrow the figure stays, if possible with its span; see the tooltip.
+        alone = size(live, unit)
+        text = "  ·  ".join(text for text, _ in lines)
+        self.figures.show_text(text, f"{LIVE_S:g} s: {alone}", alone)
         self.figures.setToolTip(plain_tip(*(f"{text} ({small})" for text, small in lines)))
 
     def read_cursors(self) -> None:

@@ -114,19 +114,22 @@ def test_a_cut_label_asks_for_no_width_and_tells_all_of_it(qtbot):
     assert label.toolTip() == plain_tip("position <unknown> " * 20)
 
 
-def test_a_narrow_label_draws_its_short_form_whole(qtbot):
-    label, short = ElidedLabel(), ElidedLabel()
-    for one in (label, short):
+def test_a_narrow_label_draws_the_longest_form_that_has_room(qtbot):
+    label, short, shortest = ElidedLabel(), ElidedLabel(), ElidedLabel()
+    for one in (label, short, shortest):
         qtbot.addWidget(one)
-    label.show_text("Gap, last 10 s 12.4 nm", "12.4 nm")
-    short.show_text("12.4 nm")
+    label.show_text("Gap, last 10 s 12.4 nm", "10 s: 12.4 nm", "12.4 nm")
+    short.show_text("10 s: 12.4 nm")
+    shortest.show_text("12.4 nm")
     room = label.fontMetrics().horizontalAdvance("Gap, last 10 s")
+    little = label.fontMetrics().horizontalAdvance("12.4 nm") + 2
 
     def drawn(one, width):
         one.resize(width, 20)
         return one.grab().toImage()
 
     assert drawn(label, room) == drawn(short, room)
+    assert drawn(label, little) == drawn(shortest, little) != drawn(short, little)
     assert drawn(label, 3 * room) != drawn(short, 3 * room)
     assert label.text() == "Gap, last 10 s 12.4 nm"
 
