@@ -175,10 +175,10 @@ class AxisPlot(QWidget):
         lines = [(live_gap(live, unit), small_print(live, unit))]
         if run is not None:
             lines.append((run_gap(run, unit), small_print(run, unit)))
-        # Where the plot is narrow the figure stays, if possible with its span; see the tooltip.
+        # Where the plot is narrow the figure stays, if possible with its span; a cut number lies.
         alone = size(live, unit)
         text = "  ·  ".join(text for text, _ in lines)
-        self.figures.show_text(text, f"{LIVE_S:g} s: {alone}", alone)
+        self.figures.show_text(text, f"{LIVE_S:g} s: {alone}", alone, "")
         self.figures.setToolTip(plain_tip(*(f"{text} ({small})" for text, small in lines)))
 
     def read_cursors(self) -> None:
