@@ -7,10 +7,10 @@ from rotemina.app.settings import Settings
 from rotemina.drivers.driver import Driver
 from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.sim.messages import message
+from rotemina.sim.quantities import parsed
 
-# What float() and int() take beside these (1_0, digits of other scripts) is likelier a slip.
+# What int() takes beside these (1_0, digits of other scripts) is likelier a slip.
 _WHOLE = re.compile(r"[+-]?[0-9]+")
-_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _SWITCHES = {"true": True, "yes": True, "on": True, "1": True}
 _SWITCHES |= {"false": False, "no": False, "off": False, "0": False}
 
@@ -42,8 +42,9 @@ def typed(name: str, default: SettingValue, text: str) -> SettingValue:
                 name=name, text=repr(text)
             )
         )
-    if _NUMBER.fullmatch(word):
-        return float(word)
+    number = parsed(word)
+    if number is not None:
+        return number
     raise SettingError(
         message(
             "engine", "setting {name}: {text} is not a number; enter one with a decimal point"

@@ -12,6 +12,7 @@ from rotemina.app.widgets.controls import plain_tip, set_property
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.plugins.connection import mark, tr
+from rotemina.sim.quantities import localized
 
 # Settings of the program's own drivers, as people say them.
 NAMES = (
@@ -27,6 +28,11 @@ NAMES = (
     mark("latency"),
 )
 _UNITS = {"s": "s", "ms": "ms", "hz": "Hz", "v": "V", "m": "m"}
+
+
+def _written(value: SettingValue) -> str:
+    """Return a value as a field holds it, a number with the decimal sign in use."""
+    return localized(f"{value:g}") if isinstance(value, float) else str(value)
 
 
 class PortChoice(SteadyChoice):
@@ -68,7 +74,9 @@ class SettingField(QObject):
         self.name, self._default = name, default
         self.widget = self._made(value)
         self.widget.setAccessibleName(tr("Setting {name}").format(name=spoken(name)))
-        self._about = tr("{name}; preset {default!r}").format(name=spoken(name), default=default)
+        self._about = tr("{name}; preset {default}").format(
+            name=spoken(name), default=_written(default) or tr("none")
+        )
         self.widget.setToolTip(plain_tip(self._about))
 
     @property
@@ -129,7 +137,7 @@ class SettingField(QObject):
             choice.activated.connect(lambda _: self.changed.emit())
             choice.lineEdit().editingFinished.connect(self.changed)
             return choice
-        edit = QLineEdit(f"{value:g}" if isinstance(value, float) else str(value))
+        edit = QLineEdit(_written(value))
         edit.editingFinished.connect(self.changed)
         return edit
 

@@ -100,8 +100,8 @@
         <translation>Einstellung {name}</translation>
     </message>
     <message>
-        <source>{name}; preset {default!r}</source>
-        <translation>{name}; Vorgabe {default!r}</translation>
+        <source>{name}; preset {default}</source>
+        <translation>{name}; Vorgabe {default}</translation>
     </message>
     <message>
         <source>Frames sent</source>

@@ -4626,7 +4626,7 @@
     </message>
     <message>
         <source>setting {name}: {text} is not a number; enter one with a decimal point</source>
-        <translation>Einstellung {name}: {text} ist keine Zahl; eine mit Dezimalpunkt eingeben</translation>
+        <translation>Einstellung {name}: {text} ist keine Zahl; eine mit Dezimalkomma eingeben</translation>
     </message>
     <message>
         <source>setting {name}: {text} is not a switch; enter true or false</source>

@@ -224,6 +224,7 @@ def test_the_window_is_german_and_all_of_its_commands_work(qtbot, german):
     assert german.docks["control"].windowTitle() == "Steuerung"
     assert german.stop_button.text() == "HALT (Esc)"
     _a_panels_notice_is_german(qtbot, german)
+    _a_setting_has_a_german_number(german)
     _the_palette_finds_and_does(qtbot, german)
     _every_command_works(german)
 
@@ -235,6 +236,14 @@ def _a_panels_notice_is_german(qtbot, window):
     row.go.click()
     assert "ist keine Position" in notices(window)[0]
     assert "Dezimalkomma" in notices(window)[0]
+
+
+def _a_setting_has_a_german_number(window):
+    field = window.panels["connection"].device.form.fields["settle_s"]
+    assert field.widget.text() == "0,02"
+    field.set_text("0,25")
+    assert field.value() == 0.25
+    field.set_text("0,02")
 
 
 def _the_palette_finds_and_does(qtbot, window):
