@@ -121,8 +121,10 @@ def test_a_narrow_label_draws_the_longest_form_that_has_room(qtbot):
     label.show_text("Gap, last 10 s 12.4 nm", "10 s: 12.4 nm", "12.4 nm")
     short.show_text("10 s: 12.4 nm")
     shortest.show_text("12.4 nm")
-    room = label.fontMetrics().horizontalAdvance("Gap, last 10 s")
-    little = label.fontMetrics().horizontalAdvance("12.4 nm") + 2
+    label.ensurePolished()  # until then it has not the font it is drawn in
+    width_of = label.fontMetrics().horizontalAdvance
+    room, little = width_of("10 s: 12.4 nm") + 2, width_of("12.4 nm") + 2
+    assert little < room < width_of("Gap, last 10 s 12.4 nm") - 2
 
     def drawn(one, width):
         one.resize(width, 20)
