@@ -24,6 +24,7 @@ _AMOUNTS = (
     ("derivative", "D", "s"),
 )
 _DIGITS = 6
+_COLUMNS = 2  # so that all digits have room
 
 
 class TypedGains(QWidget):
@@ -34,13 +35,14 @@ class TypedGains(QWidget):
         self._robot = robot
         self.fields: dict[str, QLineEdit] = {}
         grid = in_grid(on=self, margins=0, spacing=4)
-        for column, (name, letter, unit) in enumerate(_AMOUNTS):
+        for number, (name, letter, unit) in enumerate(_AMOUNTS):
+            row, column = divmod(number, _COLUMNS)
             field = QLineEdit()
             field.setMinimumWidth(44)
             shown = f"{letter} [{unit}]" if unit else letter
             field.setAccessibleName(shown)
-            grid.addWidget(QLabel(shown), 0, column)
-            grid.addWidget(field, 1, column)
+            grid.addWidget(QLabel(shown), 2 * row, column)
+            grid.addWidget(field, 2 * row + 1, column)
             self.fields[name] = field
 
     @property
@@ -57,6 +59,7 @@ class TypedGains(QWidget):
         for name, _, unit in _AMOUNTS:
             field = self.fields[name]
             field.setText(rounded(getattr(gains, name), _DIGITS) if axis else "")
+            field.setCursorPosition(0)  # the first digits are seen where not all have room
             field.setModified(False)
             if axis:
                 tip = tr("0 to {most}; checked on the axis before use")
