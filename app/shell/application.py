@@ -4,7 +4,7 @@ from importlib import resources
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QImage, QPainter, QPixmap
-from PySide6.QtWidgets import QApplication, QSplashScreen
+from PySide6.QtWidgets import QApplication, QLabel
 
 SIZE = QSize(360, 140)
 _GROUND, _TEXT = "#14171c", "#e8ebf0"  # of the icon
@@ -21,10 +21,11 @@ def make_application() -> QApplication:
     return application
 
 
-def show_splash() -> QSplashScreen:
+def show_splash() -> QLabel:
     """Show the program's icon and name at once: modules are loaded for a second or two from now on.
 
-    ``finish(window)`` takes it away when the window is there.
+    ``close()`` takes it away when the window is there. It is no ``QSplashScreen``: to show one
+    waits a second (Qt 6.11), for which nothing would be loaded.
     """
     application = make_application()
     ratio = application.primaryScreen().devicePixelRatio()
@@ -39,7 +40,11 @@ def show_splash() -> QSplashScreen:
     painter.setPen(QColor(_TEXT))
     painter.drawText(QRectF(130, 0, 220, 140), Qt.AlignmentFlag.AlignVCenter, "RoTeMiNa")
     painter.end()
-    splash = QSplashScreen(picture)
+    splash = QLabel()
+    splash.setWindowFlags(Qt.WindowType.SplashScreen | Qt.WindowType.FramelessWindowHint)
+    splash.setPixmap(picture)
+    splash.resize(SIZE)
+    splash.move(application.primaryScreen().geometry().center() - splash.rect().center())
     splash.show()
     application.processEvents()
     return splash

@@ -10,7 +10,7 @@ import pyqtgraph as pg
 from platformdirs import user_data_path
 from pyqtgraph.util.garbage_collector import GarbageCollector
 from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QSplashScreen
+from PySide6.QtWidgets import QWidget
 
 from rotemina.app.motion.heartbeat import PERIOD_S
 from rotemina.app.motion.session import MotionSession
@@ -93,7 +93,7 @@ def run(
     settings: Settings,
     *,
     speaks: str | None = None,
-    splash: QSplashScreen | None = None,
+    splash: QWidget | None = None,
 ) -> int:
     """Show the window, in another language than the last where it is given, and run it.
 
@@ -111,7 +111,7 @@ def run(
 
 
 def _run(
-    session: MotionSession, settings: Settings, speaks: str | None, splash: QSplashScreen | None
+    session: MotionSession, settings: Settings, speaks: str | None, splash: QWidget | None
 ) -> int:
     trim_heap()
     sys.setswitchinterval(SWITCH_S)
@@ -142,7 +142,7 @@ def _run(
     with watch.guarding():
         window.show()
         if splash is not None:
-            splash.finish(window)
+            QTimer.singleShot(0, splash.close)  # the window is on the screen by then
         if not settings.get("window.state", ""):  # a first start shows what is needed to begin
             window.arrangement.arrange(OPERATE)
         window.first_steps.offer()
