@@ -254,8 +254,8 @@ def made_diagnosis(make_diagnosis):
     """Of no record: hysteresis and more on thx, something unknown on y, nothing on zn."""
     from rotemina.sim.effects.formulation import Stage
     from rotemina.sim.gap.diagnosis import UNKNOWN, Verdict
-    from rotemina.sim.gap.location import LocatedGap, Portion
-    from rotemina.sim.gap.regimes import Regime
+    from rotemina.sim.gap.location.located_gap import LocatedGap, Portion
+    from rotemina.sim.gap.location.regimes import Regime
     from rotemina.sim.records.record import Tap
     from rotemina.sim.robot.model import AxisEffect
 

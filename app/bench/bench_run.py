@@ -17,7 +17,7 @@ from rotemina.app.bench.result import NamedCause, Result
 from rotemina.app.bench.words import line, page
 from rotemina.app.files import json_text
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.document_reader import read_document
+from rotemina.sim.gap.output.document_reader import read_document
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.file import load_robot

@@ -7,8 +7,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.time_leaps import pieces
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.intake.time_leaps import pieces
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot

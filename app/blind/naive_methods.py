@@ -10,9 +10,9 @@ from rotemina.app.blind.cases import SealedCase
 from rotemina.app.blind.classifier import Classifier
 from rotemina.app.blind.features import features, gap_in_floors
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.candidates import candidates, scouts
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.fit import Fit, fit
+from rotemina.sim.gap.compare.candidates import candidates, scouts
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.fit.output_error import Fit, fit
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.file import load_robot

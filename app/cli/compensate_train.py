@@ -13,7 +13,7 @@ from rotemina.app.cli.options import add_columns, add_robot, robot_of, tell
 from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.diagnosis_progress import Progress
+from rotemina.sim.gap.compare.diagnosis_progress import Progress
 from rotemina.sim.input_files import open_file
 from rotemina.sim.messages import message
 from rotemina.sim.records.reading import read_record

@@ -10,9 +10,9 @@ from pathlib import Path
 from rotemina.app.cli import gap_bench, gap_blind, gap_diagnose
 from rotemina.app.cli.options import add_columns, tell, tell_written
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.digital_twin import twin_text, write_twin
-from rotemina.sim.gap.document_reader import read_document
-from rotemina.sim.gap.prediction import predict
+from rotemina.sim.gap.output.digital_twin import twin_text, write_twin
+from rotemina.sim.gap.output.document_reader import read_document
+from rotemina.sim.gap.output.prediction import predict
 from rotemina.sim.messages import joined, message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.writing import write_record

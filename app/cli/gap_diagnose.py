@@ -12,12 +12,12 @@ from rotemina.app.cli.progress import ProgressLine
 from rotemina.app.cli.workers import add_workers, workers
 from rotemina.app.files import json_text
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.cautions import Caution
 from rotemina.sim.gap.diagnosis import Diagnosis
-from rotemina.sim.gap.document import as_json
-from rotemina.sim.gap.experiment_files import Suggestion, may_be_suggested, suggestion
-from rotemina.sim.gap.intake import check
-from rotemina.sim.gap.summary import summary
+from rotemina.sim.gap.experiment.experiment_files import Suggestion, may_be_suggested, suggestion
+from rotemina.sim.gap.intake.cautions import Caution
+from rotemina.sim.gap.intake.record_checks import check
+from rotemina.sim.gap.output.document import as_json
+from rotemina.sim.gap.output.summary import summary
 from rotemina.sim.messages import Wording, message
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record
@@ -193,7 +193,7 @@ def report(
     diagnosis: Diagnosis, records: Sequence[Record], files: Sequence[Path], wording: Wording
 ) -> bytes:
     """Return the page of a report."""
-    from rotemina.sim.gap.report.page import report_text  # takes its time to import
+    from rotemina.sim.gap.output.report.page import report_text  # takes its time to import
 
     names = [path.name for path in files]
     return report_text(diagnosis, records, names, wording).encode("utf-8", "replace")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Self, TextIO
 
-from rotemina.sim.gap.diagnosis_progress import Progress
+from rotemina.sim.gap.compare.diagnosis_progress import Progress
 from rotemina.sim.messages import Wording, message
 from rotemina.sim.quantities import Number, fixed
 

@@ -14,7 +14,7 @@ from rotemina.app.files import json_text, write_text
 from rotemina.sim.errors import InputError
 from rotemina.sim.feedback.axis_loop import AxisLoop
 from rotemina.sim.feedback.stability import check_stability
-from rotemina.sim.gap.diagnosis_progress import Progress
+from rotemina.sim.gap.compare.diagnosis_progress import Progress
 from rotemina.sim.messages import message
 from rotemina.sim.quantities import exact, fixed, rounded
 from rotemina.sim.tables import aligned

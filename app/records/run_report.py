@@ -23,9 +23,9 @@ from rotemina.app.records.library import require_length
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.comparison.gap import GapFigure, gap_figure, gap_text, moving
 from rotemina.sim.decimation import envelope
-from rotemina.sim.gap.report.frame import environment
-from rotemina.sim.gap.report.pictures import Role, legend, picture
-from rotemina.sim.gap.report.words import shown, worded
+from rotemina.sim.gap.output.report.frame import environment
+from rotemina.sim.gap.output.report.pictures import Role, legend, picture
+from rotemina.sim.gap.output.report.words import shown, worded
 from rotemina.sim.messages import AxisName, Message, Wording, marked, message
 from rotemina.sim.quantities import Number, fixed, rounded, scale_of
 from rotemina.sim.records.record import Tap

@@ -10,7 +10,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.language import translate
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip, set_property
-from rotemina.sim.gap.report.words import effect_title
+from rotemina.sim.gap.output.report.words import effect_title
 
 _MOST_EFFECTS = 2  # that are named
 _ROOM = 44  # of margins and the arrow of a menu

@@ -18,8 +18,8 @@ from rotemina.app.shell.workbench import Workbench
 from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.sim.gap.diagnosis import Diagnosis
-from rotemina.sim.gap.digital_twin import twin_text
-from rotemina.sim.gap.document import as_json
+from rotemina.sim.gap.output.digital_twin import twin_text
+from rotemina.sim.gap.output.document import as_json
 from rotemina.sim.records.record import Record
 
 _BEFORE = '<h2 id="where">'  # of a page: what is told of the run in hand stands there
@@ -108,7 +108,7 @@ def write_report(
     run: Run | None = None,
 ) -> None:
     """Write the page of a diagnosis to a file, with the gap of the run in hand at its head."""
-    from rotemina.sim.gap.report import page  # drawing takes its time to import
+    from rotemina.sim.gap.output.report import page  # drawing takes its time to import
 
     text = page.report_text(diagnosis, records, names, TranslatedWording())
     if run is not None:

@@ -22,7 +22,7 @@ from rotemina.plugins.gap.words import (
     formulation_name,
 )
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Cause, FittedParameter, Ranked
-from rotemina.sim.gap.report.words import parameter_unit
+from rotemina.sim.gap.output.report.words import parameter_unit
 from rotemina.sim.quantities import amount, amounts, percent, percents
 
 HEAD = (mark("candidate"), mark("probability"), mark("remainder (noise floors)"), "95 %")

@@ -12,7 +12,7 @@ from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.diagnosis_process import DiagnosisProcess
 from rotemina.plugins.gap.words import effect_word, stage_name
-from rotemina.sim.gap.diagnosis_progress import Progress
+from rotemina.sim.gap.compare.diagnosis_progress import Progress
 from rotemina.sim.quantities import fixed
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot

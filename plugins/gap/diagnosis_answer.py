@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Self
 
 from rotemina.sim.gap.diagnosis import Diagnosis
-from rotemina.sim.gap.report.heat import Heat, heat
-from rotemina.sim.gap.report.quantities import unit_of
-from rotemina.sim.gap.report.traces import Trace, traces
+from rotemina.sim.gap.output.report.heat import Heat, heat
+from rotemina.sim.gap.output.report.quantities import unit_of
+from rotemina.sim.gap.output.report.traces import Trace, traces
 from rotemina.sim.records.record import Record, Tap
 
 

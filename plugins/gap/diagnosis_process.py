@@ -19,7 +19,7 @@ from typing import IO
 from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.diagnosis_progress import Listener, Progress
+from rotemina.sim.gap.compare.diagnosis_progress import Listener, Progress
 from rotemina.sim.records.record import Record
 from rotemina.sim.robot.model import Robot
 

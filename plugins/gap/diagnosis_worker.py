@@ -16,7 +16,7 @@ from typing import IO
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.diagnosis_process import Failure, Request, Unwanted, read, write
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.diagnosis_progress import Progress
+from rotemina.sim.gap.compare.diagnosis_progress import Progress
 
 _NICE = 5  # the window and what steers the machine go first
 

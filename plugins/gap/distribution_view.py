@@ -18,9 +18,9 @@ from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.heat_cell import parts
 from rotemina.plugins.gap.heat_cell_view import HeatCellView
 from rotemina.plugins.gap.words import regime_name
-from rotemina.sim.gap.document import shares
-from rotemina.sim.gap.location import LocatedGap
-from rotemina.sim.gap.report.heat import Heat
+from rotemina.sim.gap.location.located_gap import LocatedGap
+from rotemina.sim.gap.output.document import shares
+from rotemina.sim.gap.output.report.heat import Heat
 from rotemina.sim.quantities import NOTHING, amount, percent, percents, rounded
 
 HEAD = (

@@ -14,7 +14,7 @@ from rotemina.plugins.gap.answer_quality import TONES, Tone, change, why_worse
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.unseen_motion_reduction import Proof
 from rotemina.plugins.gap.words import VERDICTS
-from rotemina.sim.gap.wording import details, findings
+from rotemina.sim.gap.output.wording import details, findings
 
 HEIGHT, LITTLE = 120, 76  # px, at least, on a large page and on a small one
 

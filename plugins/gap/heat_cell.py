@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.bands import bands, is_even
-from rotemina.sim.gap.location import others_move
-from rotemina.sim.gap.regimes import Regime, Ways, regimes
-from rotemina.sim.gap.report.heat import Heat
-from rotemina.sim.gap.report.traces import Trace
+from rotemina.sim.gap.location.bands import bands, is_even
+from rotemina.sim.gap.location.located_gap import others_move
+from rotemina.sim.gap.location.regimes import Regime, Ways, regimes
+from rotemina.sim.gap.output.report.heat import Heat
+from rotemina.sim.gap.output.report.traces import Trace
 
 
 @dataclass(frozen=True, slots=True, eq=False)

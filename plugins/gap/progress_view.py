@@ -9,7 +9,7 @@ from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.ranking_view import RankingView
-from rotemina.sim.gap.diagnosis_progress import Progress
+from rotemina.sim.gap.compare.diagnosis_progress import Progress
 
 STAGES = {
     "reading": mark("Reading the records."),

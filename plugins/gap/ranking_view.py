@@ -9,7 +9,7 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.plugins.gap import tr
 from rotemina.plugins.gap.words import effect_title
-from rotemina.sim.gap.ranking import Grade, Ranking, Standing
+from rotemina.sim.gap.compare.ranking import Grade, Ranking, Standing
 from rotemina.sim.quantities import percent
 
 _ROW = 20  # high

@@ -11,7 +11,7 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.plugins.gap import tr
-from rotemina.sim.gap.report.traces import Trace
+from rotemina.sim.gap.output.report.traces import Trace
 from rotemina.sim.quantities import scale_of
 
 FLOOR = (("floor above", "good"), ("floor below", "good"))

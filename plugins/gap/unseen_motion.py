@@ -10,7 +10,7 @@ from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.requested_motion import Playing
 from rotemina.plugins.gap.unseen_motion_reduction import Proof, new_motion, prove
 from rotemina.plugins.gap.verdict_advice import check_title
-from rotemina.sim.gap.experiment_files import suggestion
+from rotemina.sim.gap.experiment.experiment_files import suggestion
 
 
 class UnseenMotion(QObject):

@@ -14,8 +14,8 @@ from rotemina.sim.excitation.sines_and_chirps import Multisine
 from rotemina.sim.excitation.staircase_steps_prbs import Staircase
 from rotemina.sim.excitation.triangles_and_sweeps import DecayingTriangle
 from rotemina.sim.gap.diagnosis import Diagnosis
-from rotemina.sim.gap.report.traces import Trace
-from rotemina.sim.gap.row_blocks import block_numbers, drawn_means, summed
+from rotemina.sim.gap.fit.row_blocks import block_numbers, drawn_means, summed
+from rotemina.sim.gap.output.report.traces import Trace
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import Robot

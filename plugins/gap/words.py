@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from rotemina.app.shell.language import translate
 from rotemina.plugins.gap import mark, tr
 from rotemina.sim.gap.diagnosis import UNKNOWN
-from rotemina.sim.gap.regimes import Regime
-from rotemina.sim.gap.report.words import AXIS_VERDICTS as AXIS_VERDICTS
-from rotemina.sim.gap.report.words import REGIMES, UNKNOWN_EFFECT, english_title
-from rotemina.sim.gap.report.words import VERDICTS as VERDICTS
+from rotemina.sim.gap.location.regimes import Regime
+from rotemina.sim.gap.output.report.words import AXIS_VERDICTS as AXIS_VERDICTS
+from rotemina.sim.gap.output.report.words import REGIMES, UNKNOWN_EFFECT, english_title
+from rotemina.sim.gap.output.report.words import VERDICTS as VERDICTS
 from rotemina.sim.messages import listed
 
 # What is done now, as the line beside the bar of progress says it.

@@ -6,7 +6,11 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.closed_share import closed
+from rotemina.sim.gap.compare.closed_share import closed
+from rotemina.sim.gap.compare.explanations import Explanation
+from rotemina.sim.gap.compare.forward_selection import NOTICED
+from rotemina.sim.gap.compare.rivals import paired_blocks, probability
+from rotemina.sim.gap.compare.shrinkage import LeftBy, at_tap, closing, rms, shrinkage
 from rotemina.sim.gap.diagnosis import (
     CORRECTING,
     UNKNOWN,
@@ -19,17 +23,13 @@ from rotemina.sim.gap.diagnosis import (
     Suspected,
     Verdict,
 )
-from rotemina.sim.gap.disturbances import Disturbance
-from rotemina.sim.gap.evidence import Evidence, Part, block_rows
 from rotemina.sim.gap.examination import Examination
-from rotemina.sim.gap.explanations import Explanation
-from rotemina.sim.gap.forward_selection import NOTICED
-from rotemina.sim.gap.location import LocatedGap
-from rotemina.sim.gap.position_origins import origin_remarks
-from rotemina.sim.gap.rivals import paired_blocks, probability
-from rotemina.sim.gap.row_blocks import drawn_means
-from rotemina.sim.gap.shrinkage import LeftBy, at_tap, closing, rms, shrinkage
-from rotemina.sim.gap.wording import group
+from rotemina.sim.gap.fit.evidence import Evidence, Part, block_rows
+from rotemina.sim.gap.fit.position_origins import origin_remarks
+from rotemina.sim.gap.fit.row_blocks import drawn_means
+from rotemina.sim.gap.location.located_gap import LocatedGap
+from rotemina.sim.gap.noise.disturbances import Disturbance
+from rotemina.sim.gap.output.wording import group
 from rotemina.sim.messages import Listed, Message, message
 from rotemina.sim.quantities import percent
 from rotemina.sim.records.record import Tap

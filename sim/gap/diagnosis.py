@@ -1,13 +1,13 @@
 """The result of a diagnosis: where the gap lies, which effects cause it, how far it shrinks.
 
-:mod:`~rotemina.sim.gap.document` writes these facts as JSON.
+:mod:`~rotemina.sim.gap.output.document` writes these facts as JSON.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from rotemina.sim.gap.location import LocatedGap
+from rotemina.sim.gap.location.located_gap import LocatedGap
 from rotemina.sim.messages import Message
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect, Robot

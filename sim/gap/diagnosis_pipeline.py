@@ -1,13 +1,10 @@
 """The diagnosis of the sim-to-real gap, from records to verdict.
 
-Where the gap lies (:mod:`~rotemina.sim.gap.location`), which effects may cause it
-(:mod:`~rotemina.sim.gap.candidates`, :mod:`~rotemina.sim.gap.screening`), how well they do on data
-that their fit did not see (:mod:`~rotemina.sim.gap.fit`,
-:mod:`~rotemina.sim.gap.forward_selection`), what can be told apart
-(:mod:`~rotemina.sim.gap.rivals`, :mod:`~rotemina.sim.gap.cause_contest`), by which further
-experiment (:mod:`~rotemina.sim.gap.next_experiment`), and what can be said
-(:mod:`~rotemina.sim.gap.compare.verdict`), axis by axis: what one axis does may show on another
-(:mod:`~rotemina.sim.gap.examination_order`).
+The records are checked (``intake``) and the gap is located (``location``). Axis by axis, as what
+one axis does may show on another (:mod:`~rotemina.sim.gap.examination_order`), disturbances are
+set aside (``noise``), effects are fitted (``fit``) and compared (``compare``): that is
+:func:`~rotemina.sim.gap.examination.examine`. :mod:`~rotemina.sim.gap.conclusions` says what
+follows from it, ``experiment`` what to record next, ``output`` writes it down.
 """
 
 import hashlib
@@ -18,20 +15,20 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from rotemina.sim.gap.cautions import Caution, remarks
+from rotemina.sim.gap.compare.diagnosis_progress import Account, Listener, Progress, unheard
 from rotemina.sim.gap.conclusions import concluded
-from rotemina.sim.gap.constant_offsets import offsets
 from rotemina.sim.gap.diagnosis import AxisDiagnosis, Diagnosis, Offset, Verdict
-from rotemina.sim.gap.diagnosis_progress import Account, Listener, Progress, unheard
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import Examination, examine
 from rotemina.sim.gap.examination_order import examination_order
-from rotemina.sim.gap.fit import NUMERICAL
-from rotemina.sim.gap.intake import check
-from rotemina.sim.gap.location import LocatedGap, locate
-from rotemina.sim.gap.next_experiment import experiments
-from rotemina.sim.gap.time_leaps import pieces
+from rotemina.sim.gap.experiment.next_experiment import experiments
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.fit.output_error import NUMERICAL
+from rotemina.sim.gap.intake.cautions import Caution, remarks
+from rotemina.sim.gap.intake.record_checks import check
+from rotemina.sim.gap.intake.time_leaps import pieces
+from rotemina.sim.gap.location.located_gap import LocatedGap, locate
+from rotemina.sim.gap.output.constant_offsets import offsets
 from rotemina.sim.messages import AxisName, joined, message
 from rotemina.sim.plant.coupled_groups import coupled_axes
 from rotemina.sim.plant.errors import PlantError
@@ -71,7 +68,8 @@ def diagnose(
     listener : Listener
         Is told of every step; what it raises ends the diagnosis.
     cautions : sequence of Caution, optional
-        What :func:`~rotemina.sim.gap.intake.check` said of these records; None: check them here.
+        What :func:`~rotemina.sim.gap.intake.record_checks.check` said of these records; None:
+        check them here.
 
     Raises
     ------

@@ -9,19 +9,12 @@ import numpy as np
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.baseline import is_whole_own
-from rotemina.sim.gap.cause_contest import Ranking, contested, rivals_of
-from rotemina.sim.gap.closed_share import closed
-from rotemina.sim.gap.coarse_reading import steps_of
-from rotemina.sim.gap.companions import accompanied
-from rotemina.sim.gap.compare.retained import with_retained
-from rotemina.sim.gap.compare.verdict import Closing, decide, is_sure
-from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
-from rotemina.sim.gap.diagnosis_progress import Account
-from rotemina.sim.gap.disturbances import Disturbance, by_effect, power_by_tap
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.excitation_richness import is_poor
-from rotemina.sim.gap.explanations import (
+from rotemina.sim.gap.compare.cause_contest import Ranking, contested, rivals_of
+from rotemina.sim.gap.compare.closed_share import closed
+from rotemina.sim.gap.compare.companions import accompanied
+from rotemina.sim.gap.compare.diagnosis_progress import Account
+from rotemina.sim.gap.compare.excitation_richness import is_poor
+from rotemina.sim.gap.compare.explanations import (
     Explanation,
     counted_in,
     explain,
@@ -29,19 +22,26 @@ from rotemina.sim.gap.explanations import (
     named_as,
     untouched,
 )
-from rotemina.sim.gap.fit import finished
-from rotemina.sim.gap.forward_selection import (
+from rotemina.sim.gap.compare.forward_selection import (
     CLEARLY,
     LEAST_POWER,
     LEAST_SHARE,
     Selection,
 )
-from rotemina.sim.gap.many_modes import many_modes
-from rotemina.sim.gap.position_origins import with_origins
-from rotemina.sim.gap.repeated_search import MUCH_BETTER, acts, searched
-from rotemina.sim.gap.residual_features import Probe, probed
-from rotemina.sim.gap.rivals import Key, not_ruled_out
-from rotemina.sim.gap.sensor_wander import wander
+from rotemina.sim.gap.compare.many_modes import many_modes
+from rotemina.sim.gap.compare.repeated_search import MUCH_BETTER, acts, searched
+from rotemina.sim.gap.compare.retained import with_retained
+from rotemina.sim.gap.compare.rivals import Key, not_ruled_out
+from rotemina.sim.gap.compare.verdict import Closing, decide, is_sure
+from rotemina.sim.gap.diagnosis import CORRECTING, Verdict
+from rotemina.sim.gap.fit.baseline import is_whole_own
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.fit.output_error import finished
+from rotemina.sim.gap.fit.position_origins import with_origins
+from rotemina.sim.gap.location.residual_features import Probe, probed
+from rotemina.sim.gap.noise.coarse_reading import steps_of
+from rotemina.sim.gap.noise.disturbances import Disturbance, by_effect, power_by_tap
+from rotemina.sim.gap.noise.sensor_wander import wander
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.evidence import Evidence, Signals
+from rotemina.sim.gap.fit.evidence import Evidence, Signals
 from rotemina.sim.records.record import Record, Tap
 
 _TAPS = (Tap.REF, Tap.MEAS)  # of a position, the better one first

@@ -38,7 +38,7 @@ from rotemina.sim.compensate.file import Provenance, read_trained, write_trained
 from rotemina.sim.compensate.samples import Samples as Compared
 from rotemina.sim.compensate.training import train
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.document_reader import read_document
+from rotemina.sim.gap.output.document_reader import read_document
 from rotemina.sim.plugin_import import _kept
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot, robot_file_text

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotemina.sim.arrays import FloatArray
-from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.records.record import Tap
 
 BLOCKS = 32  # into which the rows of a channel are cut

@@ -13,16 +13,16 @@ import numpy as np
 
 from rotemina.sim.effects.formulation import Trait
 from rotemina.sim.effects.registry import effect_named
-from rotemina.sim.gap.baseline import is_own
-from rotemina.sim.gap.candidates import scouts
+from rotemina.sim.gap.compare.candidates import scouts
+from rotemina.sim.gap.compare.diagnosis_progress import Account
+from rotemina.sim.gap.compare.explanations import MOST_STEPS, Explanation, explanation, named_as
+from rotemina.sim.gap.compare.forward_selection import NOTICED, possible_causes
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
+from rotemina.sim.gap.compare.parallel_fits import fitted, screened_beside
 from rotemina.sim.gap.compare.weights import weigh
-from rotemina.sim.gap.diagnosis_progress import Account
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.explanations import MOST_STEPS, Explanation, explanation, named_as
-from rotemina.sim.gap.fit import fit
-from rotemina.sim.gap.forward_selection import NOTICED, possible_causes
-from rotemina.sim.gap.parallel_fits import fitted, screened_beside
+from rotemina.sim.gap.fit.baseline import is_own
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.fit.output_error import fit
 
 _FITTED = 3  # effects that are compared in full
 _NOT_FORETOLD = {Trait.RANDOM, Trait.LOCKED_TO_TIME}

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotemina.sim.gap.closed_share import closed
+from rotemina.sim.gap.compare.closed_share import closed
+from rotemina.sim.gap.compare.explanations import Explanation
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
+from rotemina.sim.gap.compare.rivals import Rival
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.diagnosis import Verdict
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.explanations import Explanation
-from rotemina.sim.gap.rivals import Rival
+from rotemina.sim.gap.fit.evidence import Evidence
 
 _EXPLAINED = 0.95  # of the gap's power, that causes close which leave nothing worth a word
 _AT_THE_FLOOR = 1.3  # mean square over the floor, up to which what is left may be all noise

@@ -15,9 +15,9 @@ import pytest
 from rotemina.app.cli import gap_diagnose
 from rotemina.app.cli.main import main
 from rotemina.app.cli.progress import ProgressLine
-from rotemina.sim.gap.diagnosis_progress import Progress
+from rotemina.sim.gap.compare.diagnosis_progress import Progress
+from rotemina.sim.gap.compare.ranking import Grade, Standings
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.ranking import Grade, Standings
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record

@@ -21,8 +21,8 @@ from rotemina.drivers.errors import DriverError
 from rotemina.drivers.gcode.grbl_reports import Alarm
 from rotemina.drivers.registry import driver_named
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap.document_reader import read_document
-from rotemina.sim.gap.intake import check as check_gap
+from rotemina.sim.gap.intake.record_checks import check as check_gap
+from rotemina.sim.gap.output.document_reader import read_document
 from rotemina.sim.messages import message
 from rotemina.sim.plate.mesh import make_mesh
 from rotemina.sim.records.reading import read_record

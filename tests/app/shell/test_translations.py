@@ -15,7 +15,7 @@ from PySide6.QtCore import QTranslator
 from rotemina.app.cli.translated_help import CONTEXT as HELP
 from rotemina.app.records.run_report import TEXTS as RUN_TEXTS
 from rotemina.plugins.effects.words import catalogue
-from rotemina.sim.gap.report.texts import TEXTS as GAP_TEXTS
+from rotemina.sim.gap.output.report.texts import TEXTS as GAP_TEXTS
 
 ROOT = Path(__file__).parents[3]
 FOLDER = ROOT / "resources" / "languages"
@@ -162,7 +162,10 @@ def test_no_error_says_what_has_no_translation():
 
 @pytest.mark.parametrize(
     ("folder", "name", "texts"),
-    [("sim/gap/report", "page.html", GAP_TEXTS), ("app/records", "run_report.html", RUN_TEXTS)],
+    [
+        ("sim/gap/output/report", "page.html", GAP_TEXTS),
+        ("app/records", "run_report.html", RUN_TEXTS),
+    ],
 )
 def test_a_report_says_nothing_that_has_no_translation(folder, name, texts):
     frame = (ROOT / "sim" / "gap" / "report" / "frame.html").read_text("utf-8")

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.report.words import effect_title
+from rotemina.sim.gap.output.report.words import effect_title
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.records.writing import write_record
 from rotemina.sim.robot.file import load_robot

@@ -17,8 +17,8 @@ from rotemina.drivers.simulator.driver import Simulator
 from rotemina.plugins.gap.diagnosis_answer import Answer
 from rotemina.plugins.gap.panel import GapPanel
 from rotemina.sim.comparison.comparison import compare
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.location import locate
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.location.located_gap import locate
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

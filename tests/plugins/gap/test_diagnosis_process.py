@@ -18,7 +18,7 @@ from rotemina.plugins.gap.diagnosis_process import (
 )
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.diagnosis_pipeline import diagnose
-from rotemina.sim.gap.document import as_json
+from rotemina.sim.gap.output.document import as_json
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.simulation.simulation import simulate
 

@@ -20,11 +20,11 @@ from rotemina.plugins.gap.distribution_view import warmth
 from rotemina.plugins.gap.ranking_view import name_of
 from rotemina.plugins.gap.unseen_motion_reduction import new_motion
 from rotemina.sim.comparison.comparison import compare
+from rotemina.sim.gap.compare.diagnosis_progress import Progress
+from rotemina.sim.gap.compare.ranking import Grade, Standings
 from rotemina.sim.gap.diagnosis import Experiment
-from rotemina.sim.gap.diagnosis_progress import Progress
-from rotemina.sim.gap.document import as_json
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.ranking import Grade, Standings
+from rotemina.sim.gap.output.document import as_json
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Tap
 from rotemina.sim.records.writing import write_record

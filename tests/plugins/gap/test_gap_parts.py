@@ -16,7 +16,7 @@ from rotemina.plugins.gap.unseen_motion_reduction import Shrunk, new_motion, pro
 from rotemina.plugins.gap.verdict_advice import advice, readiness
 from rotemina.sim.comparison.comparison import compare
 from rotemina.sim.gap.diagnosis import Verdict
-from rotemina.sim.gap.regimes import Regime
+from rotemina.sim.gap.location.regimes import Regime
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QDialogButtonBox, QFileDialog, QListView, QMessage
 from rotemina.app.blind.hidden_machine import HiddenMachine, Secret
 from rotemina.sim.blind.case import draw_case
 from rotemina.sim.blind.files import write_case
-from rotemina.sim.gap.report.words import effect_title
+from rotemina.sim.gap.output.report.words import effect_title
 from rotemina.sim.robot.file import load_robot
 
 EFFECT = "hysteresis"

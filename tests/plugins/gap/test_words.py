@@ -8,13 +8,13 @@ from rotemina.app.cli.language import wording as wording_in
 from rotemina.app.shell.engine_words import WindowWording
 from rotemina.plugins.gap import words
 from rotemina.sim.blind.figures_table import ROWS
-from rotemina.sim.gap import wording
-from rotemina.sim.gap.regimes import Regime
-from rotemina.sim.gap.report import words as report
-from rotemina.sim.gap.report.page import report_text
-from rotemina.sim.gap.report.texts import TEXTS
-from rotemina.sim.gap.summary import summary
-from rotemina.sim.gap.wording import effect_on
+from rotemina.sim.gap.location.regimes import Regime
+from rotemina.sim.gap.output import wording
+from rotemina.sim.gap.output.report import words as report
+from rotemina.sim.gap.output.report.page import report_text
+from rotemina.sim.gap.output.report.texts import TEXTS
+from rotemina.sim.gap.output.summary import summary
+from rotemina.sim.gap.output.wording import effect_on
 from rotemina.sim.messages import AxisName, Listed, message
 from rotemina.sim.quantities import amount
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.intake import check
+from rotemina.sim.gap.intake.record_checks import check
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.simulation.simulation import simulate

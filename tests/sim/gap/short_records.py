@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from rotemina.sim.gap.compare.explanations import explain
 from rotemina.sim.gap.conclusions import derived
-from rotemina.sim.gap.evidence import Evidence, block_rows
-from rotemina.sim.gap.explanations import explain
+from rotemina.sim.gap.fit.evidence import Evidence, block_rows
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

@@ -7,13 +7,14 @@ import pytest
 
 from rotemina.sim.blind.files import kinds
 from rotemina.sim.blind_second.case import draw_second
-from rotemina.sim.gap import diagnosis_pipeline, forward_selection, repeated_search
+from rotemina.sim.gap import diagnosis_pipeline
+from rotemina.sim.gap.compare import forward_selection, repeated_search
+from rotemina.sim.gap.compare.ranking import Grade
 from rotemina.sim.gap.diagnosis import UNKNOWN, Verdict
 from rotemina.sim.gap.diagnosis_pipeline import diagnose
-from rotemina.sim.gap.disturbances import set_aside
 from rotemina.sim.gap.errors import GapError
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.ranking import Grade
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.noise.disturbances import set_aside
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot

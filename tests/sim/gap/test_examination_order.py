@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination_order import examination_order
+from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

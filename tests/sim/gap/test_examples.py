@@ -4,10 +4,10 @@ import json
 
 import pytest
 
+from rotemina.sim.gap.compare.diagnosis_progress import Account
 from rotemina.sim.gap.diagnosis_pipeline import diagnose
-from rotemina.sim.gap.diagnosis_progress import Account
-from rotemina.sim.gap.evidence import Evidence
 from rotemina.sim.gap.examination import examine
+from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.robot.file import load_robot
 

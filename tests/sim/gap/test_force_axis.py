@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from rotemina.sim.effects.errors import EffectError
-from rotemina.sim.gap.attribution import attributed
+from rotemina.sim.gap.compare.attribution import attributed
+from rotemina.sim.gap.compare.explanations import explain, explanation, untouched
 from rotemina.sim.gap.diagnosis_pipeline import diagnose
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.explanations import explain, explanation, untouched
-from rotemina.sim.gap.fit import fit
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.fit.output_error import fit
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

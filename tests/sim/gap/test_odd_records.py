@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from rotemina.sim.errors import InputError
-from rotemina.sim.gap import candidates
-from rotemina.sim.gap.catalogue import catalogue
+from rotemina.sim.gap.compare import candidates
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.diagnosis_pipeline import diagnose
+from rotemina.sim.gap.fit.catalogue import catalogue
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 

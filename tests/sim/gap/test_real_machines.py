@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from rotemina.sim.comparison.comparison import compare
+from rotemina.sim.gap.compare.explanations import explain
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.diagnosis_pipeline import diagnose
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.explanations import explain
-from rotemina.sim.gap.fit import fit
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.fit.output_error import fit
 from rotemina.sim.plant.response import nominal_response
 from rotemina.sim.records.reading import read_record
 from rotemina.sim.records.record import Tap

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.compare.held_out_power import MOST_COUNTED, effective_rows, held_out_powers
-from rotemina.sim.gap.evidence import Evidence
+from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 

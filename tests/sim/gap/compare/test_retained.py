@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from rotemina.sim.gap.compare.diagnosis_progress import Account
+from rotemina.sim.gap.compare.explanations import explain
 from rotemina.sim.gap.compare.retained import with_retained
-from rotemina.sim.gap.diagnosis_progress import Account
-from rotemina.sim.gap.evidence import Evidence
-from rotemina.sim.gap.explanations import explain
+from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect

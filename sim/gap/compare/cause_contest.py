@@ -1,0 +1,396 @@
+"""The causes that hold against all effects that could take their place."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.formulation import Late, Stage, Trait
+from rotemina.sim.effects.kinship import Family
+from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.gap.compare.attribution import attributed, closing, without_own
+from rotemina.sim.gap.compare.closed_share import closed
+from rotemina.sim.gap.compare.excitation_richness import alike_axes
+from rotemina.sim.gap.compare.explanations import (
+    MOST_STEPS,
+    Explanation,
+    beside,
+    explain,
+    explanation,
+)
+from rotemina.sim.gap.compare.forward_selection import Selection
+from rotemina.sim.gap.compare.held_out_power import held_out_powers
+from rotemina.sim.gap.compare.rivals import Key, Rival, probability, rivals
+from rotemina.sim.gap.compare.verdict import stands
+from rotemina.sim.gap.compare.weights import weigh
+from rotemina.sim.gap.fit.baseline import is_own, is_whole_own
+from rotemina.sim.gap.fit.catalogue import catalogue, is_of, kinship_of, with_parameter
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.fit.output_error import fit
+from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.model import AxisEffect
+
+# What does the same at the sensor as elsewhere, where no reference was recorded.
+_AT_THE_SENSOR = {Family.GAIN, Family.CURVE, Family.LATE, Family.PERIOD}
+_BUTTERWORTH = "third_order"  # of a lag, as it is with its presets
+_BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
+_AS_SLOW = 0.7  # the same for what is as slow as a wander
+_LIKELIER = 0.6  # probability from which a rival takes a cause's place
+_TIMES_LIKELIER = 2.5  # the same beside that of the cause
+_TURNS = 6  # at most, in which rivals take a cause's place until none is likelier
+_AS_GOOD = 1.03  # times a score
+_WELL = 1.5  # times a score, above which a twin that was tried is fitted again
+_LOAD_ABOVE = 1.8  # times an axis' resonance, from where that of a mass on it is looked for
+_WITHOUT_STEPS = 5  # of a fit without one of the causes, from where the others are
+_NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
+
+Ranking = Mapping[Key, tuple[Rival, ...]]
+
+
+def contested(
+    evidence: Evidence,
+    selection: Selection,
+    best: Explanation,
+    aside: Mapping[Tap, float],
+    *,
+    wanders: bool,
+    disturbed: bool,
+) -> tuple[Explanation, Ranking]:
+    """Return the explanation by the causes that stand, and the rivals of each.
+
+    A rival that does about as well with fewer parameters takes a cause's place. A cause in whose
+    place several others would do as well is none, as it stands for what the rest leaves; nor is
+    one that closes little where the sensor ``wanders``. ``aside`` is the power at each tap, in its
+    floors squared, of what was set aside: beside more than the gap, a cause closes a share of the
+    whole. ``disturbed`` tells that a disturbance is a cause, which makes any other one of several.
+    """
+    best, ranked = _with_the_likeliest(evidence, selection, best)
+    unsure = wanders or max(aside.values(), default=0.0) > selection.raw
+    beside_others = unsure or disturbed
+    # What nothing that was found explains: one that does not stand may still take a part of it.
+    more = [one for one in selection.tried if set(one.ids) >= set(best.ids)]
+    fullest = min([best, *more], key=lambda one: one.score).by_tap
+    remains = {
+        tap: max(left - 1.0, 0.0) + (aside.get(tap, 0.0) if unsure else 0.0)
+        for tap, left in fullest.items()
+    }
+    once: set[Key] = set()  # a re-tuned parameter may come back in what the others leave
+    while len(best.causes) > 1 or (best.causes and beside_others):
+        doubted = {
+            key: weight
+            for key in best.ids
+            if key not in once
+            and (weight := _doubt(evidence, selection, best, ranked[key], key, remains)) is not None
+        }
+        if wanders:
+            bent = (key for key in best.ids if key not in once and _bends_to(evidence, best, key))
+            doubted |= dict.fromkeys(bent, 0.0)
+        if not doubted:
+            break
+        # One at a time: without it, another that it stood in for may be beyond doubt.
+        least = min(doubted, key=lambda key: (doubted[key], key[0], key[1] or ""))
+        once.add(least)
+        kept = [one for one in best.causes if (one.id, one.from_axis) != least]
+        best = _with_only(evidence, selection, kept)
+        ranked = rivals_of(evidence, selection, best)
+    return _with_the_likeliest(evidence, selection, best, ranked) if once else (best, ranked)
+
+
+def _with_the_likeliest(
+    evidence: Evidence,
+    selection: Selection,
+    best: Explanation,
+    ranked: dict[Key, tuple[Rival, ...]] | None = None,
+) -> tuple[Explanation, dict[Key, tuple[Rival, ...]]]:
+    """Return an explanation with rivals in the place of causes than which they are by far likelier.
+
+    With it come the rivals of each of its causes, ``ranked`` where they are known.
+    """
+    ranked = ranked or rivals_of(evidence, selection, best)
+    for _ in range(_TURNS):
+        likelier = _likelier(ranked)
+        if likelier is None:
+            break
+        best = attributed(evidence, selection.bare, likelier)
+        ranked = rivals_of(evidence, selection, best)
+    return best, ranked
+
+
+def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
+    """Return the explanation with a rival in the place of a cause, if that is by far likelier.
+
+    It does about as well with fewer parameters. Of those by the same effects, which began at
+    different numbers, the one that leaves least.
+    """
+    found = [
+        own[0]
+        for key, own in ranked.items()
+        if (own[0].effect, own[0].from_axis) != key
+        and (
+            own[0].probability >= _LIKELIER
+            or own[0].probability >= _TIMES_LIKELIER * probability(own, key)
+        )
+    ]
+    if not found:
+        return None
+    ids = max(found, key=lambda one: one.probability).explanation.ids
+    alike = [
+        one.explanation for own in ranked.values() for one in own if one.explanation.ids == ids
+    ]
+    return min(alike, key=lambda one: one.score)
+
+
+def _doubt(
+    evidence: Evidence,
+    selection: Selection,
+    best: Explanation,
+    ranked: Sequence[Rival],
+    key: Key,
+    remains: Mapping[Tap, float],
+) -> float | None:
+    """Return the weight of a cause that stands at no tap, None of one that stands.
+
+    ``remains`` is the power that is left at each tap above the floor.
+    """
+    without = _without(evidence, selection, best, key)
+    weight = _weight_of_its_kind(evidence, best, without, ranked, key)
+    standing = any(
+        stands(closes, remains[tap], weight)
+        for tap, closes in closing(evidence, without, best).items()
+    )
+    return None if standing else weight
+
+
+def _weight_of_its_kind(
+    evidence: Evidence, best: Explanation, without: Explanation, ranked: Sequence[Rival], key: Key
+) -> float:
+    """Return the weight that a cause is there, or what does the same at the sensor.
+
+    Which of these it is may be in doubt, and that one of them is there beyond doubt.
+    """
+    others = [one for one in ranked if one.explanation is not best]
+    own = (Rival(key[0], key[1], 1.0, best), *others)
+    found = [*(one.explanation for one in own), without]
+    counts = [*(len(best.causes) for _ in own), len(best.causes) - 1]
+    weights = weigh(held_out_powers(evidence, [one.held_out for one in found]), counts)
+    kin = [_is_kin(one, key) for one in own]
+    return float(weights[:-1][kin].sum())
+
+
+def _is_kin(one: Rival, key: Key) -> bool:
+    name, source = key
+    family = kinship_of(name).family
+    alike = family in _AT_THE_SENSOR and kinship_of(one.effect).family is family
+    return one.from_axis == source and (one.effect == name or alike)
+
+
+def _without(evidence: Evidence, selection: Selection, best: Explanation, key: Key) -> Explanation:
+    """Return the others of a cause, fitted by themselves."""
+    others = [one for one in best.causes if (one.id, one.from_axis) != key]
+    if is_whole_own(key[0]):
+        kept = [one for one in best.fit.effects if one.id != key[0]]
+        again = fit(evidence, kept, most_steps=_WITHOUT_STEPS, near=best.fit)
+        return explanation(evidence, len(others), again)
+    free = [one for one in others if not is_own(evidence, one)]
+    if not free:
+        return selection.retuned
+    named = {(one.id, one.from_axis) for one in free}
+    alone = [one for one in selection.tried if set(one.ids) == named]
+    if alone:
+        return min(alone, key=lambda one: one.score)
+    some = beside(evidence, free, best)
+    again = fit(evidence, some, most_steps=_WITHOUT_STEPS, near=best.fit)
+    return explanation(evidence, len(free), again)
+
+
+def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:
+    """Tell whether a cause closes so little beside a wander that it may only follow that."""
+    others = [one for one in best.causes if (one.id, one.from_axis) != key]
+    before = float(np.mean(evidence.residual(others) ** 2))
+    return closed(before, best.score) < (_AS_SLOW if _is_slow(key[0]) else _BESIDE_A_WANDER)
+
+
+def _is_slow(effect_id: str) -> bool:
+    """Tell whether an effect is fixed in time without coming again."""
+    effect = effect_named(effect_id)
+    lasting = Trait.LOCKED_TO_TIME in effect.formulations[0].traits
+    return lasting and effect.identification.shows_as is None
+
+
+def _with_only(evidence: Evidence, selection: Selection, kept: Sequence[AxisEffect]) -> Explanation:
+    """Return the explanation by some of the causes."""
+    if not kept:
+        return selection.bare
+    causes = [one for one in kept if not is_own(evidence, one)]
+    named = {(one.id, one.from_axis) for one in causes}
+    # Without what went, another of their forms may do better.
+    alone = [one for one in selection.tried if set(one.ids) == named]
+    best = min([explain(evidence, causes), *alone], key=lambda one: one.score)
+    return attributed(evidence, selection.bare, best)
+
+
+def rivals_of(
+    evidence: Evidence, selection: Selection, best: Explanation
+) -> dict[Key, tuple[Rival, ...]]:
+    """Return the rivals of each cause of an explanation, likeliest first."""
+    tried = _with_retuned(evidence, selection, best)
+    twins = _twins_of(evidence, best, tried)
+    ranked = {}
+    for key in best.ids:
+        # Each by itself: of what was tried, only the best few are fitted again.
+        others = without_own(evidence, best, tried, key) + without_own(evidence, best, twins, key)
+        ranked[key] = rivals(evidence, best, _one_of_each(others), key, selection.raw)
+    return ranked
+
+
+def _one_of_each(found: Sequence[Explanation]) -> list[Explanation]:
+    """Return the best explanation by each set of effects: the simplest of what is as good."""
+    least: dict[object, float] = {}
+    for one in found:
+        least[one.ids] = min(one.score, least.get(one.ids, one.score))
+    kept: dict[object, Explanation] = {}
+    for one in sorted(found, key=lambda one: (one.fit.parameters, one.score)):
+        if one.score <= _AS_GOOD * least[one.ids]:
+            kept.setdefault(one.ids, one)
+    return list(kept.values())
+
+
+def _with_retuned(
+    evidence: Evidence, selection: Selection, best: Explanation
+) -> tuple[Explanation, ...]:
+    """Return what was tried, the model's own parameters by name if they come near."""
+    if not selection.tried or selection.retuned.score > _NEAR * best.score:
+        return selection.tried
+    named = attributed(evidence, selection.bare, selection.retuned)
+    others = [one for one in selection.tried if one is not selection.retuned]
+    return (*others, replace(named, causes=named.causes[:1]))
+
+
+def _twins_of(
+    evidence: Evidence, best: Explanation, tried: Sequence[Explanation]
+) -> tuple[Explanation, ...]:
+    """Return explanations by what does much the same as a cause, if that was not tried so already.
+
+    It is fitted from the cause's numbers on: from others it may have ended in a worse place. The
+    sensor, where no reference was recorded; another axis that moved alike, for a gain; a lag
+    of high order, for a delay.
+    """
+    more = []
+    for cause in best.causes:
+        own = is_own(evidence, cause)
+        others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
+        for asked in _twins(evidence, cause):
+            well = _WELL * best.score
+            if own or not any(one.score < well and _is_by(one, [*others, asked]) for one in tried):
+                effects = beside(evidence, [*others, asked])
+                if own:  # in whose place it stands
+                    effects = [one for one in effects if one.id != cause.id]
+                fitted = fit(evidence, effects, most_steps=MOST_STEPS)
+                more.append(explanation(evidence, len(others) + 1, fitted))
+    return tuple(more)
+
+
+def _is_by(one: Explanation, causes: Sequence[AxisEffect]) -> bool:
+    """Tell whether an explanation is by such causes, the last of them in the same form."""
+    wanted = sorted((cause.id, cause.from_axis) for cause in causes)
+    forms = {(cause.id, cause.formulation) for cause in one.causes}
+    return sorted(one.ids) == wanted and (causes[-1].id, causes[-1].formulation) in forms
+
+
+def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
+    found = []
+    if not evidence.has(Tap.REF):
+        found += [_alike(cause, twin) for twin in _elsewhere(cause.id)]
+    if _is_transport(cause):
+        found += [_as_late(cause, lag) for lag in _lags(Stage.ELECTRONICS)]
+    if is_whole_own(cause.id) and is_of(Family.GAIN, cause.id):
+        for axis, k in alike_axes(evidence).items():
+            numbers = {"k": k * cause.parameters["error"]}
+            found += [
+                AxisEffect(axis=evidence.axis, id=one.id, from_axis=axis, parameters=numbers)
+                for one in catalogue()
+                if one.coupled and one.formulations[0].parameter("k")
+            ]
+    if is_of(Family.RESONANCE, cause.id):
+        found += _loads(evidence, cause)
+    return [_within_bounds(evidence, twin) for twin in found]
+
+
+def _elsewhere(name: str) -> list[str]:
+    """Return what does the same at the sensor; of a curve of the sensor, what does it elsewhere."""
+    own = effect_named(name)
+    if own.kinship.family not in _AT_THE_SENSOR:
+        return []
+    at_the_sensor = own.stage is Stage.SENSOR
+    if at_the_sensor and own.kinship.family is not Family.CURVE:
+        return []
+    return [
+        one.id
+        for one in catalogue()
+        if one.kinship.family is own.kinship.family
+        and (one.stage is Stage.SENSOR) is not at_the_sensor
+    ]
+
+
+def _is_transport(cause: AxisEffect) -> bool:
+    """Tell whether a cause makes everything later and nothing else."""
+    effect = effect_named(cause.id)
+    return isinstance(effect.formulations[0].acts, Late) and is_of(Family.LATE, cause.id)
+
+
+def _lags(stage: Stage) -> list[str]:
+    return [
+        one.id
+        for one in catalogue()
+        if one.stage is stage and one.formulation(_BUTTERWORTH) and is_of(Family.LATE, one.id)
+    ]
+
+
+def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
+    """Return a mass on a spring that makes an axis ring as much slower as a re-tuned resonance is.
+
+    With μ of the axis' mass, at ν times its resonance, both ring at r of that where
+    1 - r² = μ r² / (1 - r²/ν²) (the dynamic vibration absorber: Den Hartog, Mechanical Vibrations,
+    1956, ch. 3).
+    """
+    inertia, off = evidence.robot.axes[evidence.axis].inertia, cause.parameters["frequency_error"]
+    if inertia is None or off >= 0.0:
+        return []
+    rings_hz = float(np.sqrt(inertia.stiffness / inertia.mass)) / (2.0 * np.pi)
+    slower = (1.0 + off) ** 2
+    share = (1.0 / slower - 1.0) * (1.0 - slower / _LOAD_ABOVE**2)
+    numbers = {"frequency": _LOAD_ABOVE * rings_hz, "mass_ratio": share}
+    load = with_parameter("mass_ratio")
+    if load is None:
+        return []
+    effect, form = load
+    return [AxisEffect(axis=evidence.axis, id=effect.id, formulation=form.name, parameters=numbers)]
+
+
+def _as_late(cause: AxisEffect, lag: str) -> AxisEffect:
+    """Return the Butterworth filter of the third order that is as late as a delay: 2τ."""
+    late_s = effect_named(cause.id).identification.lateness_s
+    assert late_s is not None
+    numbers = {"time_constant": 0.5 * late_s(cause.parameters)}
+    return replace(cause, id=lag, formulation=_BUTTERWORTH, parameters=numbers)
+
+
+def _within_bounds(evidence: Evidence, twin: AxisEffect) -> AxisEffect:
+    """Return a twin with the nearest numbers that it may have: its bounds may be closer."""
+    bare = Attached.of(evidence.robot, replace(twin, parameters={}))
+    return replace(twin, parameters=bare.clipped(twin.parameters))
+
+
+def _alike(cause: AxisEffect, twin: str) -> AxisEffect:
+    """Return the twin of a cause, in the form of the same name and with the numbers of both.
+
+    That of a delay is a lag as late.
+    """
+    if _is_transport(cause):
+        return _as_late(cause, twin)
+    forms = effect_named(twin).formulations
+    form = next((one for one in forms if one.name == cause.formulation), forms[0])
+    names = {parameter.name for parameter in form.parameters}
+    numbers = {name: value for name, value in cause.parameters.items() if name in names}
+    return replace(cause, id=twin, formulation=form.name, parameters=numbers)

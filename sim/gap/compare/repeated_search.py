@@ -1,0 +1,197 @@
+"""What explains the gap of an axis, each look taking up what the one before has found."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+from rotemina.sim.effects.identification import Sign
+from rotemina.sim.gap.compare.attribution import attributed
+from rotemina.sim.gap.compare.closed_share import closed
+from rotemina.sim.gap.compare.diagnosis_progress import Account
+from rotemina.sim.gap.compare.explanations import (
+    Explanation,
+    explain,
+    untouched,
+)
+from rotemina.sim.gap.compare.forward_selection import (
+    NOTICED,
+    Selection,
+    select,
+)
+from rotemina.sim.gap.compare.row_weights import huber_weighted
+from rotemina.sim.gap.fit.baseline import is_own
+from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.noise.disturbances import Disturbance, power_by_tap, set_aside
+from rotemina.sim.gap.noise.sensor_wander import wander
+from rotemina.sim.robot.model import AxisEffect
+
+_GAP = 1.5  # mean square over the floor from which there is something to explain
+_BETTER = 0.9  # of a score: what is left of the same causes beside more that is set aside
+_WITHOUT_JUMPS = 0.97  # of the gap, closed without them, from which jumps are none
+_NO_STEPS = 0.03  # of the power of steps: nothing explains their own error
+_BEYOND_STEPS = 0.8  # of what is beyond cells, that an explanation closes
+_NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
+_LOOKS = 3  # for disturbances, beside what the one before explains
+_UNEXPLAINED = 1.2  # mean square over the floor, from which there is another look
+_CLEARLY_MORE = 1.1  # times the power of a disturbance that was found before
+MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
+
+Found = tuple[Evidence, tuple[Disturbance, ...], Selection, Explanation]
+
+
+def searched(whole: Evidence, account: Account, jobs: int) -> Found:
+    """Return what explains the gap, each look taking up what the one before has found."""
+    evidence, aside = set_aside(whole)
+    found: Found = evidence, aside, *_explained(whole, evidence, aside, account, jobs)
+    for look in (
+        _looked_again,
+        _without_false_noise,
+        _without_false_jumps,
+        _without_false_cells,
+        _with_even_rows,
+    ):
+        found = look(whole, found, account, jobs)
+    return found
+
+
+def _looked_again(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
+    """Return the findings after a second look without disturbances hidden by the first findings.
+
+    Steps of a screw hide lost steps, and a coarse converter hides spikes of a sensor.
+    """
+    for _ in range(_LOOKS):
+        _, aside, _, best = first
+        acting = [one for one in best.fit.effects if acts(one)]
+        if best.score < _UNEXPLAINED or not acting:
+            break
+        evidence, found = set_aside(whole, acting)
+        if not _more(found, aside):
+            break
+        again = explain(evidence, [one for one in best.causes if not is_own(evidence, one)])
+        if again.score > _BETTER * best.score:
+            break  # what is set aside beside these causes hid nothing
+        selection, better = _explained(whole, evidence, found, account, jobs)
+        if better.score > MUCH_BETTER * best.score:
+            break
+        first = evidence, found, selection, better
+    return first
+
+
+def _without_false_noise(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
+    """Return the findings with the declared floor, if effects can explain the apparent noise.
+
+    Row-to-row remainders of a fast motion, such as an encoder's own error, look like noise; so does
+    an axis at either end of its travel, or with coarse steps.
+    """
+    evidence, aside, selection, best = first
+    if selection.tried and best.fit.cost >= _NOT_NOISE:
+        return first
+    steps = bool(selection.tried) and best.fit.cost < _NO_STEPS and not evidence.in_cells
+    doubted = {Sign.NOISE, Sign.STEPS} if steps else {Sign.NOISE}
+    raised = {one.sign for one in aside} & doubted
+    if not raised:
+        return first
+    if Sign.STEPS in raised:
+        raised.add(Sign.SPIKES)  # whose rows come back with those that steps left out
+    declared = evidence.with_observations(
+        [
+            replace(
+                own,
+                floor=was.floor,
+                cell=was.cell,
+                kept=was.kept if Sign.SPIKES in raised else own.kept,
+            )
+            for own, was in zip(evidence.observations, whole.observations, strict=True)
+        ]
+    )
+    others = tuple(one for one in aside if one.sign not in raised)
+    second = declared, others, *_explained(whole, declared, others, account, jobs)
+    if not selection.tried and second[3].score > _NOT_NOISE * second[2].raw:
+        return first  # nothing but noise explains it
+    return second
+
+
+def _without_false_jumps(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
+    """Return the findings with jumps left in, if effects can explain the apparent lost steps.
+
+    An axis that sticks and breaks loose also jumps, by the deflection of its drive; so does a loose
+    axis, at every reversal by its play. Only these explanations count where little remains.
+    """
+    _, aside, _, best = first
+    if best.score < NOTICED or not any(one.sign is Sign.JUMPS for one in aside):
+        return first
+    evidence, others = set_aside(whole, jumps=False)
+    second = evidence, others, *_explained(whole, evidence, others, account, jobs)
+    simpler = closed(second[2].raw, second[3].score) >= _WITHOUT_JUMPS
+    return second if simpler or second[3].score < MUCH_BETTER * best.score else first
+
+
+def _without_false_cells(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
+    """Return the findings with steps as noise, if nothing explains deviations beyond the cells.
+
+    Steps need not be even, and a sensor may drift between them.
+    """
+    evidence, _, selection, best = first
+    if not evidence.in_cells or closed(selection.raw, best.score) >= _BEYOND_STEPS:
+        return first
+    evidence, aside = set_aside(whole, cells=False)
+    return evidence, aside, *_explained(whole, evidence, aside, account, jobs)
+
+
+def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
+    """Return what is found once no rows count by more than what must be left around them.
+
+    What is left where the machine does most else may decide for causes that only bend to it. Even
+    rows may show others in their place, of those that were fitted before, but not more: cut down
+    to the median, the gap makes small causes look large. A sensor that wanders leaves uneven rows
+    by nature.
+    """
+    evidence, aside, tried, best = first
+    if not best.ids or wander(evidence, best.fit.residual) is not None:
+        return first
+    even = huber_weighted(evidence, [one.held_out for one in (best, *tried.tried)])
+    if even is None:
+        return first
+    fitted = {key for one in tried.tried for key in one.ids}
+    # The search may end at the same causes, or at more: neither replaces the first result.
+    selection, other = _explained(whole, even, aside, account, jobs, fitted, tried.best.ids)
+    if len(other.ids) > len(best.ids) or set(best.ids) >= set(other.ids):
+        return first
+    if len(other.ids) == len(best.ids):
+        again = explain(even, [one for one in best.causes if not is_own(even, one)])
+        if other.score > MUCH_BETTER * again.score:
+            return first
+    return even, aside, selection, other
+
+
+def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
+    """Tell whether disturbances are others than before, or clearly more of them."""
+    known = {one.sign: one.power for one in before}
+    return any(one.power > _CLEARLY_MORE * known.get(one.sign, 0.0) for one in found)
+
+
+def _explained(
+    whole: Evidence,
+    evidence: Evidence,
+    aside: Sequence[Disturbance],
+    account: Account,
+    jobs: int,
+    among: Collection[tuple[str, str | None]] | None = None,
+    until: Sequence[tuple[str, str | None]] | None = None,
+) -> tuple[Selection, Explanation]:
+    """Return the selection, and the best explanation with its own parameters as causes."""
+    bare = untouched(evidence)
+    if max(bare.by_tap.values()) < _GAP:
+        return Selection(bare, bare, bare, ()), bare
+    # What readings leave beyond their steps is nothing that these leave of themselves.
+    leaving = [one for one in aside if not (evidence.in_cells and one.sign is Sign.STEPS)]
+    power = {
+        tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
+        for tap, power in power_by_tap(whole, leaving).items()
+    }
+    selection = select(evidence, account, power, among=among, until=until, jobs=jobs)
+    return selection, attributed(evidence, selection.bare, selection.best)
+
+
+def acts(effect: AxisEffect) -> bool:
+    """Tell whether an effect does anything."""
+    return any(value != 0.0 for value in effect.parameters.values())

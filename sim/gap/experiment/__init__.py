@@ -1,0 +1,1 @@
+"""The next experiment: safe motions that tell the remaining hypotheses apart."""

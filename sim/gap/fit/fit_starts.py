@@ -1,0 +1,129 @@
+"""Starting points of a fit: each effect derives them from the records and the remainder."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from rotemina.sim.arrays import FloatArray
+from rotemina.sim.effects.attachment import Attached
+from rotemina.sim.effects.facts import Facts
+from rotemina.sim.effects.identification import Extent, Interval, Seen, Values
+from rotemina.sim.gap.fit.baseline import is_whole_own
+from rotemina.sim.gap.fit.evidence import Evidence, Signals
+from rotemina.sim.gap.fit.output_error import Fit
+from rotemina.sim.gap.fit.quantization_grid import likeliest_grid
+from rotemina.sim.gap.fit.strongest_line import strongest_frequency, strongest_periods
+from rotemina.sim.gap.fit.tolerances import tolerance
+from rotemina.sim.records.record import Tap
+from rotemina.sim.robot.model import AxisEffect
+
+
+def starts(evidence: Evidence, fitted: Fit, candidate: AxisEffect) -> tuple[AxisEffect, ...]:
+    """Return the candidate with starting parameters for its fit.
+
+    ``fitted`` is the present explanation; the candidate is to explain its remainder.
+    """
+    given, attached = candidate.parameters, Attached.of(evidence.robot, candidate)
+    begin = attached.effect.identification.starts
+    return tuple(
+        replace(candidate, parameters={**given, **attached.clipped(values)})
+        for values in begin(EvidenceView(evidence, fitted, attached))
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class EvidenceView:
+    """Evidence and a fit, as effects may access them."""
+
+    evidence: Evidence
+    fitted: Fit
+    attached: Attached
+
+    @property
+    def facts(self) -> Facts:
+        """The axis."""
+        return self.attached.facts
+
+    @cached_property
+    def values(self) -> Values:
+        """All parameters, SI."""
+        return self.attached.values
+
+    @property
+    def given(self) -> bool:
+        """Whether the parameters are those of another formulation as fitted."""
+        return bool(self.attached.asked.parameters)
+
+    @cached_property
+    def extent(self) -> Extent:
+        """What the records cover."""
+        return self.evidence.extent
+
+    @cached_property
+    def records(self) -> Sequence[Seen]:
+        """The records."""
+        source, left = self.attached.asked.from_axis, self._by_tap(self.fitted.residual)
+        return [
+            Seen(
+                time_s=one.record.time_s,
+                command=one.record.signal(self.evidence.axis, Tap.CMD),
+                source=one.record.signal(source, Tap.CMD)
+                if source is not None and one.record.has(source, Tap.CMD)
+                else None,
+                real=one.real,
+                floor=one.floor,
+                left=own,
+            )
+            for one, own in zip(self.evidence.observations, left, strict=True)
+        ]
+
+    @cached_property
+    def answers(self) -> Sequence[Signals]:
+        """What the model says of each record (n,) so far, SI."""
+        return self.evidence.response(self.fitted.effects)
+
+    @cached_property
+    def unbent(self) -> tuple[Sequence[Signals], Sequence[Signals]]:
+        """Answers and remainders, by record, with the model's original own parameters."""
+        causes = [one for one in self.fitted.effects if not is_whole_own(one.id)]
+        return self.evidence.response(causes), self._by_tap(self.evidence.residual(causes))
+
+    def bounds(self, name: str) -> Interval:
+        """Return the bounds of a parameter on this axis, SI."""
+        parameter = self.attached.formulation.parameter(name)
+        assert parameter is not None
+        return parameter.bounds(self.facts)
+
+    def domain(self, name: str) -> Interval:
+        """Return how far a fit to these records may take a parameter, SI."""
+        parameter = self.attached.formulation.parameter(name)
+        assert parameter is not None
+        return tolerance(self.attached, parameter, self.extent)
+
+    def periods(self, bounds: Interval) -> Sequence[float]:
+        """Return periods over position of the strongest lines of the remainder, m or rad."""
+        return strongest_periods(self.evidence, self.fitted, bounds)
+
+    def frequency(self, bounds: Interval) -> float | None:
+        """Return the frequency of the strongest line over time of the remainder, Hz."""
+        return strongest_frequency(self.evidence, self.fitted.residual, bounds)
+
+    def grid(
+        self, bounds: Interval, origin: float, gain: float, *, at_input: bool
+    ) -> Values | None:
+        """Return ``step`` and ``shift`` of the teeth in the remainder, if there are any."""
+        return likeliest_grid(
+            self.evidence,
+            self.fitted,
+            self.attached.asked,
+            bounds,
+            origin,
+            gain,
+            at_input=at_input,
+        )
+
+    def _by_tap(self, residual: FloatArray) -> list[dict[Tap, FloatArray]]:
+        found: list[dict[Tap, FloatArray]] = [{} for _ in self.evidence.observations]
+        for part in self.evidence.parts:
+            found[part.record][part.tap] = residual[part.rows]
+        return found

@@ -1,0 +1,1 @@
+"""Records as they come: clocks, units, dead sensors, duplicates, leaps of time."""

@@ -1,0 +1,1 @@
+"""Where the gap lies: axis, tap, frequency band, regime, and what it depends on."""

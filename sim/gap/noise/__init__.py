@@ -1,0 +1,1 @@
+"""Disturbances of a sensor: noise, coarse steps, spikes, drift, lost steps, vibration."""

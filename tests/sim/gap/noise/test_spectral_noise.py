@@ -1,0 +1,26 @@
+"""The level of white noise, below lines and slow motion."""
+
+import numpy as np
+import pytest
+
+from rotemina.sim.gap.noise.spectral_noise import common_level, noise_level
+
+RATE_HZ = 1000.0
+
+
+TIME_S = np.arange(8000) / RATE_HZ
+
+
+NOISE = np.random.default_rng(0).standard_normal(len(TIME_S))
+
+
+def test_the_level_of_noise_is_found_below_lines_and_slow_motion():
+    slow = 50.0 * np.sin(2 * np.pi * 0.4 * TIME_S) + 5.0 * np.sin(2 * np.pi * 60.0 * TIME_S)
+    assert noise_level(2.5 * NOISE + slow) == pytest.approx(2.5, rel=0.12)
+    assert noise_level(np.cumsum(NOISE)) == 0.0  # a wander
+
+
+def test_a_sensor_that_is_noisy_in_one_record_alone_is_not():
+    assert common_level([1.0, 3.6, 0.9]) == 1.0
+    assert common_level([0.0, 2.0, 2.1]) == 2.0  # a wander tells nothing of noise
+    assert common_level([0.0]) == 0.0
