@@ -168,7 +168,7 @@ def test_no_error_says_what_has_no_translation():
     ],
 )
 def test_a_report_says_nothing_that_has_no_translation(folder, name, texts):
-    frame = (ROOT / "sim" / "gap" / "report" / "frame.html").read_text("utf-8")
+    frame = (ROOT / "sim/gap/output/report/frame.html").read_text("utf-8")
     page = (ROOT / folder / name).read_text("utf-8")
     said = set(re.findall(r'"([^"]*)" \| t\b', frame + page))
     assert said == set(texts)
