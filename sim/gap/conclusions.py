@@ -8,7 +8,6 @@ from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.explanations import Explanation
-from rotemina.sim.gap.compare.forward_selection import NOTICED
 from rotemina.sim.gap.compare.rivals import paired_blocks, probability
 from rotemina.sim.gap.compare.shrinkage import LeftBy, at_tap, closing, rms, shrinkage
 from rotemina.sim.gap.diagnosis import (
@@ -30,6 +29,7 @@ from rotemina.sim.gap.fit.row_blocks import drawn_means
 from rotemina.sim.gap.location.located_gap import LocatedGap
 from rotemina.sim.gap.noise.disturbances import Disturbance
 from rotemina.sim.gap.output.wording import group
+from rotemina.sim.gap.thresholds import NOTICED
 from rotemina.sim.messages import Listed, Message, message
 from rotemina.sim.quantities import percent
 from rotemina.sim.records.record import Tap

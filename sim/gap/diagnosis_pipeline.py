@@ -29,6 +29,7 @@ from rotemina.sim.gap.intake.record_checks import check
 from rotemina.sim.gap.intake.time_leaps import pieces
 from rotemina.sim.gap.location.located_gap import LocatedGap, locate
 from rotemina.sim.gap.output.constant_offsets import offsets
+from rotemina.sim.gap.thresholds import SOME
 from rotemina.sim.messages import AxisName, joined, message
 from rotemina.sim.plant.coupled_groups import coupled_axes
 from rotemina.sim.plant.errors import PlantError
@@ -37,7 +38,6 @@ from rotemina.sim.robot.model import AxisEffect, Robot
 
 _LOG = logging.getLogger(__name__)
 _LEAST_LEFT = 0.06  # of an axis' gap, that other axes' causes must leave for it to have its own
-_LEAKED = 0.25  # the same, where nothing explains it: other axes' formulas are not quite right
 _SHAKES = 10.0  # times the power of a gap, that a coupled axis' one has to be the reason of it
 _LEAST_BEYOND_THE_SENSOR = 2.5  # floors of a finer reference, that a sensor does not see
 _LEAST_GAP = 1.45  # floors below which a gap is no matter: an encoder at rest may be off so far
@@ -176,7 +176,7 @@ class _Run:
             _LOG.warning("axis %s: its examination failed: %s", name, error)
             self.failed[name] = str(error)
             return
-        leaked = context and now - 1.0 < _LEAKED * (before - 1.0)
+        leaked = context and now - 1.0 < SOME * (before - 1.0)
         if not (leaked and examined.verdict is Verdict.UNKNOWN):
             self.examined[name] = examined
 

@@ -22,14 +22,9 @@ from rotemina.sim.gap.compare.explanations import (
     named_as,
     untouched,
 )
-from rotemina.sim.gap.compare.forward_selection import (
-    CLEARLY,
-    LEAST_POWER,
-    LEAST_SHARE,
-    Selection,
-)
+from rotemina.sim.gap.compare.forward_selection import Selection
 from rotemina.sim.gap.compare.many_modes import many_modes
-from rotemina.sim.gap.compare.repeated_search import MUCH_BETTER, acts, searched
+from rotemina.sim.gap.compare.repeated_search import acts, searched
 from rotemina.sim.gap.compare.retained import with_retained
 from rotemina.sim.gap.compare.rivals import Key, not_ruled_out
 from rotemina.sim.gap.compare.verdict import Closing, decide, is_sure
@@ -42,12 +37,12 @@ from rotemina.sim.gap.location.residual_features import Probe, probed
 from rotemina.sim.gap.noise.coarse_reading import steps_of
 from rotemina.sim.gap.noise.disturbances import Disturbance, by_effect, power_by_tap
 from rotemina.sim.gap.noise.sensor_wander import wander
+from rotemina.sim.gap.thresholds import CLEARLY, HALF, LEAST_POWER, MUCH, SMALL
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 _TAILS = 0.08  # of the gap's power, that outliers have beyond the tails of what else is set aside
 _WITH_TAILS = {Sign.NOISE, Sign.STEPS, Sign.TONES}
-_STILL_OUT = 0.5  # of their power, that outliers keep beside an explanation
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +190,7 @@ def _was_explained(
         if part.tap is one.tap:
             rows += part.rows.stop - part.rows.start
             power += 0.0 if kept is None else float(np.sum(left[part.rows][~kept] ** 2))
-    return power / rows < _STILL_OUT * one.power
+    return power / rows < HALF * one.power
 
 
 def _fullest(selection: Selection, best: Explanation) -> Sequence[Explanation]:
@@ -206,7 +201,7 @@ def _fullest(selection: Selection, best: Explanation) -> Sequence[Explanation]:
         for one in selection.tried
         if named < {(own.id, own.from_axis) for own in one.fit.effects}
         and {key for key in named if not is_whole_own(key[0])} < set(one.ids)
-        and one.score < MUCH_BETTER * best.score
+        and one.score < MUCH * best.score
     ]
     if not fuller:
         return ()
@@ -273,7 +268,7 @@ def _counting(
     others = any(one.sign in _WITH_TAILS for one in found)
     for one in by_effect(found):
         left = by_tap[one.tap] - 1.0
-        least = _TAILS if others and one.sign is Sign.SPIKES else LEAST_SHARE
+        least = _TAILS if others and one.sign is Sign.SPIKES else SMALL
         share = one.power >= least * (raw[one.tap] - 1.0)
         clearly = one.power >= CLEARLY * left and not (misread and one.sign is Sign.WANDER)
         if one.power >= LEAST_POWER and (share or clearly):

@@ -5,17 +5,16 @@ from dataclasses import replace
 
 from rotemina.sim.effects.kinship import Family
 from rotemina.sim.gap.compare.explanations import Explanation, explanation, mean_squares
-from rotemina.sim.gap.compare.forward_selection import LEAST_POWER, LEAST_SHARE
 from rotemina.sim.gap.fit.baseline import baseline, is_whole_own
 from rotemina.sim.gap.fit.catalogue import brought_along, is_of
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import fit
+from rotemina.sim.gap.thresholds import LEAST_POWER, NEAR, SMALL
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 _REFITTED = 5
 _SAME_MASS = 0.3  # relative difference of masses that are one
-_NEAR = 4.0  # times the best score
 
 
 def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) -> Explanation:
@@ -36,7 +35,7 @@ def attributed(evidence: Evidence, bare: Explanation, explained: Explanation) ->
             light = _with_another_mass(evidence, explained, one.id)
             without[one.id] = min(light, without[one.id], key=lambda one: one.score)
     for one in own:
-        least = max([LEAST_SHARE, *(brought_along(one.id, cause) for cause in named)])
+        least = max([SMALL, *(brought_along(one.id, cause) for cause in named)])
         never = least >= 1.0 or (heavier and is_of(Family.GAIN, one.id))
         closes = closing(evidence, without[one.id], explained)
         if not never and _counts(bare, closes, least):
@@ -82,7 +81,7 @@ def without_own(
         for one in tried
         if len(one.causes) == len(others) + 1
         and not any(is_whole_own(own.id) for own in one.causes)
-        and one.score < _NEAR * best.score  # without, it does worse still
+        and one.score < NEAR * best.score  # without, it does worse still
     ]
     return [
         replace(refitted, causes=refitted.fit.effects[: len(one.causes)])

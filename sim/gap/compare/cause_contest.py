@@ -28,22 +28,16 @@ from rotemina.sim.gap.fit.baseline import is_own, is_whole_own
 from rotemina.sim.gap.fit.catalogue import catalogue, is_of, kinship_of, with_parameter
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import fit
+from rotemina.sim.gap.thresholds import ALSO, HALF, MUCH, NEAR, SAME_SCORE, SOME, TIED
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 # What does the same at the sensor as elsewhere, where no reference was recorded.
 _AT_THE_SENSOR = {Family.GAIN, Family.CURVE, Family.LATE, Family.PERIOD}
 _BUTTERWORTH = "third_order"  # of a lag, as it is with its presets
-_BESIDE_A_WANDER = 0.3  # of the gap's power, that a cause closes at least
-_AS_SLOW = 0.7  # the same for what is as slow as a wander
-_LIKELIER = 0.6  # probability from which a rival takes a cause's place
-_TIMES_LIKELIER = 2.5  # the same beside that of the cause
 _TURNS = 6  # at most, in which rivals take a cause's place until none is likelier
-_AS_GOOD = 1.03  # times a score
-_WELL = 1.5  # times a score, above which a twin that was tried is fitted again
 _LOAD_ABOVE = 1.8  # times an axis' resonance, from where that of a mass on it is looked for
 _WITHOUT_STEPS = 5  # of a fit without one of the causes, from where the others are
-_NEAR = 4.0  # times the best score, up to which a re-tuning alone is a rival
 
 Ranking = Mapping[Key, tuple[Rival, ...]]
 
@@ -127,10 +121,7 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
         own[0]
         for key, own in ranked.items()
         if (own[0].effect, own[0].from_axis) != key
-        and (
-            own[0].probability >= _LIKELIER
-            or own[0].probability >= _TIMES_LIKELIER * probability(own, key)
-        )
+        and (own[0].probability >= HALF or own[0].probability >= ALSO * probability(own, key))
     ]
     if not found:
         return None
@@ -208,7 +199,7 @@ def _bends_to(evidence: Evidence, best: Explanation, key: Key) -> bool:
     """Tell whether a cause closes so little beside a wander that it may only follow that."""
     others = [one for one in best.causes if (one.id, one.from_axis) != key]
     before = float(np.mean(evidence.residual(others) ** 2))
-    return closed(before, best.score) < (_AS_SLOW if _is_slow(key[0]) else _BESIDE_A_WANDER)
+    return closed(before, best.score) < (MUCH if _is_slow(key[0]) else SOME)
 
 
 def _is_slow(effect_id: str) -> bool:
@@ -251,7 +242,7 @@ def _one_of_each(found: Sequence[Explanation]) -> list[Explanation]:
         least[one.ids] = min(one.score, least.get(one.ids, one.score))
     kept: dict[object, Explanation] = {}
     for one in sorted(found, key=lambda one: (one.fit.parameters, one.score)):
-        if one.score <= _AS_GOOD * least[one.ids]:
+        if one.score <= SAME_SCORE * least[one.ids]:
             kept.setdefault(one.ids, one)
     return list(kept.values())
 
@@ -260,7 +251,7 @@ def _with_retuned(
     evidence: Evidence, selection: Selection, best: Explanation
 ) -> tuple[Explanation, ...]:
     """Return what was tried, the model's own parameters by name if they come near."""
-    if not selection.tried or selection.retuned.score > _NEAR * best.score:
+    if not selection.tried or selection.retuned.score > NEAR * best.score:
         return selection.tried
     named = attributed(evidence, selection.bare, selection.retuned)
     others = [one for one in selection.tried if one is not selection.retuned]
@@ -281,7 +272,7 @@ def _twins_of(
         own = is_own(evidence, cause)
         others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
         for asked in _twins(evidence, cause):
-            well = _WELL * best.score
+            well = TIED * best.score
             if own or not any(one.score < well and _is_by(one, [*others, asked]) for one in tried):
                 effects = beside(evidence, [*others, asked])
                 if own:  # in whose place it stands

@@ -14,16 +14,15 @@ from rotemina.sim.gap.compare.cause_contest import Ranking
 from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.diagnosis_progress import Account
 from rotemina.sim.gap.compare.explanations import Explanation, named_as
-from rotemina.sim.gap.compare.forward_selection import LEAST_SHARE, NOTICED, possible_causes
+from rotemina.sim.gap.compare.forward_selection import possible_causes
 from rotemina.sim.gap.compare.parallel_fits import fitted, screened_beside
 from rotemina.sim.gap.compare.rivals import Key, rivals
 from rotemina.sim.gap.fit.baseline import is_own
 from rotemina.sim.gap.fit.catalogue import catalogue, kinship_of
 from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.thresholds import CLEARLY, NEARLY_ALL, NOTICED, SMALL
 from rotemina.sim.robot.model import AxisEffect
 
-_OF_SEEN = 0.8  # of what is left of seen data: creep leaves no more, at first sight already
-_OF_UNSEEN = 0.9  # the same of data that no fit saw
 _FITTED = 4  # of what else might be there, that are compared in full
 
 
@@ -45,11 +44,11 @@ def accompanied(
     companion = _companion(best)
     if companion is None or companion in best.ids:
         return best, ranked
-    if best.score < NOTICED or closed(raw, best.score) < 1.0 - LEAST_SHARE:
+    if best.score < NOTICED or closed(raw, best.score) < 1.0 - SMALL:
         return best, ranked
     found = _with_one_more(evidence, best, companion, account, jobs)
     least = min(found, key=lambda one: one.score, default=best)
-    if companion not in least.ids or least.score > _OF_UNSEEN * best.score:
+    if companion not in least.ids or least.score > NEARLY_ALL * best.score:
         return best, ranked
     return least, {**ranked, companion: rivals(evidence, least, found, companion, raw)}
 
@@ -73,7 +72,7 @@ def _with_one_more(
 
     def looked(some: Sequence[AxisEffect]) -> list[AxisEffect]:
         looks = screened_beside(evidence, begun, some, account, jobs, briefly=True)
-        enough = [one for one in looks if one.cost <= _OF_SEEN * best.fit.cost]
+        enough = [one for one in looks if one.cost <= CLEARLY * best.fit.cost]
         return [one.effect for one in sorted(enough, key=lambda one: one.cost)]
 
     own = looked([AxisEffect(axis=evidence.axis, id=companion[0])])

@@ -30,39 +30,34 @@ from rotemina.sim.gap.fit.baseline import is_own
 from rotemina.sim.gap.fit.catalogue import brought_along, is_of, kinship_of
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import fit
+from rotemina.sim.gap.thresholds import (
+    ADEQUATE,
+    ALSO,
+    CLEARLY,
+    HALF,
+    HOPELESS,
+    LEAST_POWER,
+    MUCH,
+    NARROW,
+    NEAR,
+    NEARLY_ALL,
+    NEXT_TO_NOTHING,
+    NOTICED,
+    SAME_SCORE,
+    SEEN,
+    SMALL,
+    SOME,
+)
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
 MOST_CAUSES = 3
-LEAST_SHARE = 0.03  # of the gap's power, that a cause must close
-_NARROW = 1.3  # times a score, of what hardly holds beyond the swings it was fitted to
-LEAST_POWER = 0.2  # in floors squared, that a cause must close
-SEEN = 9.0  # floors squared, from which an effect counts whatever its share
-CLEARLY = 0.8  # of what is left: so much closed counts as well
-_OF_WHAT_IS_LEFT = 0.5  # that a further cause closes: it is at least as large as what then remains
-_LEFT_ASIDE = 0.01  # of the power of what was set aside, that it may leave of itself
-ADEQUATE = 1.3  # mean square over the floor that leaves nothing to explain
-NOTICED = 2.0  # mean square over the floor from which what others leave may have a cause
 _FITTED = 6  # effects that are fitted in full after screening
 _FITTED_LATER = 4
 _FITTED_SLOWLY = 2  # beside a cause that takes long to simulate
+_GO_ON = (SOME, HALF, 1.0)  # share closed by one, two causes, to look for another
 _BEAM = (2, 1, 1)  # explanations that are extended, with one, two, three causes
-_ALSO = 2.5  # times the score of the best, up to which another is extended
-_SAME = 0.05  # of the power that is left, by which two explanations that leave the same may differ
-_BY_FAR_MOST = 0.99  # of the gap, closed, beside which nothing else is worth its runs
-_NEARLY_ALL = 0.999  # of the gap, closed, from which no other beginning does better
-_HOPELESS = 10.0  # times the cost of the best candidate
-_WORTH_GOING_ON = (0.25, 0.5, 1.0)  # share closed by one, two causes, to look for another
-_WORTH_A_FIRST_TRY = 4.0  # times what quick formulations leave, that a slow one may promise
-_WORTH_A_TRY = 0.8  # the same beside other causes, where each step takes longer still
-_MUCH_OF_IT = 0.7  # of a gap, that a stop closes where a curve may but follow a softer contact
-_PROMISING = 0.3  # of what a quick form leaves, that a slow one leaves at first sight
-_MOSTLY_OWN = 0.9  # of the gap, that re-tuning closes for causes to be looked for beside it
-_PARTLY_OWN = 0.5  # the same, where a first look at the original model is misled
 _MISLED = 2.0  # times what its slopes promise of a re-tuning, that this leaves
-_MUCH_ALONE = 0.3  # of the gap, that a cause closes alone for others to do as well
-_AS_WELL = 1.1  # times its score
-_LEAST_PROMISE = 0.7  # of the score: a best candidate that leaves more is no clear cause
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +102,7 @@ def select(
     alone = retuned(evidence)
     account.tried((), alone.score, Grade.UNSEEN)
     # A single motion confirms little: a further cause must then take away most of what is left.
-    least = _OF_WHAT_IS_LEFT if len(evidence.observations) > 1 else CLEARLY
+    least = HALF if len(evidence.observations) > 1 else CLEARLY
     enters = partial(_enters, bare, aside, evidence.has(Tap.REF), least)
     most = MOST_CAUSES if until is None else len(until)
     best = alone if enters(bare, alone) else bare
@@ -132,9 +127,9 @@ def select(
                 break
         elif level > 0 or _is_little(bare, best):
             break  # two causes may still do what one alone does not do better than a re-tuning
-        near = [one for one in found if one.score < _ALSO * found[0].score]
+        near = [one for one in found if one.score < ALSO * found[0].score]
         beam = _unlike(near)[: _BEAM[level]]
-        if best.score < NOTICED or closed(bare.score, best.score) < _WORTH_GOING_ON[level]:
+        if best.score < NOTICED or closed(bare.score, best.score) < _GO_ON[level]:
             break
     simplest = _simplified(evidence, enters, best)
     return Selection(bare, alone, simplest, tuple(sorted(tried, key=lambda one: one.score)))
@@ -147,7 +142,7 @@ def _least_own(bare: Explanation, alone: Explanation) -> float:
     their bounds or curves do not keep that promise, it passes over what is really there.
     """
     promised = float(np.mean(bare.fit.beside**2))
-    return _PARTLY_OWN if alone.fit.cost > _MISLED * promised else _MOSTLY_OWN
+    return HALF if alone.fit.cost > _MISLED * promised else NEARLY_ALL
 
 
 def possible_causes(evidence: Evidence) -> list[AxisEffect]:
@@ -190,7 +185,7 @@ def _enters(
     needed = max(_needed(after.causes, staged), default=0.0)
     return any(
         _closes(bare.by_tap[tap], before.by_tap[tap], left, needed, least, alone=not before.causes)
-        and before.by_tap[tap] - left >= _LEFT_ASIDE * aside.get(tap, 0.0)
+        and before.by_tap[tap] - left >= NEXT_TO_NOTHING * aside.get(tap, 0.0)
         for tap, left in after.by_tap.items()
     )
 
@@ -217,7 +212,7 @@ def _closes(
     raw: float, before: float, after: float, needed: float, least: float, *, alone: bool
 ) -> bool:
     closing = before - after
-    if closing >= max(max(LEAST_SHARE, needed) * (raw - 1.0), LEAST_POWER):
+    if closing >= max(max(SMALL, needed) * (raw - 1.0), LEAST_POWER):
         return True
     if needed > 0.0:
         return False  # what another one brings along is how that differs from its formula
@@ -230,14 +225,14 @@ def _closes(
 def _is_little(bare: Explanation, begun: Explanation, seen: float = SEEN) -> bool:
     """Tell whether no single further cause can close its share of any tap's gap, or be seen."""
     return all(
-        left - 1.0 < min(max(LEAST_SHARE * (bare.by_tap[tap] - 1.0), LEAST_POWER), seen)
+        left - 1.0 < min(max(SMALL * (bare.by_tap[tap] - 1.0), LEAST_POWER), seen)
         for tap, left in begun.by_tap.items()
     )
 
 
 def _is_enough(bare: Explanation, best: Explanation) -> bool:
     """Tell whether no further cause can close its share, nor correct the model by much."""
-    return _is_little(bare, best) and closed(bare.score, best.score) > _BY_FAR_MOST
+    return _is_little(bare, best) and closed(bare.score, best.score) > 1.0 - NEXT_TO_NOTHING
 
 
 def _apart_from_own(
@@ -249,7 +244,7 @@ def _apart_from_own(
     later for one. That of a re-tuning ``alone`` is the simpler reason where it explains most.
     """
     apart = [one for one in found if not is_own_mode(evidence, one, one)]
-    if closed(bare.score, alone.score) < _MOSTLY_OWN:
+    if closed(bare.score, alone.score) < NEARLY_ALL:
         return apart
     return [one for one in apart if not is_own_mode(evidence, alone, one)]
 
@@ -269,7 +264,9 @@ def _all_extended(
     found: list[Explanation] = []
     for begun in beam:
         found += _extended(evidence, begun, own, bare, account, jobs)
-        if begun.causes and any(closed(bare.score, one.score) > _NEARLY_ALL for one in found):
+        if begun.causes and any(
+            closed(bare.score, one.score) > 1.0 - NEXT_TO_NOTHING for one in found
+        ):
             break
     return found
 
@@ -295,7 +292,7 @@ def _extended(
     account.tell("screening", None)
     first = scouts(evidence, free)
     looks = screened_beside(evidence, begun, first, account, jobs, briefly=little or slow)
-    if little and min(one.cost for one in looks) > _LEAST_PROMISE * begun.score:
+    if little and min(one.cost for one in looks) > MUCH * begun.score:
         return []
     most = _FITTED_LATER if begun.causes else _FITTED
     if slow:
@@ -311,11 +308,9 @@ def _extended(
     if others:
         slower = screened_beside(evidence, begun, others, account, jobs, briefly=True)
         least = min(one.fit.cost for one in found)
-        worth = _WORTH_A_TRY if begun.causes else _WORTH_A_FIRST_TRY
+        worth = CLEARLY if begun.causes else NEAR
         slower = [
-            one
-            for one in slower
-            if one.cost < max(worth * least, _PROMISING * _quick(one.effect, found))
+            one for one in slower if one.cost < max(worth * least, SOME * _quick(one.effect, found))
         ]
         attempts = [[*begun.causes, one.effect] for one in slower]
         found += fitted(evidence, attempts, account, jobs, begun) if attempts else []
@@ -330,7 +325,7 @@ def _is_bent_to(
     Its quick form does much of it then.
     """
     imitates = kinship_of(best.causes[-1].id).family in kinship_of(slow.id).imitated_by
-    return imitates and closed(begun.fit.cost, _quick(slow, found)) >= _MUCH_OF_IT
+    return imitates and closed(begun.fit.cost, _quick(slow, found)) >= MUCH
 
 
 def _informed(slow: AxisEffect, found: Sequence[Explanation]) -> AxisEffect:
@@ -380,12 +375,12 @@ def _twins(
     """Return effects that alone did about as well as a cause that alone did much."""
     alone = {one.ids[0]: one for one in reversed(tried) if len(one.causes) == 1}
     own = alone.get((cause.id, cause.from_axis))
-    if own is None or closed(bare.score, own.score) < _MUCH_ALONE:
+    if own is None or closed(bare.score, own.score) < SOME:
         return []
     return [
         one.causes[0]
         for key, one in alone.items()
-        if key not in begun.ids and one.score < _AS_WELL * own.score
+        if key not in begun.ids and one.score < SAME_SCORE * own.score
     ]
 
 
@@ -398,7 +393,7 @@ def _chosen(looks: Sequence[Screened], most: int) -> list[AxisEffect]:
         key = one.effect.id, one.effect.from_axis
         if key not in taken and len(taken) == most:
             continue
-        if len(taken) >= 2 and one.cost > _HOPELESS * least:
+        if len(taken) >= 2 and one.cost > HOPELESS * least:
             continue
         if taken.setdefault(key, 0) < 2:
             taken[key] += 1
@@ -426,14 +421,17 @@ def _unlike(found: Sequence[Explanation]) -> list[Explanation]:
     unlike: list[Explanation] = []
     for one in found:
         apart = [one.held_out - other.held_out for other in unlike]
-        if all(float(gap @ gap) > _SAME * float(one.held_out @ one.held_out) for gap in apart):
+        if all(
+            float(gap @ gap) > (SAME_SCORE - 1.0) * float(one.held_out @ one.held_out)
+            for gap in apart
+        ):
             unlike.append(one)
     return unlike
 
 
 def _merit(one: Explanation) -> float:
     narrow = sum(cause.formulation in kinship_of(cause.id).narrow for cause in one.causes)
-    return one.score * _NARROW**narrow
+    return one.score * NARROW**narrow
 
 
 def _simplified(

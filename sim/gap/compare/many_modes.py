@@ -15,10 +15,10 @@ from rotemina.sim.arrays import BoolArray, ComplexArray, FloatArray
 from rotemina.sim.effects.modes import MODES
 from rotemina.sim.gap.compare.diagnosis_progress import Account
 from rotemina.sim.gap.compare.explanations import Explanation, mean_squares
-from rotemina.sim.gap.compare.forward_selection import LEAST_SHARE
 from rotemina.sim.gap.fit.catalogue import by_spectra
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import Fit
+from rotemina.sim.gap.thresholds import FAR_OFF, SMALL
 from rotemina.sim.identification.vector_fitting import (
     Spectra,
     contributions,
@@ -30,7 +30,6 @@ from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.model import AxisEffect, ForceAxis
 
 _SOUGHT = 24  # modes, of which the best are kept
-_GAP = 25.0  # mean square over the floor from which such modes are looked for
 _RINGING = 0.2  # damping ratio below which a mode rings
 _FEW = 4  # modes that three causes and the model's own make
 _AT_LEAST = 6  # modes that ring, each closing more than a trifle
@@ -85,11 +84,11 @@ def many_modes(evidence: Evidence, account: Account) -> Explanation | None:
     if left > _LEFT * raw or np.sum(ringing > _TRIFLE * raw) < _AT_LEAST:
         return None
     few = fewer(whole, poles, axis.slowest, most=_FEW)
-    if contributions(whole, few)[0] - left < LEAST_SHARE * raw:
+    if contributions(whole, few)[0] - left < SMALL * raw:
         return None
     for name in axis.sources:
         others = [one for one in sources if one != name]
-        if others and _left(axis, poles, records, others) - left < LEAST_SHARE * raw:
+        if others and _left(axis, poles, records, others) - left < SMALL * raw:
             sources = others
     return _explained(axis, poles, sources)
 
@@ -105,7 +104,7 @@ def _gathered(evidence: Evidence) -> _Axis | None:
         return None
     if any(o.floor.keys() != observations[0].floor.keys() for o in observations):
         return None
-    if float(np.mean(evidence.residual() ** 2)) < _GAP or Tap.MEAS not in observations[0].real:
+    if float(np.mean(evidence.residual() ** 2)) < FAR_OFF or Tap.MEAS not in observations[0].real:
         return None
     names = [name for name in evidence.robot.axes if _drives(evidence, name)]
     if evidence.axis not in names or isinstance(evidence.robot.axes[evidence.axis], ForceAxis):

@@ -12,28 +12,25 @@ from rotemina.sim.gap.compare.explanations import (
     explain,
     untouched,
 )
-from rotemina.sim.gap.compare.forward_selection import (
-    NOTICED,
-    Selection,
-    select,
-)
+from rotemina.sim.gap.compare.forward_selection import Selection, select
 from rotemina.sim.gap.compare.row_weights import huber_weighted
 from rotemina.sim.gap.fit.baseline import is_own
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.noise.disturbances import Disturbance, power_by_tap, set_aside
 from rotemina.sim.gap.noise.sensor_wander import wander
+from rotemina.sim.gap.thresholds import (
+    ADEQUATE,
+    CLEARLY,
+    GAP,
+    MUCH,
+    NEARLY_ALL,
+    NOTICED,
+    SAME_SCORE,
+    SMALL,
+)
 from rotemina.sim.robot.model import AxisEffect
 
-_GAP = 1.5  # mean square over the floor from which there is something to explain
-_BETTER = 0.9  # of a score: what is left of the same causes beside more that is set aside
-_WITHOUT_JUMPS = 0.97  # of the gap, closed without them, from which jumps are none
-_NO_STEPS = 0.03  # of the power of steps: nothing explains their own error
-_BEYOND_STEPS = 0.8  # of what is beyond cells, that an explanation closes
-_NOT_NOISE = 0.6  # of a raised floor's power: a fit that leaves less shows that it was no noise
 _LOOKS = 3  # for disturbances, beside what the one before explains
-_UNEXPLAINED = 1.2  # mean square over the floor, from which there is another look
-_CLEARLY_MORE = 1.1  # times the power of a disturbance that was found before
-MUCH_BETTER = 0.7  # of a score: what else would correct the model is taken along
 
 Found = tuple[Evidence, tuple[Disturbance, ...], Selection, Explanation]
 
@@ -61,16 +58,16 @@ def _looked_again(whole: Evidence, first: Found, account: Account, jobs: int) ->
     for _ in range(_LOOKS):
         _, aside, _, best = first
         acting = [one for one in best.fit.effects if acts(one)]
-        if best.score < _UNEXPLAINED or not acting:
+        if best.score < ADEQUATE or not acting:
             break
         evidence, found = set_aside(whole, acting)
         if not _more(found, aside):
             break
         again = explain(evidence, [one for one in best.causes if not is_own(evidence, one)])
-        if again.score > _BETTER * best.score:
+        if again.score > NEARLY_ALL * best.score:
             break  # what is set aside beside these causes hid nothing
         selection, better = _explained(whole, evidence, found, account, jobs)
-        if better.score > MUCH_BETTER * best.score:
+        if better.score > MUCH * best.score:
             break
         first = evidence, found, selection, better
     return first
@@ -83,9 +80,9 @@ def _without_false_noise(whole: Evidence, first: Found, account: Account, jobs: 
     an axis at either end of its travel, or with coarse steps.
     """
     evidence, aside, selection, best = first
-    if selection.tried and best.fit.cost >= _NOT_NOISE:
+    if selection.tried and best.fit.cost >= MUCH:
         return first
-    steps = bool(selection.tried) and best.fit.cost < _NO_STEPS and not evidence.in_cells
+    steps = bool(selection.tried) and best.fit.cost < SMALL and not evidence.in_cells
     doubted = {Sign.NOISE, Sign.STEPS} if steps else {Sign.NOISE}
     raised = {one.sign for one in aside} & doubted
     if not raised:
@@ -105,7 +102,7 @@ def _without_false_noise(whole: Evidence, first: Found, account: Account, jobs: 
     )
     others = tuple(one for one in aside if one.sign not in raised)
     second = declared, others, *_explained(whole, declared, others, account, jobs)
-    if not selection.tried and second[3].score > _NOT_NOISE * second[2].raw:
+    if not selection.tried and second[3].score > MUCH * second[2].raw:
         return first  # nothing but noise explains it
     return second
 
@@ -121,8 +118,8 @@ def _without_false_jumps(whole: Evidence, first: Found, account: Account, jobs: 
         return first
     evidence, others = set_aside(whole, jumps=False)
     second = evidence, others, *_explained(whole, evidence, others, account, jobs)
-    simpler = closed(second[2].raw, second[3].score) >= _WITHOUT_JUMPS
-    return second if simpler or second[3].score < MUCH_BETTER * best.score else first
+    simpler = closed(second[2].raw, second[3].score) >= 1.0 - SMALL
+    return second if simpler or second[3].score < MUCH * best.score else first
 
 
 def _without_false_cells(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
@@ -131,7 +128,7 @@ def _without_false_cells(whole: Evidence, first: Found, account: Account, jobs: 
     Steps need not be even, and a sensor may drift between them.
     """
     evidence, _, selection, best = first
-    if not evidence.in_cells or closed(selection.raw, best.score) >= _BEYOND_STEPS:
+    if not evidence.in_cells or closed(selection.raw, best.score) >= CLEARLY:
         return first
     evidence, aside = set_aside(whole, cells=False)
     return evidence, aside, *_explained(whole, evidence, aside, account, jobs)
@@ -158,7 +155,7 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
         return first
     if len(other.ids) == len(best.ids):
         again = explain(even, [one for one in best.causes if not is_own(even, one)])
-        if other.score > MUCH_BETTER * again.score:
+        if other.score > MUCH * again.score:
             return first
     return even, aside, selection, other
 
@@ -166,7 +163,7 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
     """Tell whether disturbances are others than before, or clearly more of them."""
     known = {one.sign: one.power for one in before}
-    return any(one.power > _CLEARLY_MORE * known.get(one.sign, 0.0) for one in found)
+    return any(one.power > SAME_SCORE * known.get(one.sign, 0.0) for one in found)
 
 
 def _explained(
@@ -180,7 +177,7 @@ def _explained(
 ) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
-    if max(bare.by_tap.values()) < _GAP:
+    if max(bare.by_tap.values()) < GAP:
         return Selection(bare, bare, bare, ()), bare
     # What readings leave beyond their steps is nothing that these leave of themselves.
     leaving = [one for one in aside if not (evidence.in_cells and one.sign is Sign.STEPS)]

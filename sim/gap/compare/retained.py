@@ -16,13 +16,14 @@ from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.compare.candidates import scouts
 from rotemina.sim.gap.compare.diagnosis_progress import Account
 from rotemina.sim.gap.compare.explanations import MOST_STEPS, Explanation, explanation, named_as
-from rotemina.sim.gap.compare.forward_selection import NOTICED, possible_causes
+from rotemina.sim.gap.compare.forward_selection import possible_causes
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.parallel_fits import fitted, screened_beside
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.fit.baseline import is_own
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import fit
+from rotemina.sim.gap.thresholds import NOTICED
 
 _FITTED = 3  # effects that are compared in full
 _NOT_FORETOLD = {Trait.RANDOM, Trait.LOCKED_TO_TIME}

@@ -8,11 +8,11 @@ from rotemina.sim.gap.compare.explanations import Explanation, explanation
 from rotemina.sim.gap.fit.baseline import baseline
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import fit
+from rotemina.sim.gap.thresholds import CLEARLY
 from rotemina.sim.robot.model import AxisEffect
 
 _STEPS = 30  # a resonance that is far off is not found sooner
 _OFF = np.arange(-0.28, 0.281, 0.04)  # of its frequency: closer than a peak is wide
-_BETTER = 0.8  # of what a nearer resonance leaves
 
 
 def retuned(evidence: Evidence) -> Explanation:
@@ -29,7 +29,7 @@ def retuned(evidence: Evidence) -> Explanation:
         )
         if _left(evidence, begun) < _left(evidence, own):
             far = fit(evidence, begun, most_steps=_STEPS)
-            near = far if far.cost < _BETTER * near.cost else near
+            near = far if far.cost < CLEARLY * near.cost else near
     return explanation(evidence, 0, near)
 
 

@@ -16,21 +16,23 @@ from rotemina.sim.gap.fit.baseline import is_whole_own
 from rotemina.sim.gap.fit.catalogue import is_of, kinship_of, with_parameter
 from rotemina.sim.gap.fit.evidence import Evidence, block_rows
 from rotemina.sim.gap.fit.row_blocks import Blocks
+from rotemina.sim.gap.thresholds import (
+    ANOTHER_MACHINE,
+    FAR_OFF,
+    NEARLY_ALL,
+    NOTICED,
+    POSSIBLE,
+    SIMPLER,
+    SMALL,
+    TIED,
+)
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
-_TIED = 1.5  # times a score, within which another is as good
-_NEARLY = 0.02  # of the gap's power, within which another closes nearly as much
-_SAME = 0.15  # of the likeliest one's probability, from which a rival is not ruled out
-_INEXACT = 2.0  # mean square over the floor, from which a formula is not quite right
-_SIMPLER = 6.0  # times likelier, on a tie, for each parameter less
 _MOST_MORE = 2  # parameters that count so
-_ANOTHER_MACHINE = 0.02  # times as likely, with an own parameter of the model at a bound
 _AT_AN_END = 0.01  # of a parameter's bounds apart, how near to one it is at it
 _SLIGHT = 0.01  # error of a frequency, below which a small mass on a spring may do it
 _SLIGHTLY_DAMPED = 0.1  # the same for damping
-_FAR_OFF = 25.0  # mean square over the floor, from which a formula is far from right
-_NEARLY_ALL = 0.9  # of the gap's power
 
 Key = tuple[str, str | None]
 
@@ -88,11 +90,11 @@ def not_ruled_out(ranked: Sequence[Rival], cause: Key, raw: float) -> tuple[str,
     names = [
         one.effect
         for one in ranked
-        if one.effect != cause[0] and one.probability >= _SAME * likeliest
+        if one.effect != cause[0] and one.probability >= POSSIBLE * likeliest
     ]
     own = next((one for one in ranked if (one.effect, one.from_axis) == cause), None)
     closest = min(ranked, key=lambda one: one.explanation.score)
-    if own is not None and own.explanation.score >= _INEXACT and closest.effect != cause[0]:
+    if own is not None and own.explanation.score >= NOTICED and closest.effect != cause[0]:
         names.append(closest.effect)
     load = with_parameter("mass_ratio")
     if load is not None and is_of(Family.RESONANCE, cause[0]) and _is_slight(ranked, cause):
@@ -111,7 +113,7 @@ def _is_kin(ranked: Sequence[Rival], cause: Key, other: Rival, raw: float) -> bo
     if not kin or other.effect == cause[0] or cause[1] is not None:
         return False
     left = next(one.explanation.score for one in ranked if one.effect == cause[0])
-    return left >= _FAR_OFF and closed(raw, other.explanation.score) >= _NEARLY_ALL
+    return left >= FAR_OFF and closed(raw, other.explanation.score) >= NEARLY_ALL
 
 
 def _fitted_value(ranked: Sequence[Rival], cause: Key, name: str) -> float:
@@ -134,7 +136,7 @@ def _is_slight(ranked: Sequence[Rival], cause: Key) -> bool:
 
 def _prior(effect: str, more_parameters: int) -> float:
     """Return how likely an effect is before any record: the simpler one on a tie."""
-    return kinship_of(effect).prior * _SIMPLER ** -min(more_parameters, _MOST_MORE)
+    return kinship_of(effect).prior * SIMPLER ** -min(more_parameters, _MOST_MORE)
 
 
 def probability(ranked: Sequence[Rival], cause: Key) -> float:
@@ -151,7 +153,7 @@ def _as_the_machine(one: Explanation) -> float:
         for free, x in zip(one.fit.free, one.fit.x, strict=True)
         if free.effect in own
     )
-    return _ANOTHER_MACHINE if any(reached) else 1.0
+    return ANOTHER_MACHINE if any(reached) else 1.0
 
 
 def _counted(one: Explanation, cause: Key) -> int:
@@ -185,12 +187,12 @@ def _more_parameters(
 
 def _is_near(best: Explanation, other: Explanation, raw: float) -> bool:
     """Tell whether another explanation closes nearly as much of the gap."""
-    return _is_tied(best, other) or other.score - best.score < _NEARLY * (raw - 1.0)
+    return _is_tied(best, other) or other.score - best.score < SMALL * (raw - 1.0)
 
 
 def _is_tied(best: Explanation, other: Explanation) -> bool:
     """Tell whether another explanation does about as well, so that the simpler one counts."""
-    return other.score < _TIED * best.score
+    return other.score < TIED * best.score
 
 
 def paired_blocks(evidence: Evidence, left: Sequence[FloatArray], tap: Tap) -> Blocks:

@@ -15,19 +15,18 @@ from rotemina.sim.gap.compare.rivals import Rival
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.fit.evidence import Evidence
-
-_EXPLAINED = 0.95  # of the gap's power, that causes close which leave nothing worth a word
-_AT_THE_FLOOR = 1.3  # mean square over the floor, up to which what is left may be all noise
-_NAMED = 0.3  # of the gap's power at any tap, that causes close
-_PLAIN = 0.7  # the same, below which they may be but what bends to anything, unless they are sure
-_MOST_RIVALS = 4  # from which a set tells nothing
-_SURE = 0.9  # weight of a cause among its rivals, that no poor motion makes doubtful
-_AS_WELL = 1.05  # times what a black box leaves
-_LARGER = (
-    2.5  # times the power that is left, of a cause beside others: it takes 70 % of the rest away
+from rotemina.sim.gap.thresholds import (
+    ADEQUATE,
+    ALSO,
+    EXPLAINED,
+    HALF,
+    MOST_RIVALS,
+    MUCH,
+    NEARLY_ALL,
+    SAME_SCORE,
+    SOME,
+    VOUCHES,
 )
-_LIKELY = 0.5  # weight of a cause beside others
-_VOUCHES = 1.25  # times what causes leave, beyond which a black box knows too little to compare
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,13 +66,13 @@ def decide(
     """
     if poor and not sure:
         return Verdict.INSUFFICIENT
-    if max(closing.share, closing.at_a_tap) < (_NAMED if sure else _PLAIN):
+    if max(closing.share, closing.at_a_tap) < (SOME if sure else MUCH):
         return Verdict.UNKNOWN
-    if any(len(others) >= _MOST_RIVALS for others in ambiguous):
+    if any(len(others) >= MOST_RIVALS for others in ambiguous):
         return Verdict.INSUFFICIENT
     left, black_box = closing.left, closing.black_box
-    as_well = left <= _AS_WELL * black_box and black_box <= _VOUCHES * left
-    if closing.share >= _EXPLAINED or left <= _AT_THE_FLOOR or as_well:
+    as_well = left <= SAME_SCORE * black_box and black_box <= VOUCHES * left
+    if closing.share >= EXPLAINED or left <= ADEQUATE or as_well:
         return Verdict.EXPLAINED
     return Verdict.PARTLY
 
@@ -88,7 +87,7 @@ def stands(closes: float, left: float, weight: float) -> bool:
     weight : float
         That it or its kind has among all that could stand in its place, nothing at all included.
     """
-    return closes >= _LARGER * left and weight >= _LIKELY
+    return closes >= ALSO * left and weight >= HALF
 
 
 def is_sure(
@@ -111,4 +110,4 @@ def _stands_out(evidence: Evidence, rivals: Sequence[Rival], alike: Sequence[str
     weights = weigh(held_out_powers(evidence, [one.held_out for one in found]), effects)
     best = int(np.argmax(weights))
     together = [number == best or one.effect in alike for number, one in enumerate(rivals)]
-    return float(weights[together].sum()) >= _SURE
+    return float(weights[together].sum()) >= NEARLY_ALL

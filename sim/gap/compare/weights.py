@@ -16,8 +16,8 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.compare.held_out_power import Power
+from rotemina.sim.gap.thresholds import EFFECT
 
-EFFECT = 0.07  # times as likely, for each effect that a hypothesis holds
 SLACK = 0.05  # of the power that is left, by which hypotheses differ by chance
 DRAWS = 400
 _SEED = 0  # same evidence, same weights

@@ -7,8 +7,8 @@ from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.companions import accompanied
 from rotemina.sim.gap.compare.diagnosis_progress import Account
 from rotemina.sim.gap.compare.explanations import explain, untouched
-from rotemina.sim.gap.compare.forward_selection import LEAST_SHARE
 from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.thresholds import SMALL
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -55,7 +55,7 @@ def told(*effects):
 
 def test_creep_joins_the_hysteresis_beside_which_it_closes_next_to_nothing():
     raw, alone, best, ranked = told(LOOP, CREEP)
-    assert closed(raw.score, alone.score) > 1.0 - LEAST_SHARE  # by its share of the gap, no cause
+    assert closed(raw.score, alone.score) > 1.0 - SMALL  # by its share of the gap, no cause
     assert [one.id for one in best.causes] == ["hysteresis", "creep"]
     assert best.causes[1].parameters["rate"] == pytest.approx(0.015, rel=0.2)
     assert best.score < alone.score
