@@ -63,6 +63,8 @@ def play(qtbot, window, bench):
         with qtbot.waitSignal(bench.plan_changed, timeout=LONG_MS):
             bench.plan_trajectory(name, swing() if trajectory is None else trajectory)
         assert bench.plan.dry_run.allowed
+        # What was just switched on moves the machine, and none is played to in motion.
+        qtbot.waitUntil(lambda: bench.session.at_rest, timeout=LONG_MS)
         with qtbot.waitSignal(bench.run_changed, timeout=LONG_MS):
             bench.play()
         qtbot.waitUntil(lambda: bench.session.at_rest, timeout=LONG_MS)
