@@ -59,12 +59,17 @@ def plain_table(figures: Mapping[str, Figure]) -> str:
 
 
 def markdown_table(columns: Mapping[str, Mapping[str, Figure]]) -> str:
-    """Return the figures of several contestants side by side; ``columns``: heading -> figures."""
+    """Return the figures of several contestants side by side; ``columns``: heading -> figures.
+
+    A figure of no case is left out.
+    """
     head = ["", "level", *columns, "n"]
     lines = [f"| {' | '.join(head)} |", f"|{'---|' * len(head)}"]
     first = next(iter(columns.values()))
     for key, figure in first.items():
         text, level, form = ROWS[key]
+        if figure.number == 0:
+            continue
         cells = [shown(each[key], form) if key in each else "–" for each in columns.values()]
         lines.append(f"| {text} | {level} | {' | '.join(cells)} | {figure.number} |")
     return "\n".join(lines)
