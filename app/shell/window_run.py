@@ -141,8 +141,6 @@ def _run(
     collector = GarbageCollector(interval=1.0)
     with watch.guarding():
         window.show()
-        if splash is not None:
-            QTimer.singleShot(0, splash.close)  # the window is on the screen by then
         if not settings.get("window.state", ""):  # a first start shows what is needed to begin
             window.arrangement.arrange(OPERATE)
         window.first_steps.offer()
@@ -175,6 +173,8 @@ def _run(
 
     painted = QTimer(application, interval=FRAME_MS, singleShot=True)
     painted.timeout.connect(connect)  # what is seen is painted by then
+    if splash is not None:
+        painted.timeout.connect(splash.close)
     window.workbench.closing.connect(painted.stop)
     painted.start()
     # Python handles signals only between its own instructions: this wakes it now and then.

@@ -1,8 +1,8 @@
-"""What decides in a diagnosis, all in one place.
+"""The levels on which a diagnosis decides.
 
-Most decisions stand on a few levels that mean the same wherever they occur: how much of a gap is
-something, how near two scores are, how far above the noise floor a remainder tells anything.
-Numbers that only steer a computation stand with it.
+They mean the same wherever they occur: how much of a gap is something, how near two scores are, how
+far above the noise floor a remainder tells anything. A number of a single step, or one that only
+steers a computation, stands with it.
 """
 
 # Shares, of a gap's power that closes or is left, or of a weight or a probability.
@@ -10,17 +10,17 @@ NEXT_TO_NOTHING = 0.01
 SMALL = 0.03  # the least that a cause closes
 SOME = 0.3  # worth a name, or worth going on
 HALF = 0.5
-MUCH = 0.7  # closes more than what bends to anything; what is left where another is much better
-CLEARLY = 0.8  # of the rest, closed: counts whatever its size
+MUCH = 0.7  # closed: more than what bends to anything closes; left: another is much better
+CLEARLY = 0.8  # of the rest, closed: it counts whatever its size
 NEARLY_ALL = 0.9
 EXPLAINED = 0.95  # closed, so that what is left is not worth a word
 
 # Ratios of two scores: mean squares that explanations leave of data that no fit saw.
 SAME_SCORE = 1.05  # they differ by chance
 TIED = 1.5  # they do as well, as no formula is quite right
-NARROW = 1.3  # what hardly holds beyond the swings that it was fitted to leaves more elsewhere
+NARROW = 1.3  # so much more is left elsewhere by what fits only the swings that it saw
 VOUCHES = 1.25  # a black box that leaves more knows too little to compare with
-ALSO = 2.5  # the worse one is still considered; a cause by so much above the rest stands
+DISTINCT = 2.5  # one is clearly more than the other
 NEAR = 4.0  # the worse one is not hopeless
 HOPELESS = 10.0
 

@@ -28,7 +28,7 @@ from rotemina.sim.gap.fit.baseline import is_own, is_whole_own
 from rotemina.sim.gap.fit.catalogue import catalogue, is_of, kinship_of, with_parameter
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import fit
-from rotemina.sim.gap.thresholds import ALSO, HALF, MUCH, NEAR, SAME_SCORE, SOME, TIED
+from rotemina.sim.gap.thresholds import DISTINCT, HALF, MUCH, NEAR, SAME_SCORE, SOME, TIED
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
@@ -121,7 +121,7 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
         own[0]
         for key, own in ranked.items()
         if (own[0].effect, own[0].from_axis) != key
-        and (own[0].probability >= HALF or own[0].probability >= ALSO * probability(own, key))
+        and (own[0].probability >= HALF or own[0].probability >= DISTINCT * probability(own, key))
     ]
     if not found:
         return None

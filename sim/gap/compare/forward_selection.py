@@ -32,8 +32,8 @@ from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import fit
 from rotemina.sim.gap.thresholds import (
     ADEQUATE,
-    ALSO,
     CLEARLY,
+    DISTINCT,
     HALF,
     HOPELESS,
     LEAST_POWER,
@@ -127,7 +127,7 @@ def select(
                 break
         elif level > 0 or _is_little(bare, best):
             break  # two causes may still do what one alone does not do better than a re-tuning
-        near = [one for one in found if one.score < ALSO * found[0].score]
+        near = [one for one in found if one.score < DISTINCT * found[0].score]
         beam = _unlike(near)[: _BEAM[level]]
         if best.score < NOTICED or closed(bare.score, best.score) < _GO_ON[level]:
             break

@@ -80,8 +80,9 @@ def _without_false_noise(whole: Evidence, first: Found, account: Account, jobs: 
     an axis at either end of its travel, or with coarse steps.
     """
     evidence, aside, selection, best = first
-    if selection.tried and best.fit.cost >= MUCH:
+    if selection.tried and best.fit.cost >= MUCH:  # of the raised floor: it was noise indeed
         return first
+    # Nothing explains the error of the steps themselves: where so little is left, they are none.
     steps = bool(selection.tried) and best.fit.cost < SMALL and not evidence.in_cells
     doubted = {Sign.NOISE, Sign.STEPS} if steps else {Sign.NOISE}
     raised = {one.sign for one in aside} & doubted

@@ -17,7 +17,7 @@ from rotemina.sim.gap.diagnosis import Verdict
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.thresholds import (
     ADEQUATE,
-    ALSO,
+    DISTINCT,
     EXPLAINED,
     HALF,
     MOST_RIVALS,
@@ -87,7 +87,7 @@ def stands(closes: float, left: float, weight: float) -> bool:
     weight : float
         That it or its kind has among all that could stand in its place, nothing at all included.
     """
-    return closes >= ALSO * left and weight >= HALF
+    return closes >= DISTINCT * left and weight >= HALF
 
 
 def is_sure(

@@ -1,5 +1,7 @@
 """The splash screen is there at once, in the middle of the screen."""
 
+from PySide6.QtCore import Qt
+
 from rotemina.app.shell.application import make_application, show_splash
 
 
@@ -7,6 +9,7 @@ def test_the_splash_shows_icon_and_name(qtbot):
     splash = show_splash()
     qtbot.addWidget(splash)
     assert splash.isVisible()
+    assert not splash.testAttribute(Qt.WidgetAttribute.WA_QuitOnClose)  # it keeps no program open
     picture = splash.pixmap().toImage()
     ratio = picture.devicePixelRatio()
 

@@ -80,9 +80,12 @@ import sys
 from pathlib import Path
 from rotemina.app.motion.session import MotionSession
 from rotemina.app.settings import Settings
+from rotemina.app.shell.application import show_splash
 from rotemina.app.shell.window_run import run
 from rotemina.drivers.simulator.driver import Simulator
 from rotemina.sim.robot.file import load_robot
+
+splash = show_splash()
 
 class Told(MotionSession):
     def start(self):
@@ -91,10 +94,10 @@ class Told(MotionSession):
 
     def stop(self, *given, **named):
         super().stop(*given, **named)
-        print("stopped", flush=True)
+        print("stopped, splash", "seen" if splash.isVisible() else "gone", flush=True)
 
 session = Told(Simulator(load_robot("rotemina")))
-sys.exit(run(session, Settings(Path(sys.argv[1]) / "settings.json")))
+sys.exit(run(session, Settings(Path(sys.argv[1]) / "settings.json"), splash=splash))
 """
 
 
@@ -109,6 +112,6 @@ def test_a_program_that_is_told_to_end_stops_the_machine_first(tmp_path, name):
     ) as program:
         assert program.stdout.readline() == "started\n"
         program.send_signal(signal.Signals[name])
-        assert program.stdout.readline() == "stopped\n"
+        assert program.stdout.readline() == "stopped, splash gone\n"
         program.stdout.read()
     assert program.returncode == 0
