@@ -16,10 +16,10 @@ SCORE = {
     "done": 3,
     "asked": 12,
     "figures": {
-        "top_1_large_gap": {"value": 0.96, "interval": [0.9, 0.99], "n": 50},
+        "top_1_large_gap": {"value": 0.98, "interval": [0.9, 0.99], "n": 50},
         "set_size": {"value": 1.4, "interval": [1.2, 1.6], "n": 50},
         "false_accusations": {"value": 0.0, "interval": [0.0, 0.2], "n": 14},
-        "seconds_greatest": {"value": 61.0, "interval": [50.0, 61.0], "n": 50},
+        "seconds_greatest": {"value": 131.0, "interval": [90.0, 131.0], "n": 50},
         "top_1": {"value": 0.9, "interval": [0.8, 0.95], "n": 80},
         "two_exact": {"value": None, "interval": [None, None], "n": 0},
     },
@@ -68,7 +68,7 @@ def test_figures_stand_beside_their_levels(result):
         "first cause correct, one effect": None,
         "exactly two effects": None,
     }
-    assert result.rows[0].cells[1:] == ("≥ 95 %", "96.0 % (90.0–99.0)", "50")
+    assert result.rows[0].cells[1:] == ("≥ 98 %", "98.0 % (90.0–99.0)", "50")
     assert result.rows[-1].cells[2] == "–"
 
 
