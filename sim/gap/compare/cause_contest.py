@@ -10,6 +10,7 @@ from rotemina.sim.effects.formulation import Late, Stage, Trait
 from rotemina.sim.effects.kinship import Family
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.compare.attribution import attributed, closing, without_own
+from rotemina.sim.gap.compare.chance import Chance
 from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.excitation_richness import alike_axes
 from rotemina.sim.gap.compare.explanations import (
@@ -28,7 +29,18 @@ from rotemina.sim.gap.fit.baseline import is_own, is_whole_own
 from rotemina.sim.gap.fit.catalogue import catalogue, is_of, kinship_of, with_parameter
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import fit
-from rotemina.sim.gap.thresholds import DISTINCT, HALF, MUCH, NEAR, SAME_SCORE, SOME, TIED
+from rotemina.sim.gap.thresholds import (
+    ADEQUATE,
+    BY_CHANCE,
+    DISTINCT,
+    HALF,
+    MUCH,
+    NEAR,
+    SAME_SCORE,
+    SOME,
+    TIED,
+    UNNAMED,
+)
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
@@ -88,7 +100,34 @@ def contested(
         kept = [one for one in best.causes if (one.id, one.from_axis) != least]
         best = _with_only(evidence, selection, kept)
         ranked = rivals_of(evidence, selection, best)
-    return _with_the_likeliest(evidence, selection, best, ranked) if once else (best, ranked)
+    if once:
+        best, ranked = _with_the_likeliest(evidence, selection, best, ranked)
+    return _beyond_chance(evidence, selection, best, ranked, aside)
+
+
+def _beyond_chance(
+    evidence: Evidence,
+    selection: Selection,
+    best: Explanation,
+    ranked: Ranking,
+    aside: Mapping[Tap, float],
+) -> tuple[Explanation, Ranking]:
+    """Return the explanation without causes that may but follow what no catalogue holds."""
+    chance = Chance(evidence)
+    while best.causes:
+        likely = {key: _by_chance(selection, best, key, aside, chance) for key in best.ids}
+        doubtful = max(likely, key=lambda key: likely[key])
+        if likely[doubtful] < BY_CHANCE:
+            break
+        kept = [one for one in best.causes if (one.id, one.from_axis) != doubtful]
+        if is_whole_own(doubtful[0]):  # it goes on correcting the model
+            best = replace(best, causes=tuple(kept))
+        elif not kept and closed(selection.raw, selection.retuned.score) >= SOME:
+            best = attributed(evidence, selection.bare, selection.retuned)
+        else:
+            best = _with_only(evidence, selection, kept)
+        ranked = rivals_of(evidence, selection, best)
+    return best, ranked
 
 
 def _with_the_likeliest(
@@ -151,6 +190,25 @@ def _doubt(
         for tap, closes in closing(evidence, without, best).items()
     )
     return None if standing else weight
+
+
+def _by_chance(
+    selection: Selection, best: Explanation, key: Key, aside: Mapping[Tap, float], chance: Chance
+) -> float:
+    """Return how likely a cause would follow as much of what nothing known explains.
+
+    What a machine does beyond every catalogue is a small part of the gap where the last of its
+    taps reads it, and seldom does all of that bend to one effect.
+    """
+    if max(best.by_tap.values()) < ADEQUATE:
+        return 0.0
+    without = _without(chance.evidence, selection, best, key)
+    last = next(tap for tap in (Tap.MEAS, Tap.REF, Tap.U) if tap in best.by_tap)
+    raw = selection.bare.by_tap[last] + aside.get(last, 0.0)
+    if without.by_tap[last] - best.by_tap[last] >= UNNAMED * (raw - 1.0):
+        return 0.0
+    share = (without.score - best.score) / (without.score - 1.0)
+    return chance.of_closing(best, key, share)
 
 
 def _weight_of_its_kind(

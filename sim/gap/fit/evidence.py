@@ -196,10 +196,10 @@ class Evidence:
             for tap, real in observation.real.items():
                 apart = [real - answer[tap], *(other[tap] - answer[tap] for other in others)]
                 floor = observation.floor[tap]
-                gap, *memory = (self._without_nuisance(number, tap, x / floor) for x in apart)
+                gap, *memory = (self.without_nuisance(number, tap, x / floor) for x in apart)
                 gap = beside(memory, gap)
                 if tap is Tap.U and not self._by_force:
-                    own = partial(self._without_nuisance, number, tap)
+                    own = partial(self.without_nuisance, number, tap)
                     gap = within_a_row(gap, answer[tap] / floor, own)
                 if tap in observation.cell:
                     half = 0.5 * observation.cell[tap] / floor
@@ -207,7 +207,7 @@ class Evidence:
                 left.append(gap)
         return np.concatenate(left)
 
-    def _without_nuisance(self, number: int, tap: Tap, gap: FloatArray) -> FloatArray:
+    def without_nuisance(self, number: int, tap: Tap, gap: FloatArray) -> FloatArray:
         """Remove the record's own part: its offset and its nuisance signals."""
         observation = self.observations[number]
         kept = observation.kept.get(tap)
@@ -269,7 +269,7 @@ class Evidence:
                 memory = [(other[tap] - answer[tap]) / floor for other in others]
                 if memory:
                     gap, *signals = (
-                        self._without_nuisance(number, tap, x)
+                        self.without_nuisance(number, tap, x)
                         for x in ((real - answer[tap]) / floor, *memory)
                     )
                     amounts = _amounts(signals, gap)
