@@ -155,12 +155,12 @@ def hide_forgotten_tabs(window: QMainWindow) -> None:
     The tabs of docks stand right above (or below) the one in front; those that stand above none
     are what is left of another layout.
     """
+    only_mine = Qt.FindChildOption.FindDirectChildrenOnly
     docks = [
         dock
-        for dock in window.findChildren(QDockWidget)
+        for dock in window.findChildren(QDockWidget, options=only_mine)
         if dock.isVisible() and not dock.isFloating()
     ]
-    only_mine = Qt.FindChildOption.FindDirectChildrenOnly
     for bar in window.findChildren(QTabBar, options=only_mine):
         # Qt cuts the words of all to a letter where there are many: rather scroll.
         bar.setElideMode(Qt.TextElideMode.ElideNone)

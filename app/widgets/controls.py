@@ -20,6 +20,13 @@ def plain_tip(*lines: str) -> str:
     return f"<qt>{'<br>'.join(escape(line) for line in lines if line)}</qt>"
 
 
+def show_tip(widget: QWidget, *lines: str) -> None:
+    """Give a widget a plain tooltip, if it has another one: Qt tells of each that is set."""
+    tip = plain_tip(*lines)
+    if tip != widget.toolTip():
+        widget.setToolTip(tip)
+
+
 def native_keys(shortcut: str) -> str:
     """Return a shortcut such as ``Ctrl+S`` as keyboards of the window's language have it."""
     return QKeySequence(shortcut).toString(QKeySequence.SequenceFormat.NativeText)

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QCheckBox, QFormLayout, QLabel, QLineEdit, QWidget
 from rotemina.app.driver_settings import typed
 from rotemina.app.shell.engine_words import error_text
 from rotemina.app.shell.operator_requests import OfferedPort
-from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.controls import plain_tip, set_property, show_tip
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.drivers.settings import SettingError, SettingValue
 from rotemina.plugins.connection import mark, tr
@@ -116,7 +116,7 @@ class SettingField(QObject):
         except SettingError as error:
             wrong = error_text(error)
         set_property(self.widget, "bad", bool(wrong))
-        self.widget.setToolTip(plain_tip(self._about, wrong or ""))
+        show_tip(self.widget, self._about, wrong or "")
         return wrong
 
     def _text(self) -> str:

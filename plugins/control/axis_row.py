@@ -11,7 +11,7 @@ from rotemina.app.display_units import axis_scale, label
 from rotemina.app.motion.ranges import Range
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Level, Workbench
-from rotemina.app.widgets.controls import allow, named, plain_tip, set_property
+from rotemina.app.widgets.controls import allow, named, plain_tip, set_property, show_tip
 from rotemina.app.widgets.labels import ElidedLabel, plain_text
 from rotemina.app.widgets.layouts import in_grid, in_row
 from rotemina.drivers.clock import Clock
@@ -102,7 +102,7 @@ class AxisRow(QFrame):
             stale=stale or not known,
         )
         self._bar.show_position(position, self._command, stale=stale)
-        self._bar.setToolTip(plain_tip(range_tip(self._axis, position, self._ends, self._scale)))
+        show_tip(self._bar, range_tip(self._axis, position, self._ends, self._scale))
         self._show_left(position)
         self.confirmation.follow(self._command)
         self._show_status(state)
@@ -115,7 +115,7 @@ class AxisRow(QFrame):
         if text != self.name.text():
             self.name.setText(text)
             self._fit()
-        self.name.setToolTip(plain_tip(tip))
+        show_tip(self.name, tip)
 
     def show_range(self, ends: Range, forbidden: Sequence[Range]) -> None:
         """Hatch in the bar what lies outside of a narrowed range, and what the tip's bounds forbid.

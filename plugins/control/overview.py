@@ -6,7 +6,7 @@ from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.phase_words import Tone, set_tone
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import named, plain_tip, set_property
+from rotemina.app.widgets.controls import named, set_property, show_tip
 from rotemina.app.widgets.labels import ElidedLabel
 from rotemina.app.widgets.layouts import in_grid, in_row
 from rotemina.plugins.control import tr
@@ -48,10 +48,10 @@ class Overview(QWidget):
         if word != self.stick.text():
             self.stick.setText(word)
         set_tone(self.stick, tone)
-        self.stick.setToolTip(plain_tip(trust_text(view)))
+        show_tip(self.stick, trust_text(view))
         self.device.show_text(steering_text(steered, driver_text(view)))
         zone = self._workbench.session.bounds.keep_out
         self.tip.show_text(tip_short(state, zone))
-        self.tip.setToolTip(plain_tip(tip_text(state, zone)))
+        show_tip(self.tip, tip_text(state, zone))
         above = above_floor(state, zone)
         set_property(self.tip, "bad", above is not None and above < SLOW_HEIGHT)

@@ -9,7 +9,7 @@ from rotemina.app.motion.penetration.status import UNDER_WAY, PenetrationStatus,
 from rotemina.app.motion.state import SessionState
 from rotemina.app.panel import STALE_S
 from rotemina.app.shell.workbench import Workbench
-from rotemina.app.widgets.controls import allow, fill, named, plain_tip
+from rotemina.app.widgets.controls import allow, fill, named, show_tip
 from rotemina.app.widgets.figures import Figures
 from rotemina.app.widgets.labels import heading
 from rotemina.app.widgets.layouts import in_column, in_row
@@ -78,13 +78,10 @@ class Readouts(QWidget):
         self.load.setFormat(
             tr("load {value} of {most:.4g} µm").format(value=value, most=1e6 * most)
         )
-        self.load.setToolTip(
-            plain_tip(
-                tr("Deviation of the axis from its set-point."),
-                tr("Above {most:.4g} µm the run fails and the tip retracts.").format(
-                    most=1e6 * most
-                ),
-            )
+        show_tip(
+            self.load,
+            tr("Deviation of the axis from its set-point."),
+            tr("Above {most:.4g} µm the run fails and the tip retracts.").format(most=1e6 * most),
         )
         self._show_tool(status, state)
 
