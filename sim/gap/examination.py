@@ -270,7 +270,10 @@ def _counting(
         left = by_tap[one.tap] - 1.0
         least = _TAILS if others and one.sign is Sign.SPIKES else SMALL
         share = one.power >= least * (raw[one.tap] - 1.0)
-        clearly = one.power >= CLEARLY * left and not (misread and one.sign is Sign.WANDER)
+        clearly = one.power >= CLEARLY * left
+        if one.sign is Sign.WANDER:  # of what is left, which it is still a part of
+            share = share and one.power >= HALF * left
+            clearly = clearly and not misread
         if one.power >= LEAST_POWER and (share or clearly):
             counting.append(one)
     return tuple(counting)
