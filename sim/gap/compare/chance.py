@@ -45,7 +45,7 @@ class Chance:
         evidence = self.evidence
         motions = [_motion(evidence, number) for number in range(len(evidence.observations))]
         low, high = evidence.reach
-        travel = max(high - low, float(np.finfo(np.float64).tiny))
+        travel = high - low or evidence.robot.axes[evidence.axis].span  # where it was only held
         of_motion = round(_OF_MOTION * _DRAWS)
         found = [_of_motion(motions, travel, rng) for _ in range(of_motion)]
         return found + [_of_time(motions, rng) for _ in range(_DRAWS - of_motion)]

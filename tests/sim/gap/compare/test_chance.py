@@ -101,3 +101,13 @@ def test_a_curve_beside_a_remainder_is_named_if_it_does_more(monkeypatch, effect
         seen, Selection(untouched(seen), alone, best, ()), best, {}, {}
     )
     assert {name for name, _ in found.ids} == named
+
+
+def test_an_axis_that_was_only_held_has_remainders_too():
+    own = ROBOT.axes["zn"]
+    time_s = 1e-3 * np.arange(500)
+    held = {("zn", Tap.CMD): np.full(500, sum(own.range) / 2)}
+    commands = Record.from_signals(time_s, held, {"zn": own.unit})
+    seen = Evidence.of(ROBOT, "zn", [simulate(ROBOT, [], commands, np.random.default_rng(0))])
+    drawn = Chance(seen)._drawn
+    assert all(np.isfinite(moved).all() for one in drawn for _, moved in one)
