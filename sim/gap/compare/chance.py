@@ -68,17 +68,19 @@ class Chance:
             remainder = self._seen(one)
             remainder -= others @ (others.T @ remainder)
             along = directions.T @ remainder
-            followed += bool(along @ along >= share * (remainder @ remainder))
+            followed += bool(along @ along > share * (remainder @ remainder))
         return followed / _DRAWS
 
     def _seen(self, drawn: Motions) -> FloatArray:
-        """Return a draw (rows,) as the residual has it: a controller's effort does not feel it."""
-        seen = np.zeros(self.evidence.parts[-1].rows.stop)
-        for part in self.evidence.parts:
-            if part.tap is not Tap.U:
-                own = self.evidence.observations[part.record]
-                moved = np.interp(own.record.time_s, *drawn[part.record]) / own.floor[part.tap]
-                seen[part.rows] = self.evidence.without_nuisance(part.record, part.tap, moved)
+        """Return a draw (rows,) as the residual has it: in the motion, or else in the effort."""
+        evidence = self.evidence
+        moved = any(part.tap is not Tap.U for part in evidence.parts)
+        seen = np.zeros(evidence.parts[-1].rows.stop)
+        for part in evidence.parts:
+            if part.tap is not Tap.U or not moved:
+                own = evidence.observations[part.record]
+                signal = np.interp(own.record.time_s, *drawn[part.record]) / own.floor[part.tap]
+                seen[part.rows] = evidence.without_nuisance(part.record, part.tap, signal)
         return seen
 
 

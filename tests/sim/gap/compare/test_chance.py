@@ -67,6 +67,16 @@ def test_the_more_is_closed_the_less_likely_it_is_by_chance(bent):
     assert [Chance(seen).of_closing(best, (CURVE.id, None), x) for x in (0.0, 0.5, 0.9)] == levels
 
 
+def test_where_the_effort_alone_was_recorded_a_remainder_is_part_of_it(bent):
+    seen, _ = bent
+    efforts = [
+        replace(own, real={Tap.U: own.real[Tap.REF]}, floor={Tap.U: own.floor[Tap.REF]})
+        for own in seen.observations
+    ]
+    only = seen.with_observations(efforts)
+    assert np.ptp(Chance(only)._seen(Chance(only)._drawn[0])) > 0.0
+
+
 def test_what_has_no_number_of_its_own_follows_nothing(bent):
     seen, best = bent
     assert Chance(seen).of_closing(best, ("creep", None), 0.0) == 0.0
