@@ -19,6 +19,7 @@ from rotemina.sim.gap.compare.explanations import (
     beside,
     explain,
     explanation,
+    named_as,
 )
 from rotemina.sim.gap.compare.forward_selection import Selection
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
@@ -102,7 +103,7 @@ def contested(
         ranked = rivals_of(evidence, selection, best)
     if once:
         best, ranked = _with_the_likeliest(evidence, selection, best, ranked)
-    return _beyond_chance(evidence, selection, best, ranked, aside)
+    return _beyond_chance(evidence, selection, best, ranked, remains, aside)
 
 
 def _beyond_chance(
@@ -110,15 +111,20 @@ def _beyond_chance(
     selection: Selection,
     best: Explanation,
     ranked: Ranking,
+    remains: Mapping[Tap, float],
     aside: Mapping[Tap, float],
 ) -> tuple[Explanation, Ranking]:
-    """Return the explanation without causes that may but follow what no catalogue holds."""
+    """Return the explanation without causes that may but follow what no catalogue holds.
+
+    A re-tuned parameter that takes the place of one is a cause if it stands by itself.
+    """
     chance = Chance(evidence)
     while best.causes:
         likely = {key: _by_chance(selection, best, key, aside, chance) for key in best.ids}
         doubtful = max(likely, key=lambda key: likely[key])
         if likely[doubtful] < BY_CHANCE:
             break
+        named = set(best.ids)
         kept = [one for one in best.causes if (one.id, one.from_axis) != doubtful]
         if is_whole_own(doubtful[0]):  # it goes on correcting the model
             best = replace(best, causes=tuple(kept))
@@ -127,6 +133,13 @@ def _beyond_chance(
         else:
             best = _with_only(evidence, selection, kept)
         ranked = rivals_of(evidence, selection, best)
+        if kept:
+            weak = {
+                key
+                for key in set(best.ids) - named
+                if _doubt(evidence, selection, best, ranked[key], key, remains) is not None
+            }
+            best = named_as(best, set(best.ids) - weak)
     return best, ranked
 
 

@@ -108,7 +108,7 @@ def test_a_curve_beside_a_remainder_is_named_if_it_does_more(monkeypatch, effect
     best = explain(seen, [CURVE, LATE] if LATE in effects else [CURVE])
     monkeypatch.setattr(cause_contest, "rivals_of", lambda *_: {})
     found, _ = cause_contest._beyond_chance(
-        seen, Selection(untouched(seen), alone, best, ()), best, {}, {}
+        seen, Selection(untouched(seen), alone, best, ()), best, {}, {}, {}
     )
     assert {name for name, _ in found.ids} == named
 
