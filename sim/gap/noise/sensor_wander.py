@@ -11,6 +11,7 @@ from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.noise.disturbances import Disturbance, resting
+from rotemina.sim.gap.thresholds import HALF
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Tap
 
@@ -25,6 +26,7 @@ _WALKING = 0.5  # exponent of time from which what is left walks; of a random wa
 _SEEN_BY_REF = 0.3  # of a wander, that the reference may see of what is left
 _SLOWEST = 12  # terms of a cosine transform, that are slow
 _SLOW = 0.1  # of what is not white, that lies in these
+_PIECES = 64  # of the shortest record, whose means go up and down alike in what comes again
 _ROUGH = 1.6  # exponent of time, with which a wander's squared change grows at most; motion: 2
 
 
@@ -132,8 +134,8 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     """Return how far a sensor drifts, by the remainder (rows,) of the best explanation.
 
     Rest proves a drift; without rest, a reference at which the same explanation leaves nothing. If
-    one record proves it, others that are too quiet or short also count. The power is in floors of
-    the evidence.
+    one record proves it, others that are too quiet or short also count. What comes again in every
+    record is the machine's. The power is in floors of the evidence.
     """
     total, rows, rested, walked = 0.0, 0, False, False
     for part in evidence.parts:
@@ -149,6 +151,8 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
             walked |= own.walks
     proven = rested or (walked and evidence.has(Tap.REF))
     if not proven or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
+        return None
+    if _comes_again(evidence, left):
         return None
     note = message(
         "gap", "The reading drifts regardless of the motion, but the reference does not."
@@ -168,3 +172,33 @@ def _true_motion_left(evidence: Evidence, left: FloatArray) -> float:
             power += share**2 * float(np.sum(left[part.rows] ** 2))
             rows += part.rows.stop - part.rows.start
     return power / rows if rows else 0.0
+
+
+def _comes_again(evidence: Evidence, left: FloatArray) -> bool:
+    """Tell whether the reading leaves much the same in every record, from its start on.
+
+    Two random walks are alike by chance, but their steps are not; and beside a large walk, small
+    steps of the machine may be alike, but the levels are not.
+    """
+    runs: list[tuple[FloatArray, FloatArray]] = []
+    for part in evidence.parts:
+        if part.tap is Tap.MEAS:
+            time_s = evidence.observations[part.record].record.time_s
+            runs.append((time_s - time_s[0], left[part.rows]))
+    ends = np.linspace(0.0, min(float(time_s[-1]) for time_s, _ in runs), _PIECES + 1)
+    levels = []
+    for time_s, own in runs:
+        rows = np.searchsorted(time_s, ends)
+        if np.diff(rows).min() < 1:
+            return False
+        levels.append(np.diff(np.concatenate([[0.0], np.cumsum(own)])[rows]) / np.diff(rows))
+    return len(levels) > 1 and all(
+        _alike(np.stack(signals)) > HALF for signals in (levels, np.diff(levels))
+    )
+
+
+def _alike(signals: FloatArray) -> float:
+    """Return the mean correlation of pairs of signals (m, n)."""
+    correlation = np.atleast_2d(np.corrcoef(signals))
+    pairs = correlation[np.triu_indices(len(signals), 1)]
+    return float(pairs.mean())

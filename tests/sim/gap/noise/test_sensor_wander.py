@@ -99,3 +99,18 @@ def _flicker():
     tones[0] = 0.0
     flicker = np.fft.irfft(tones, len(TIME_S))
     return 30.0 * flicker / flicker.std()
+
+
+@pytest.mark.parametrize("again", [False, True])
+def test_what_comes_again_in_every_record_is_no_drift_of_the_sensor(again):
+    rng = np.random.default_rng(3)
+    command = steps_and_triangles("zn")
+    records = [simulate(ROBOT, [], command, rng) for _ in range(2)]
+    evidence = Evidence.of(ROBOT, "zn", records)
+    walks = [0.3 * np.cumsum(np.random.default_rng(seed).standard_normal(8000)) for seed in (1, 2)]
+    left = evidence.residual()
+    for part in evidence.parts:
+        if part.tap is Tap.MEAS:
+            left[part.rows] += walks[0 if again else part.record]
+    found = wander(evidence, left)
+    assert (found is None) is again
