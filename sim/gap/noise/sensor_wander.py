@@ -192,9 +192,10 @@ def _comes_again(evidence: Evidence, left: FloatArray) -> bool:
         if np.diff(rows).min() < 1:
             return False
         levels.append(np.diff(np.concatenate([[0.0], np.cumsum(own)])[rows]) / np.diff(rows))
-    return len(levels) > 1 and all(
-        _alike(np.stack(signals)) > HALF for signals in (levels, np.diff(levels))
-    )
+    if len(levels) < 2:
+        return False
+    together = np.stack(levels)
+    return _alike(together) > HALF and _alike(np.diff(together)) > HALF
 
 
 def _alike(signals: FloatArray) -> float:
