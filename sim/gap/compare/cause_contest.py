@@ -1,6 +1,6 @@
 """The causes that hold against all effects that could take their place."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -119,11 +119,13 @@ def _beyond_chance(
     A re-tuned parameter that takes the place of one is a cause if it stands by itself.
     """
     chance = Chance(evidence)
+    dropped: set[Key] = set()
     while best.causes:
         likely = {key: _by_chance(selection, best, key, aside, chance) for key in best.ids}
         doubtful = max(likely, key=lambda key: likely[key])
         if likely[doubtful] < BY_CHANCE:
             break
+        dropped.add(doubtful)
         named = set(best.ids)
         kept = [one for one in best.causes if (one.id, one.from_axis) != doubtful]
         if is_whole_own(doubtful[0]):  # it goes on correcting the model
@@ -132,7 +134,7 @@ def _beyond_chance(
             best = attributed(evidence, selection.bare, selection.retuned)
         else:
             best = _with_only(evidence, selection, kept)
-        ranked = rivals_of(evidence, selection, best)
+        best, ranked = _with_the_likeliest(evidence, selection, best, without=dropped)
         if kept:
             weak = {
                 key
@@ -148,14 +150,17 @@ def _with_the_likeliest(
     selection: Selection,
     best: Explanation,
     ranked: dict[Key, tuple[Rival, ...]] | None = None,
+    *,
+    without: Collection[Key] = (),
 ) -> tuple[Explanation, dict[Key, tuple[Rival, ...]]]:
     """Return an explanation with rivals in the place of causes than which they are by far likelier.
 
-    With it come the rivals of each of its causes, ``ranked`` where they are known.
+    With it come the rivals of each of its causes, ``ranked`` where they are known. None of those
+    ``without`` which it is to be comes back.
     """
     ranked = ranked or rivals_of(evidence, selection, best)
     for _ in range(_TURNS):
-        likelier = _likelier(ranked)
+        likelier = _likelier(ranked, without)
         if likelier is None:
             break
         best = attributed(evidence, selection.bare, likelier)
@@ -163,7 +168,9 @@ def _with_the_likeliest(
     return best, ranked
 
 
-def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
+def _likelier(
+    ranked: Mapping[Key, Sequence[Rival]], without: Collection[Key]
+) -> Explanation | None:
     """Return the explanation with a rival in the place of a cause, if that is by far likelier.
 
     It does about as well with fewer parameters. Of those by the same effects, which began at
@@ -172,7 +179,7 @@ def _likelier(ranked: Mapping[Key, Sequence[Rival]]) -> Explanation | None:
     found = [
         own[0]
         for key, own in ranked.items()
-        if (own[0].effect, own[0].from_axis) != key
+        if (own[0].effect, own[0].from_axis) not in {key, *without}
         and (own[0].probability >= HALF or own[0].probability >= DISTINCT * probability(own, key))
     ]
     if not found:
