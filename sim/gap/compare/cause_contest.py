@@ -10,7 +10,6 @@ from rotemina.sim.effects.formulation import Late, Stage, Trait
 from rotemina.sim.effects.kinship import Family
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.compare.attribution import attributed, closing, without_own
-from rotemina.sim.gap.compare.chance import Chance
 from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.excitation_richness import alike_axes
 from rotemina.sim.gap.compare.explanations import (
@@ -23,6 +22,7 @@ from rotemina.sim.gap.compare.explanations import (
 )
 from rotemina.sim.gap.compare.forward_selection import Selection
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
+from rotemina.sim.gap.compare.random_remainders import RandomRemainders
 from rotemina.sim.gap.compare.rivals import Key, Rival, probability, rivals
 from rotemina.sim.gap.compare.verdict import stands
 from rotemina.sim.gap.compare.weights import weigh
@@ -118,10 +118,10 @@ def _beyond_chance(
 
     A re-tuned parameter that takes the place of one is a cause if it stands by itself.
     """
-    chance = Chance(evidence)
+    remainders = RandomRemainders(evidence)
     dropped: set[Key] = set()
     while best.causes:
-        likely = {key: _by_chance(selection, best, key, aside, chance) for key in best.ids}
+        likely = {key: _by_chance(selection, best, key, aside, remainders) for key in best.ids}
         doubtful = max(likely, key=lambda key: likely[key])
         if likely[doubtful] < BY_CHANCE:
             break
@@ -213,7 +213,11 @@ def _doubt(
 
 
 def _by_chance(
-    selection: Selection, best: Explanation, key: Key, aside: Mapping[Tap, float], chance: Chance
+    selection: Selection,
+    best: Explanation,
+    key: Key,
+    aside: Mapping[Tap, float],
+    remainders: RandomRemainders,
 ) -> float:
     """Return how likely a cause would follow as much of what nothing known explains.
 
@@ -222,13 +226,13 @@ def _by_chance(
     """
     if max(best.by_tap.values()) < ADEQUATE:
         return 0.0
-    without = _without(chance.evidence, selection, best, key)
+    without = _without(remainders.evidence, selection, best, key)
     last = next(tap for tap in (Tap.MEAS, Tap.REF, Tap.U) if tap in best.by_tap)
     raw = selection.bare.by_tap[last] + aside.get(last, 0.0)
     if without.by_tap[last] - best.by_tap[last] >= UNNAMED * (raw - 1.0):
         return 0.0
     share = (without.score - best.score) / (without.score - 1.0)
-    return chance.of_closing(best, key, share)
+    return remainders.of_closing(best, key, share)
 
 
 def _weight_of_its_kind(

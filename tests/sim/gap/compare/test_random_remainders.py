@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.compare import cause_contest
-from rotemina.sim.gap.compare.chance import Chance
 from rotemina.sim.gap.compare.explanations import explain, untouched
 from rotemina.sim.gap.compare.forward_selection import Selection
+from rotemina.sim.gap.compare.random_remainders import RandomRemainders
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.thresholds import BY_CHANCE
 from rotemina.sim.records.record import Record, Tap
@@ -53,18 +53,23 @@ def bent():
 
 def test_a_curve_bends_to_much_of_what_no_catalogue_holds_and_a_delay_does_not(bent):
     seen, best = bent
-    chance = Chance(seen)
-    assert chance.of_closing(best, (CURVE.id, None), 0.6) > BY_CHANCE
-    assert chance.of_closing(best, (LATE.id, None), 0.6) == 0.0
+    remainders = RandomRemainders(seen)
+    assert remainders.of_closing(best, (CURVE.id, None), 0.6) > BY_CHANCE
+    assert remainders.of_closing(best, (LATE.id, None), 0.6) == 0.0
 
 
 def test_the_more_is_closed_the_less_likely_it_is_by_chance(bent):
     seen, best = bent
-    levels = [Chance(seen).of_closing(best, (CURVE.id, None), share) for share in (0.0, 0.5, 0.9)]
+    levels = [
+        RandomRemainders(seen).of_closing(best, (CURVE.id, None), share)
+        for share in (0.0, 0.5, 0.9)
+    ]
     assert levels == sorted(levels, reverse=True)
     assert levels[0] == 1.0
-    assert Chance(seen).of_closing(best, (CURVE.id, None), 1.0) == 0.0
-    assert [Chance(seen).of_closing(best, (CURVE.id, None), x) for x in (0.0, 0.5, 0.9)] == levels
+    assert RandomRemainders(seen).of_closing(best, (CURVE.id, None), 1.0) == 0.0
+    assert [
+        RandomRemainders(seen).of_closing(best, (CURVE.id, None), x) for x in (0.0, 0.5, 0.9)
+    ] == levels
 
 
 def test_where_the_effort_alone_was_recorded_a_remainder_is_part_of_it(bent):
@@ -74,12 +79,12 @@ def test_where_the_effort_alone_was_recorded_a_remainder_is_part_of_it(bent):
         for own in seen.observations
     ]
     only = seen.with_observations(efforts)
-    assert np.ptp(Chance(only)._seen(Chance(only)._drawn[0])) > 0.0
+    assert np.ptp(RandomRemainders(only)._seen(RandomRemainders(only)._drawn[0])) > 0.0
 
 
 def test_what_has_no_number_of_its_own_follows_nothing(bent):
     seen, best = bent
-    assert Chance(seen).of_closing(best, ("creep", None), 0.0) == 0.0
+    assert RandomRemainders(seen).of_closing(best, ("creep", None), 0.0) == 0.0
 
 
 @pytest.mark.parametrize("step_s", [10.0, 1e-5])
@@ -89,9 +94,9 @@ def test_slow_and_fast_records_have_remainders_too(bent, step_s):
         replace(own, record=replace(own.record, time_s=step_s / 1e-3 * own.record.time_s))
         for own in seen.observations
     ]
-    chance = Chance(seen.with_observations(records))
-    assert 0.0 <= chance.of_closing(best, (CURVE.id, None), 0.6) <= 1.0
-    assert all(np.isfinite(moved).all() for one in chance._drawn for _, moved in one)
+    remainders = RandomRemainders(seen.with_observations(records))
+    assert 0.0 <= remainders.of_closing(best, (CURVE.id, None), 0.6) <= 1.0
+    assert all(np.isfinite(moved).all() for one in remainders._drawn for _, moved in one)
 
 
 @pytest.mark.parametrize(
@@ -119,5 +124,5 @@ def test_an_axis_that_was_only_held_has_remainders_too():
     held = {("zn", Tap.CMD): np.full(500, sum(own.range) / 2)}
     commands = Record.from_signals(time_s, held, {"zn": own.unit})
     seen = Evidence.of(ROBOT, "zn", [simulate(ROBOT, [], commands, np.random.default_rng(0))])
-    drawn = Chance(seen)._drawn
+    drawn = RandomRemainders(seen)._drawn
     assert all(np.isfinite(moved).all() for one in drawn for _, moved in one)

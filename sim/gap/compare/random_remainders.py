@@ -33,7 +33,7 @@ Motions = list[tuple[FloatArray, FloatArray]]  # of each record: times, s, and p
 
 
 @dataclass(frozen=True, eq=False)
-class Chance:
+class RandomRemainders:
     """Remainders drawn by chance on an axis, the same ones for the same records."""
 
     evidence: Evidence
