@@ -116,21 +116,23 @@ def _beyond_chance(
 ) -> tuple[Explanation, Ranking]:
     """Return the explanation without causes that may but follow what no catalogue holds.
 
-    A re-tuned parameter that takes the place of one is a cause if it stands by itself.
+    A re-tuned parameter that takes the place of one is a cause if it stands by itself. A cause that
+    is alone goes only where such parameters do most of what it does.
     """
     remainders = RandomRemainders(evidence)
     dropped: set[Key] = set()
     while best.causes:
         likely = {key: _by_chance(selection, best, key, aside, remainders) for key in best.ids}
         doubtful = max(likely, key=lambda key: likely[key])
-        if likely[doubtful] < BY_CHANCE:
+        by_own = closed(selection.raw, selection.retuned.score) >= MUCH
+        if likely[doubtful] <= BY_CHANCE or (len(best.causes) == 1 and not by_own):
             break
         dropped.add(doubtful)
         named = set(best.ids)
         kept = [one for one in best.causes if (one.id, one.from_axis) != doubtful]
         if is_whole_own(doubtful[0]):  # it goes on correcting the model
             best = replace(best, causes=tuple(kept))
-        elif not kept and closed(selection.raw, selection.retuned.score) >= SOME:
+        elif not kept:
             best = attributed(evidence, selection.bare, selection.retuned)
         else:
             best = _with_only(evidence, selection, kept)
