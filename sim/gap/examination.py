@@ -114,7 +114,7 @@ def examine(whole: Evidence, account: Account, *, jobs: int = 1) -> Examination:
         [ranked[key] for key in best.ids],
         [() if poor else alike[key] for key in best.ids],  # a poor motion makes sets large
     )
-    sure |= bool(disturbances) and not best.causes  # which stand by themselves
+    sure |= bool(disturbances) and not best.causes  # a disturbance stands by itself
     bare = selection.bare if plain is evidence else untouched(plain)
     black_box = probed(plain, plain.residual())
     steady = [one for one in disturbances if one.sign is not Sign.WANDER]

@@ -8,8 +8,8 @@ steers a computation, stands with it.
 # Shares, of a gap's power that closes or is left, or of a weight or a probability.
 NEXT_TO_NOTHING = 0.01
 SMALL = 0.03  # the least that a cause closes
-BY_CHANCE = 0.05  # of draws that do as much: it may be one of them
-UNNAMED = 0.09  # of a gap's power at most, that real machines do beyond every catalogue
+SIGNIFICANCE = 0.05  # p-value, up to which a cause is more than a part of the remainder
+REMAINDER = 0.09  # of a gap's power at most, that real machines do beyond every catalogue
 SOME = 0.3  # worth a name, or worth going on
 HALF = 0.5
 MUCH = 0.7  # closed: more than what bends to anything closes; left: another is much better

@@ -5,13 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotemina.sim.effects.attachment import Attached
-from rotemina.sim.effects.formulation import Late, Stage, Trait
-from rotemina.sim.effects.kinship import Family
+from rotemina.sim.effects.formulation import Trait
 from rotemina.sim.effects.registry import effect_named
 from rotemina.sim.gap.compare.attribution import attributed, closing, without_own
 from rotemina.sim.gap.compare.closed_share import closed
-from rotemina.sim.gap.compare.excitation_richness import alike_axes
 from rotemina.sim.gap.compare.explanations import (
     MOST_STEPS,
     Explanation,
@@ -24,32 +21,29 @@ from rotemina.sim.gap.compare.forward_selection import Selection
 from rotemina.sim.gap.compare.held_out_power import held_out_powers
 from rotemina.sim.gap.compare.random_remainders import RandomRemainders
 from rotemina.sim.gap.compare.rivals import Key, Rival, probability, rivals
+from rotemina.sim.gap.compare.substitutes import AT_THE_SENSOR, substitutes
 from rotemina.sim.gap.compare.verdict import stands
 from rotemina.sim.gap.compare.weights import weigh
 from rotemina.sim.gap.fit.baseline import is_own, is_whole_own
-from rotemina.sim.gap.fit.catalogue import catalogue, is_of, kinship_of, with_parameter
+from rotemina.sim.gap.fit.catalogue import kinship_of
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.output_error import fit
 from rotemina.sim.gap.thresholds import (
     ADEQUATE,
-    BY_CHANCE,
     DISTINCT,
     HALF,
     MUCH,
     NEAR,
+    REMAINDER,
     SAME_SCORE,
+    SIGNIFICANCE,
     SOME,
     TIED,
-    UNNAMED,
 )
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import AxisEffect
 
-# What does the same at the sensor as elsewhere, where no reference was recorded.
-_AT_THE_SENSOR = {Family.GAIN, Family.CURVE, Family.LATE, Family.PERIOD}
-_BUTTERWORTH = "third_order"  # of a lag, as it is with its presets
 _TURNS = 6  # at most, in which rivals take a cause's place until none is likelier
-_LOAD_ABOVE = 1.8  # times an axis' resonance, from where that of a mass on it is looked for
 _WITHOUT_STEPS = 5  # of a fit without one of the causes, from where the others are
 
 Ranking = Mapping[Key, tuple[Rival, ...]]
@@ -103,10 +97,10 @@ def contested(
         ranked = rivals_of(evidence, selection, best)
     if once:
         best, ranked = _with_the_likeliest(evidence, selection, best, ranked)
-    return _beyond_chance(evidence, selection, best, ranked, remains, aside)
+    return _significant(evidence, selection, best, ranked, remains, aside)
 
 
-def _beyond_chance(
+def _significant(
     evidence: Evidence,
     selection: Selection,
     best: Explanation,
@@ -122,10 +116,10 @@ def _beyond_chance(
     remainders = RandomRemainders(evidence)
     dropped: set[Key] = set()
     while best.causes:
-        likely = {key: _by_chance(selection, best, key, aside, remainders) for key in best.ids}
-        doubtful = max(likely, key=lambda key: likely[key])
+        p_values = {key: _p_value(selection, best, key, aside, remainders) for key in best.ids}
+        doubtful = max(p_values, key=lambda key: p_values[key])
         by_own = closed(selection.raw, selection.retuned.score) >= MUCH
-        if likely[doubtful] <= BY_CHANCE or (len(best.causes) == 1 and not by_own):
+        if p_values[doubtful] <= SIGNIFICANCE or (len(best.causes) == 1 and not by_own):
             break
         dropped.add(doubtful)
         named = set(best.ids)
@@ -214,27 +208,27 @@ def _doubt(
     return None if standing else weight
 
 
-def _by_chance(
+def _p_value(
     selection: Selection,
     best: Explanation,
     key: Key,
     aside: Mapping[Tap, float],
     remainders: RandomRemainders,
 ) -> float:
-    """Return how likely a cause would follow as much of what nothing known explains.
+    """Return the p-value of a cause: that it follows as much of what nothing known explains.
 
-    What a machine does beyond every catalogue is a small part of the gap where the last of its
-    taps reads it, and seldom does all of that bend to one effect.
+    It is 0 where nothing is left, or where the cause does too much for that: what a machine does
+    beyond every catalogue is a small part of the gap where the last of its taps reads it.
     """
-    if max(best.by_tap.values()) < ADEQUATE:
-        return 0.0
     without = _without(remainders.evidence, selection, best, key)
+    if max(best.by_tap.values()) < ADEQUATE or without.score <= 1.0:
+        return 0.0
     last = next(tap for tap in (Tap.MEAS, Tap.REF, Tap.U) if tap in best.by_tap)
     raw = selection.bare.by_tap[last] + aside.get(last, 0.0)
-    if without.by_tap[last] - best.by_tap[last] >= UNNAMED * (raw - 1.0):
+    if without.by_tap[last] - best.by_tap[last] >= REMAINDER * (raw - 1.0):
         return 0.0
     share = (without.score - best.score) / (without.score - 1.0)
-    return remainders.of_closing(best, key, share)
+    return remainders.p_value(best, key, share)
 
 
 def _weight_of_its_kind(
@@ -256,7 +250,7 @@ def _weight_of_its_kind(
 def _is_kin(one: Rival, key: Key) -> bool:
     name, source = key
     family = kinship_of(name).family
-    alike = family in _AT_THE_SENSOR and kinship_of(one.effect).family is family
+    alike = family in AT_THE_SENSOR and kinship_of(one.effect).family is family
     return one.from_axis == source and (one.effect == name or alike)
 
 
@@ -310,11 +304,13 @@ def rivals_of(
 ) -> dict[Key, tuple[Rival, ...]]:
     """Return the rivals of each cause of an explanation, likeliest first."""
     tried = _with_retuned(evidence, selection, best)
-    twins = _twins_of(evidence, best, tried)
+    substituted = _with_substitutes(evidence, best, tried)
     ranked = {}
     for key in best.ids:
         # Each by itself: of what was tried, only the best few are fitted again.
-        others = without_own(evidence, best, tried, key) + without_own(evidence, best, twins, key)
+        others = without_own(evidence, best, tried, key) + without_own(
+            evidence, best, substituted, key
+        )
         ranked[key] = rivals(evidence, best, _one_of_each(others), key, selection.raw)
     return ranked
 
@@ -342,7 +338,7 @@ def _with_retuned(
     return (*others, replace(named, causes=named.causes[:1]))
 
 
-def _twins_of(
+def _with_substitutes(
     evidence: Evidence, best: Explanation, tried: Sequence[Explanation]
 ) -> tuple[Explanation, ...]:
     """Return explanations by what does much the same as a cause, if that was not tried so already.
@@ -355,7 +351,7 @@ def _twins_of(
     for cause in best.causes:
         own = is_own(evidence, cause)
         others = [one for one in best.causes if one is not cause and not is_own(evidence, one)]
-        for asked in _twins(evidence, cause):
+        for asked in substitutes(evidence, cause):
             well = TIED * best.score
             if own or not any(one.score < well and _is_by(one, [*others, asked]) for one in tried):
                 effects = beside(evidence, [*others, asked])
@@ -371,101 +367,3 @@ def _is_by(one: Explanation, causes: Sequence[AxisEffect]) -> bool:
     wanted = sorted((cause.id, cause.from_axis) for cause in causes)
     forms = {(cause.id, cause.formulation) for cause in one.causes}
     return sorted(one.ids) == wanted and (causes[-1].id, causes[-1].formulation) in forms
-
-
-def _twins(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
-    found = []
-    if not evidence.has(Tap.REF):
-        found += [_alike(cause, twin) for twin in _elsewhere(cause.id)]
-    if _is_transport(cause):
-        found += [_as_late(cause, lag) for lag in _lags(Stage.ELECTRONICS)]
-    if is_whole_own(cause.id) and is_of(Family.GAIN, cause.id):
-        for axis, k in alike_axes(evidence).items():
-            numbers = {"k": k * cause.parameters["error"]}
-            found += [
-                AxisEffect(axis=evidence.axis, id=one.id, from_axis=axis, parameters=numbers)
-                for one in catalogue()
-                if one.coupled and one.formulations[0].parameter("k")
-            ]
-    if is_of(Family.RESONANCE, cause.id):
-        found += _loads(evidence, cause)
-    return [_within_bounds(evidence, twin) for twin in found]
-
-
-def _elsewhere(name: str) -> list[str]:
-    """Return what does the same at the sensor; of a curve of the sensor, what does it elsewhere."""
-    own = effect_named(name)
-    if own.kinship.family not in _AT_THE_SENSOR:
-        return []
-    at_the_sensor = own.stage is Stage.SENSOR
-    if at_the_sensor and own.kinship.family is not Family.CURVE:
-        return []
-    return [
-        one.id
-        for one in catalogue()
-        if one.kinship.family is own.kinship.family
-        and (one.stage is Stage.SENSOR) is not at_the_sensor
-    ]
-
-
-def _is_transport(cause: AxisEffect) -> bool:
-    """Tell whether a cause makes everything later and nothing else."""
-    effect = effect_named(cause.id)
-    return isinstance(effect.formulations[0].acts, Late) and is_of(Family.LATE, cause.id)
-
-
-def _lags(stage: Stage) -> list[str]:
-    return [
-        one.id
-        for one in catalogue()
-        if one.stage is stage and one.formulation(_BUTTERWORTH) and is_of(Family.LATE, one.id)
-    ]
-
-
-def _loads(evidence: Evidence, cause: AxisEffect) -> list[AxisEffect]:
-    """Return a mass on a spring that makes an axis ring as much slower as a re-tuned resonance is.
-
-    With μ of the axis' mass, at ν times its resonance, both ring at r of that where
-    1 - r² = μ r² / (1 - r²/ν²) (the dynamic vibration absorber: Den Hartog, Mechanical Vibrations,
-    1956, ch. 3).
-    """
-    inertia, off = evidence.robot.axes[evidence.axis].inertia, cause.parameters["frequency_error"]
-    if inertia is None or off >= 0.0:
-        return []
-    rings_hz = float(np.sqrt(inertia.stiffness / inertia.mass)) / (2.0 * np.pi)
-    slower = (1.0 + off) ** 2
-    share = (1.0 / slower - 1.0) * (1.0 - slower / _LOAD_ABOVE**2)
-    numbers = {"frequency": _LOAD_ABOVE * rings_hz, "mass_ratio": share}
-    load = with_parameter("mass_ratio")
-    if load is None:
-        return []
-    effect, form = load
-    return [AxisEffect(axis=evidence.axis, id=effect.id, formulation=form.name, parameters=numbers)]
-
-
-def _as_late(cause: AxisEffect, lag: str) -> AxisEffect:
-    """Return the Butterworth filter of the third order that is as late as a delay: 2τ."""
-    late_s = effect_named(cause.id).identification.lateness_s
-    assert late_s is not None
-    numbers = {"time_constant": 0.5 * late_s(cause.parameters)}
-    return replace(cause, id=lag, formulation=_BUTTERWORTH, parameters=numbers)
-
-
-def _within_bounds(evidence: Evidence, twin: AxisEffect) -> AxisEffect:
-    """Return a twin with the nearest numbers that it may have: its bounds may be closer."""
-    bare = Attached.of(evidence.robot, replace(twin, parameters={}))
-    return replace(twin, parameters=bare.clipped(twin.parameters))
-
-
-def _alike(cause: AxisEffect, twin: str) -> AxisEffect:
-    """Return the twin of a cause, in the form of the same name and with the numbers of both.
-
-    That of a delay is a lag as late.
-    """
-    if _is_transport(cause):
-        return _as_late(cause, twin)
-    forms = effect_named(twin).formulations
-    form = next((one for one in forms if one.name == cause.formulation), forms[0])
-    names = {parameter.name for parameter in form.parameters}
-    numbers = {name: value for name, value in cause.parameters.items() if name in names}
-    return replace(cause, id=twin, formulation=form.name, parameters=numbers)

@@ -15,7 +15,7 @@ import numpy as np
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.gap.compare.explanations import Explanation
 from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.location.residual_features import late
+from rotemina.sim.gap.location.residual_features import lagged
 from rotemina.sim.records.record import Tap
 
 _DRAWS = 100
@@ -50,10 +50,11 @@ class RandomRemainders:
         found = [_of_motion(motions, travel, rng) for _ in range(of_motion)]
         return found + [_of_time(motions, rng) for _ in range(_DRAWS - of_motion)]
 
-    def of_closing(self, best: Explanation, cause: tuple[str, str | None], share: float) -> float:
-        """Return in which part of the draws a cause follows a share of the remainder, or more.
+    def p_value(self, best: Explanation, cause: tuple[str, str | None], share: float) -> float:
+        """Return the part of the draws of which a cause follows more than a share.
 
-        It counts beside the other causes: both in small changes about what was fitted.
+        What the other causes follow is taken off before. All follow by small changes about what
+        was fitted: along the columns of its jacobian (rows, parameters).
         """
         fit = best.fit
         mine = [fit.effects[free.effect] for free in fit.free]
@@ -102,8 +103,8 @@ def _of_motion(motions: Motions, travel: float, rng: np.random.Generator) -> Mot
     found = []
     for time_s, place in motions:
         step_s = (time_s[-1] - time_s[0]) / (len(time_s) - 1)
-        speed = late(np.gradient(place, step_s), speed_s / step_s)
-        active = late(np.abs(speed), active_s / step_s)
+        speed = lagged(np.gradient(place, step_s), speed_s / step_s)
+        active = lagged(np.abs(speed), active_s / step_s)
         seen = np.stack([place / travel, speed / pace, active / pace])
         found.append((time_s, np.cos(waves @ seen + phases).sum(axis=0)))
     return found
@@ -115,6 +116,6 @@ def _of_time(motions: Motions, rng: np.random.Generator) -> Motions:
     step_s = max(_GRID_S, longest_s / _MOST_KICKS)
     force = rng.normal(size=int(longest_s / step_s) + 2)
     for hz in _COLOUR_HZ:
-        force = late(force, 1.0 / (2.0 * np.pi * rng.uniform(*hz) * step_s))
+        force = lagged(force, 1.0 / (2.0 * np.pi * rng.uniform(*hz) * step_s))
     grid_s = step_s * np.arange(len(force))
     return [(time_s, np.interp(time_s - time_s[0], grid_s, force)) for time_s, _ in motions]

@@ -208,7 +208,10 @@ class Evidence:
         return np.concatenate(left)
 
     def without_nuisance(self, number: int, tap: Tap, gap: FloatArray) -> FloatArray:
-        """Remove the record's own part: its offset and its nuisance signals."""
+        """Return a gap (n,) over the floor of a tap without what is the record's own.
+
+        That is its offset and its nuisance signals; rows that are not kept are 0.
+        """
         observation = self.observations[number]
         kept = observation.kept.get(tap)
         weight = observation.weight.get(tap)

@@ -137,14 +137,14 @@ def _of(axis: str, record: Record, facts: Facts) -> dict[str, FloatArray]:
         "command": np.stack([at, at**2, at**3], axis=1),
         "direction": np.stack([way, way * at], axis=1),
         "speed": np.stack([speed, np.abs(speed)], axis=1),
-        "past commands": np.stack([late(at, s / period_s) for s in _SETTLING_S], axis=1),
+        "past commands": np.stack([lagged(at, s / period_s) for s in _SETTLING_S], axis=1),
         "time": np.stack([time_s - time_s[0], (time_s - time_s[0]) ** 2], axis=1),
         "position phase": _phases(command, facts),
     }
     others = [name for name in record.axes if name != axis and record.has(name, Tap.CMD)]
     for name in others:
         other = record.signal(name, Tap.CMD)
-        lates = [late(other, s / period_s) for s in _SETTLING_S[:3]]
+        lates = [lagged(other, s / period_s) for s in _SETTLING_S[:3]]
         groups[f"axis {name}"] = np.stack([other, *lates], axis=1) / facts.span
     return groups
 
@@ -156,7 +156,7 @@ def _last_direction(change: FloatArray) -> FloatArray:
     return np.where(last >= 0, np.sign(change[np.maximum(last, 0)]), 0.0)
 
 
-def late(signal: FloatArray, rows: float) -> FloatArray:
+def lagged(signal: FloatArray, rows: float) -> FloatArray:
     """Return a signal (n,) after a first-order lag of so many rows."""
     share = 1.0 - np.exp(-1.0 / max(rows, 1e-9))
     followed, _ = lfilter([share], [1.0, share - 1.0], signal, zi=[(1.0 - share) * signal[0]])

@@ -10,7 +10,7 @@ from rotemina.sim.gap.compare.explanations import explain, untouched
 from rotemina.sim.gap.compare.forward_selection import Selection
 from rotemina.sim.gap.compare.random_remainders import RandomRemainders
 from rotemina.sim.gap.fit.evidence import Evidence
-from rotemina.sim.gap.thresholds import BY_CHANCE
+from rotemina.sim.gap.thresholds import SIGNIFICANCE
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.robot.model import AxisEffect
@@ -54,21 +54,20 @@ def bent():
 def test_a_curve_bends_to_much_of_what_no_catalogue_holds_and_a_delay_does_not(bent):
     seen, best = bent
     remainders = RandomRemainders(seen)
-    assert remainders.of_closing(best, (CURVE.id, None), 0.6) > BY_CHANCE
-    assert remainders.of_closing(best, (LATE.id, None), 0.6) == 0.0
+    assert remainders.p_value(best, (CURVE.id, None), 0.6) > SIGNIFICANCE
+    assert remainders.p_value(best, (LATE.id, None), 0.6) == 0.0
 
 
 def test_the_more_is_closed_the_less_likely_it_is_by_chance(bent):
     seen, best = bent
     levels = [
-        RandomRemainders(seen).of_closing(best, (CURVE.id, None), share)
-        for share in (0.0, 0.5, 0.9)
+        RandomRemainders(seen).p_value(best, (CURVE.id, None), share) for share in (0.0, 0.5, 0.9)
     ]
     assert levels == sorted(levels, reverse=True)
     assert levels[0] == 1.0
-    assert RandomRemainders(seen).of_closing(best, (CURVE.id, None), 1.0) == 0.0
+    assert RandomRemainders(seen).p_value(best, (CURVE.id, None), 1.0) == 0.0
     assert [
-        RandomRemainders(seen).of_closing(best, (CURVE.id, None), x) for x in (0.0, 0.5, 0.9)
+        RandomRemainders(seen).p_value(best, (CURVE.id, None), x) for x in (0.0, 0.5, 0.9)
     ] == levels
 
 
@@ -84,7 +83,7 @@ def test_where_the_effort_alone_was_recorded_a_remainder_is_part_of_it(bent):
 
 def test_what_has_no_number_of_its_own_follows_nothing(bent):
     seen, best = bent
-    assert RandomRemainders(seen).of_closing(best, ("creep", None), 0.0) == 0.0
+    assert RandomRemainders(seen).p_value(best, ("creep", None), 0.0) == 0.0
 
 
 @pytest.mark.parametrize("step_s", [10.0, 1e-5])
@@ -95,7 +94,7 @@ def test_slow_and_fast_records_have_remainders_too(bent, step_s):
         for own in seen.observations
     ]
     remainders = RandomRemainders(seen.with_observations(records))
-    assert 0.0 <= remainders.of_closing(best, (CURVE.id, None), 0.6) <= 1.0
+    assert 0.0 <= remainders.p_value(best, (CURVE.id, None), 0.6) <= 1.0
     assert all(np.isfinite(moved).all() for one in remainders._drawn for _, moved in one)
 
 
@@ -112,7 +111,7 @@ def test_a_curve_beside_a_remainder_is_named_if_it_does_more(monkeypatch, effect
     alone = explain(seen, [])
     best = explain(seen, [CURVE, LATE] if LATE in effects else [CURVE])
     monkeypatch.setattr(cause_contest, "rivals_of", lambda *_: {})
-    found, _ = cause_contest._beyond_chance(
+    found, _ = cause_contest._significant(
         seen, Selection(untouched(seen), alone, best, ()), best, {}, {}, {}
     )
     assert {name for name, _ in found.ids} == named
