@@ -39,10 +39,8 @@ def main(folder: Path) -> int:
         window.show()
         window.workbench.start()
         window.panels.make_all()
-        window.panels["plate"].solve()
         tell_the_story(window, worn_effects(robot))
-        while window.workbench.busy or window.panels["plate"].solved is None:
-            QApplication.processEvents()  # panels that work on what was played
+        finish_work(window)
         window.panels["gap"].result.tabs.setCurrentIndex(2)  # how far the gap shrinks
         window.workbench.emergency_stop()
         window.workbench.refreshed.emit(window.workbench.session.snapshot())
@@ -72,6 +70,19 @@ def main(folder: Path) -> int:
         count += in_german(folder, Path(kept))
     print(f"{count} pictures in {folder}")
     return 0
+
+
+def finish_work(window: "MainWindow") -> None:
+    """Let the panels that compute do so, on what was played or on the simulated machine."""
+    from PySide6.QtWidgets import QApplication
+
+    plate, compensation = window.panels["plate"], window.panels["compensation"]
+    plate.solve()
+    axis = compensation.controls.axis
+    axis.setCurrentIndex(axis.findData("zn"))  # the one with hysteresis
+    compensation.learn_simulated()
+    while window.workbench.busy or compensation.job.running or plate.solved is None:
+        QApplication.processEvents()
 
 
 def in_german(folder: Path, kept: Path) -> int:
