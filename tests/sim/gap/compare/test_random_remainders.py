@@ -125,3 +125,12 @@ def test_an_axis_that_was_only_held_has_remainders_too():
     seen = Evidence.of(ROBOT, "zn", [simulate(ROBOT, [], commands, np.random.default_rng(0))])
     drawn = RandomRemainders(seen)._drawn
     assert all(np.isfinite(moved).all() for one in drawn for _, moved in one)
+
+
+def test_a_gain_and_a_remainder_are_no_curve(monkeypatch):
+    gain = AxisEffect(axis="zn", id="gain_error", parameters={"error": 0.02})
+    seen = machine(gain, wave=1e-3)
+    bare, alone, best = untouched(seen), explain(seen, []), explain(seen, [CURVE])
+    monkeypatch.setattr(cause_contest, "rivals_of", lambda *_: {})
+    found, _ = cause_contest._significant(seen, Selection(bare, alone, best, ()), best, {}, {}, {})
+    assert found.ids == (("gain_error", None),)
