@@ -18,7 +18,7 @@ from rotemina.sim.robot.file import load_robot
 
 _MOST_BYTES = 64_000_000
 FORMAT = "rotemina-blind-result 1"
-_KEPT = ("axis", "effect", "from_axis", "probability", "ambiguous_with", "closed")
+_KEPT = ("axis", "effect", "from_axis", "probability", "weight", "ambiguous_with", "closed")
 
 Ask = Callable[[SealedCase], Answer]
 Contest = Callable[[SealedCase], Mapping[str, Any]]
@@ -100,14 +100,30 @@ class BlindRun:
         ]
 
     def _results(self) -> Iterator[tuple[Path, dict[str, Any]]]:
-        for path in sorted((self._folder / "results").glob("*.json")):
-            result = _read(path)
-            if result.get("format") != FORMAT:
-                raise BlindError(f"{path}: it is no result of a blind test; remove it")
-            yield path, result
+        return _results_in(self._folder)
 
     def _result(self, name: str) -> Path:
         return self._folder / "results" / f"{name}.json"
+
+
+def finished(folder: Path) -> tuple[dict[str, Any], list[Outcome]]:
+    """Return what tells the cases of a folder from others, and the outcomes of those done.
+
+    Raises
+    ------
+    BlindError
+        If it is no folder of a blind test.
+    """
+    key = _read(folder / "cases.json")
+    return key, [_outcome(result) for _, result in _results_in(folder) if "label" in result]
+
+
+def _results_in(folder: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
+    for path in sorted((folder / "results").glob("*.json")):
+        result = _read(path)
+        if result.get("format") != FORMAT:
+            raise BlindError(f"{path}: it is no result of a blind test; remove it")
+        yield path, result
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -127,8 +143,8 @@ def _compact(document: Mapping[str, Any]) -> dict[str, Any]:
     causes = [
         {key: cause[key] for key in _KEPT if key in cause} for cause in document.get("causes", [])
     ]
-    kept = {key: document[key] for key in ("verdict", "axes", "why") if key in document}
-    return {**kept, "causes": causes}
+    kept = ("verdict", "axes", "why", "suspected")
+    return {**{key: document[key] for key in kept if key in document}, "causes": causes}
 
 
 def _outcome(result: Mapping[str, Any]) -> Outcome:

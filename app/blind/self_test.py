@@ -2,27 +2,29 @@
 
 import sys
 from argparse import Namespace
+from collections.abc import Sequence
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+from rotemina.app.blind.calibrating import calibrated
 from rotemina.app.blind.cases import BlindError, Cases, FolderCases, GeneratedCases, check_robot
 from rotemina.app.blind.classifier import classifier_for
 from rotemina.app.blind.diagnosis_process import diagnose
 from rotemina.app.blind.naive_methods import CONTESTANTS, contest
-from rotemina.app.blind.resumable_run import BlindRun, Contest
+from rotemina.app.blind.resumable_run import BlindRun, Contest, finished
 from rotemina.app.files import json_text
 from rotemina.sim.blind.figures_table import HALVES, page, plain_table
 from rotemina.sim.blind.intervals import Figure
 from rotemina.sim.blind.picture import draw_confusion
-from rotemina.sim.blind.scoring import Outcome, calibration_curve, confusion, halves, score
+from rotemina.sim.blind.scoring import Outcome, confusion, halves, score
 from rotemina.sim.errors import InputError
+from rotemina.sim.gap.compare.calibration import FORMAT as CALIBRATION_FORMAT
 from rotemina.sim.robot.file import load_robot
 from rotemina.sim.whole_files import replaced
 
 FORMAT = "rotemina-blind 1"
-CALIBRATION_FORMAT = "rotemina-calibration 1"
 REPORTED_FROM = 1000  # seeds below are for development: what is calibrated or tuned on them
 _CASES = 300
 
@@ -55,9 +57,14 @@ def _check_seed(options: Namespace) -> None:
             f"--report with --seed {options.seed}: seeds below {REPORTED_FROM} are for "
             f"development; report cases of a seed from {REPORTED_FROM} on"
         )
-    if options.calibrate is not None and options.seed >= REPORTED_FROM:
+    if options.calibrate is not None:
+        _check_development("--calibrate", f"--seed {options.seed}", options.seed)
+
+
+def _check_development(option: str, what: str, seed: int) -> None:
+    if seed >= REPORTED_FROM:
         raise InputError(
-            f"--calibrate with --seed {options.seed}: seeds from {REPORTED_FROM} on are for "
+            f"{option} with {what}: seeds from {REPORTED_FROM} on are for "
             f"reports; calibrate on one below {REPORTED_FROM}"
         )
 
@@ -123,7 +130,7 @@ def _write(
             )
             draw_confusion(counts, files.enter_context(replaced(picture)))
         if options.calibrate is not None:
-            made = json_text(_calibration(cases, outcomes))
+            made = json_text(_calibration(cases, outcomes, options.beside))
             files.enter_context(replaced(options.calibrate)).write(made.encode("utf-8"))
         if options.json not in (None, "-"):
             files.enter_context(replaced(options.json)).write(text.encode("utf-8"))
@@ -135,13 +142,19 @@ def _write(
         print(f"\n{HALVES[name]}\n{plain_table(each)}")
 
 
-def _calibration(cases: Cases, outcomes: list[Outcome]) -> dict[str, Any]:
-    """Return how often a cause of each weight is there: linear between the points."""
+def _calibration(
+    cases: Cases, outcomes: Sequence[Outcome], beside: Sequence[Path]
+) -> dict[str, Any]:
+    """Return the calibration on these outcomes, and on those in the folders beside them."""
+    others = [finished(folder) for folder in beside]
+    for folder, (key, _) in zip(beside, others, strict=True):
+        _check_development("--beside", str(folder), int(key.get("seed", 0)))
+    every = [*outcomes, *(one for _, found in others for one in found)]
     return {
         "format": CALIBRATION_FORMAT,
-        "cases": dict(cases.key),
-        "done": len(outcomes),
-        "curve": [list(point) for point in calibration_curve(outcomes)],
+        "cases": [dict(cases.key), *(dict(key) for key, _ in others)],
+        "done": len(every),
+        **calibrated(every).as_json(),
     }
 
 

@@ -53,7 +53,16 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--calibrate",
         type=Path,
         metavar="FILE",
-        help="write how often a cause of each probability is present, as JSON (seeds below 1000)",
+        help="write the calibration of probabilities, as JSON (seeds below 1000)",
+    )
+    parser.add_argument(
+        "--beside",
+        type=Path,
+        metavar="DIR",
+        action="append",
+        default=[],
+        help="count the results of this folder as well in the calibration, such as those of the "
+        "other generator; may be repeated",
     )
     parser.add_argument("--jobs", type=int, metavar="N", help="processes of a diagnosis")
     parser.add_argument(

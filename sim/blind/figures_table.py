@@ -24,6 +24,7 @@ ROWS: dict[str, tuple[str, str, str]] = {
     "false_accusations": ("false alarms on healthy machines", "0", "share"),
     "unknown_recall": ("unknown effects recognised", "≥ 95 %", "share"),
     "insufficient_recall": ("poor excitation recognised", "", "share"),
+    "insufficient_right": ("… or exactly its cause named", "", "share"),
     "closure_median": ("gap closed on unseen data, median", "≥ 99.5 %", "share"),
     "closure_10th_percentile": ("gap closed, 10th percentile", "≥ 95 %", "share"),
     "calibration_error": ("expected calibration error", "≤ 0.04", "number"),

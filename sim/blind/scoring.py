@@ -45,12 +45,17 @@ class Outcome:
     @property
     def truth(self) -> list[Cause]:
         """Axis, effect and source of each effect that is there."""
-        return [_cause(effect) for effect in self.label["effects"]]
+        return [cause_of(effect) for effect in self.label["effects"]]
+
+    @property
+    def there(self) -> list[Cause]:
+        """What is there, whether or not the motion tells it."""
+        return [*self.truth, *(cause_of(effect) for effect in self.label.get("hidden", []))]
 
     @property
     def named(self) -> list[Cause]:
         """Axis, effect and source of each cause that was named, the largest first."""
-        return [_cause(cause) for cause in self.answer.get("causes", [])]
+        return [cause_of(cause) for cause in self.answer.get("causes", [])]
 
     @property
     def has_remainder(self) -> bool:
@@ -81,7 +86,15 @@ class Outcome:
     def right(self) -> bool:
         """Whether verdict and causes are what the label says."""
         verdict = self.label["verdict"]
-        return self.exact if verdict == "explained" else self.verdict == verdict
+        if verdict == "explained":
+            return self.exact
+        return self.verdict == verdict or self.named_all_the_same
+
+    @property
+    def named_all_the_same(self) -> bool:
+        """Whether exactly what is there is named, though the motion is poor."""
+        there = Counter(self.there)
+        return self.kind == "poor" and self.verdict in NAMING and Counter(self.named) == there
 
     def covered(self) -> list[bool]:
         """For each effect that is there: whether it is in a set that was named on its axis."""
@@ -99,7 +112,8 @@ def _kind(label: Mapping[str, Any]) -> str:
     return {1: "single", 2: "double"}.get(len(label["effects"]), "triple")
 
 
-def _cause(effect: Mapping[str, Any]) -> Cause:
+def cause_of(effect: Mapping[str, Any]) -> Cause:
+    """Return axis, effect and source of an entry of a label or an answer."""
     source = effect.get("from_axis") if effect["effect"] == "cross_coupling" else None
     return str(effect["axis"]), str(effect["effect"]), source
 
@@ -128,6 +142,7 @@ def score(outcomes: Sequence[Outcome]) -> dict[str, Figure]:
         "insufficient_recall": share(
             [o.verdict == "insufficient_excitation" for o in _of(outcomes, "poor")]
         ),
+        "insufficient_right": share([o.right for o in _of(outcomes, "poor")]),
     }
     return figures | _continuous(outcomes, explained, healthy)
 
@@ -139,22 +154,6 @@ def halves(outcomes: Sequence[Outcome]) -> dict[str, list[Outcome]]:
         "without_remainder": [o for o in faulty if not o.has_remainder],
         "with_remainder": [o for o in faulty if o.has_remainder],
     }
-
-
-def calibration_curve(outcomes: Iterable[Outcome]) -> list[tuple[float, float]]:
-    """Return (weight, share that is right) where the share steps up, both rising.
-
-    The shares are the isotonic regression of what is right on the weight, by pooling adjacent
-    violators (Barlow et al., Statistical Inference under Order Restrictions (1972)).
-    """
-    table = calibration_table(outcomes)
-    pools: list[list[float]] = []  # sum of weights, of right ones, number
-    for weight, right in table[np.argsort(table[:, 0], kind="stable")]:
-        pools.append([weight, right, 1.0])
-        while len(pools) > 1 and pools[-2][1] * pools[-1][2] >= pools[-1][1] * pools[-2][2]:
-            last = pools.pop()
-            pools[-1] = [a + b for a, b in zip(pools[-1], last, strict=True)]
-    return [(weight / number, right / number) for weight, right, number in pools]
 
 
 def _continuous(
@@ -191,7 +190,7 @@ def _set_sizes(outcomes: Iterable[Outcome]) -> FloatArray:
 def calibration_table(outcomes: Iterable[Outcome]) -> FloatArray:
     """Return (c, 2): the probability of every cause that was named, and 1 if it is there."""
     rows = [
-        (float(cause["probability"]), float(named in outcome.truth))
+        (float(cause["probability"]), float(named in outcome.there))
         for outcome in outcomes
         for cause, named in zip(outcome.answer.get("causes", []), outcome.named, strict=True)
         if cause.get("probability") is not None

@@ -6,6 +6,7 @@ from rotemina.sim.effects.attachment import Attached
 from rotemina.sim.effects.formulation import Stage
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.effects.registry import effect_named
+from rotemina.sim.gap.compare import calibration
 from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.explanations import Explanation
 from rotemina.sim.gap.compare.rivals import paired_blocks, probability
@@ -37,11 +38,6 @@ from rotemina.sim.robot.model import AxisEffect
 
 _MOST_GROUPS = 3  # that a remark names
 _SURE = 1.96  # standard deviations of a 95 % interval
-# How often a cause named on unseen cases was there, though no rival could take its place: nothing
-# that was tried is quite the machine. Counted on 330 blind cases that the report does not contain.
-_TRUE = 0.99  # a cause alone on its axis
-_BESIDE = 0.9  # times that, for each other cause there
-_IN_MODEL_ALONE = 0.3  # probability of what corrects the model but is too small to be named
 _SMALL = 1e-4  # of a parameter's size, for a derivative
 _RANKED = 8  # rivals that are listed
 
@@ -97,7 +93,7 @@ def _suspected(examination: Examination) -> tuple[Suspected, ...]:
     """Return what corrects the model without being named."""
     causes = {(one.id, one.from_axis) for one in examination.best.causes}
     return tuple(
-        Suspected(one.id, one.from_axis, _IN_MODEL_ALONE, in_model=True)
+        Suspected(one.id, one.from_axis, calibration.shipped().suspected, in_model=True)
         for one in examination.fitted
         if (one.id, one.from_axis) not in causes and one not in examination.steps
     )
@@ -136,7 +132,7 @@ def _cause(
     tap = _first_tap(evidence, attached.effect.stage)
     shown, floor = at_tap(evidence, tap), evidence.floor(tap)
     share, interval = closing(evidence, before, best.held_out, tap, rng)
-    ranked = examination.ranked[key]
+    weight = probability(examination.ranked[key], key)
     return Cause(
         axis=evidence.axis,
         effect=asked.id,
@@ -144,7 +140,8 @@ def _cause(
         stage=attached.effect.stage.value,
         tap=tap,
         from_axis=asked.from_axis,
-        probability=_trust(examination) * probability(ranked, key),
+        probability=_calibrated(examination, weight),
+        weight=weight,
         ambiguous_with=examination.alike[key],
         gap_before=floor * rms(before[shown]),
         gap_after=floor * rms(best.held_out[shown]),
@@ -155,10 +152,10 @@ def _cause(
     )
 
 
-def _trust(examination: Examination) -> float:
-    """Return how probable the causes of an axis are at most, by their number."""
+def _calibrated(examination: Examination, weight: float) -> float:
+    """Return how probable a cause of a weight is beside what else is named."""
     causes = len(examination.best.causes) + len(examination.disturbances)
-    return _TRUE * _BESIDE ** max(causes - 1, 0)
+    return calibration.shipped().probability(weight, max(causes - 1, 0))
 
 
 def _disturbance(examination: Examination, one: Disturbance, effect: str) -> Cause:
@@ -176,7 +173,8 @@ def _disturbance(examination: Examination, one: Disturbance, effect: str) -> Cau
         stage=effect_named(effect).stage.value,
         tap=one.tap,
         from_axis=None,
-        probability=_trust(examination),
+        probability=_calibrated(examination, 1.0),
+        weight=1.0,
         ambiguous_with=(),
         gap_before=floor * float(np.sqrt(before)),
         gap_after=floor * float(np.sqrt(left)),
@@ -283,6 +281,8 @@ def _ranking(examination: Examination, rng: np.random.Generator) -> tuple[Ranked
     leading = (best.causes[0].id, best.causes[0].from_axis)
     tap = next(reversed(evidence.observations[0].taps))
     told = []
+    weight = probability(examination.ranked[leading], leading)
+    trust = _calibrated(examination, weight) / max(weight, _calibrated(examination, weight))
     for one in examination.ranked[leading][:_RANKED]:
         left = one.explanation.held_out
         drawn = np.sqrt(drawn_means(paired_blocks(evidence, [left], tap), rng)[:, 0])
@@ -295,7 +295,7 @@ def _ranking(examination: Examination, rng: np.random.Generator) -> tuple[Ranked
                 effect=one.effect,
                 formulation=formulation,
                 from_axis=one.from_axis,
-                probability=_trust(examination) * one.probability,
+                probability=trust * one.probability,
                 held_out_rms=rms(left[at_tap(evidence, tap)]),
                 held_out_interval=(float(low), float(high)),
             )

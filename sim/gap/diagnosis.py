@@ -71,6 +71,10 @@ class Cause:
         ``formulation`` and ``stage`` are None for :data:`UNKNOWN`. The tap is where the effect
         shows first, of those that were measured.
     probability : float
+        How often what is named like this is there
+        (:mod:`~rotemina.sim.gap.compare.calibration`).
+    weight : float, optional
+        Its share among its rivals on these records; None for :data:`UNKNOWN`.
     ambiguous_with : tuple of str
         Other effects of the same axis that the data cannot tell from it, likeliest first.
     gap_before, gap_after : float
@@ -101,6 +105,7 @@ class Cause:
     parameters: tuple[FittedParameter, ...] = ()
     derived: tuple[Derived, ...] = ()
     in_model: bool = True
+    weight: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -73,7 +73,7 @@ def contested(
     more = [one for one in selection.tried if set(one.ids) >= set(best.ids)]
     fullest = min([best, *more], key=lambda one: one.score).by_tap
     remains = {
-        tap: max(left - 1.0, 0.0) + (aside.get(tap, 0.0) if unsure else 0.0)
+        tap: max(left - 1.0, 0.0) + (aside.get(tap, 0.0) if unsure and left >= ADEQUATE else 0.0)
         for tap, left in fullest.items()
     }
     once: set[Key] = set()  # a re-tuned parameter may come back in what the others leave

@@ -17,7 +17,9 @@ from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.fit.held_out import folds
 from rotemina.sim.records.record import Record, Tap
 
-_SETTLING_S = (0.003, 0.03, 0.3, 3.0)  # time constants of what follows a command late
+# Time constants of what follows a command late; other axes' commands have the shorter ones.
+_SETTLING_S = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0)
+_CROSSING_S = (0.003, 0.03, 0.3)
 _RIDGE = 1e-3  # of the features' power
 _TINY = 1e-12
 _LEAST_GAIN = 0.05  # of what is left, that a group of features must predict to be named
@@ -144,7 +146,7 @@ def _of(axis: str, record: Record, facts: Facts) -> dict[str, FloatArray]:
     others = [name for name in record.axes if name != axis and record.has(name, Tap.CMD)]
     for name in others:
         other = record.signal(name, Tap.CMD)
-        lates = [lagged(other, s / period_s) for s in _SETTLING_S[:3]]
+        lates = [lagged(other, s / period_s) for s in _CROSSING_S]
         groups[f"axis {name}"] = np.stack([other, *lates], axis=1) / facts.span
     return groups
 

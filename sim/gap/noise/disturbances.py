@@ -21,7 +21,7 @@ from rotemina.sim.gap.fit.output_error import fit
 from rotemina.sim.gap.fit.reading_cells import cell_of, floor_beyond
 from rotemina.sim.gap.noise.coarseness import coarse_step, stands_on
 from rotemina.sim.gap.noise.lost_step_jumps import jumps as jumps_in
-from rotemina.sim.gap.noise.spectral_noise import common_level, noise_level
+from rotemina.sim.gap.noise.spectral_noise import common_level, noise_level, slow_level
 from rotemina.sim.gap.noise.spikes import excursions
 from rotemina.sim.gap.noise.vibration_lines import tone_signals, tones
 from rotemina.sim.messages import Listed, Message, message
@@ -288,18 +288,21 @@ def _shared(by_record: Sequence[Sequence[float]]) -> list[list[float]]:
 def _with_true_floors(evidence: Evidence, *, cells: bool) -> tuple[Evidence, list[Disturbance]]:
     """Raise the floor of a sensor that is coarser or noisier than declared."""
     gaps, answers = evidence.gaps(), evidence.response()
-    readings, levels = [], []
+    readings, levels, gaps_kept, paces = [], [], [], []
     for observation, gap, answer in zip(evidence.observations, gaps, answers, strict=True):
         if Tap.MEAS not in gap:
             continue
         kept = _kept(observation, Tap.MEAS)
         readings.append(_as_expected(evidence, observation, answer, kept))
-        levels.append(noise_level(_sensor_gap(observation, gap)[kept]))
+        own = _sensor_gap(observation, gap)[kept]
+        gaps_kept.append(own)
+        paces.append(np.abs(np.gradient(answer[Tap.MEAS], observation.record.time_s))[kept])
+        levels.append(noise_level(own))
     if not levels:
         return evidence, []
     floor = evidence.floor(Tap.MEAS)
     step = _coarse(readings)
-    level = common_level(levels)
+    level = min(common_level(levels), slow_level(gaps_kept, paces))
     if step is not None:
         power = (step / floor) ** 2 / 12.0
         unit = evidence.observations[0].record.units[evidence.axis]

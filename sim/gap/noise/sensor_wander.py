@@ -10,6 +10,7 @@ from scipy.fft import dct
 from rotemina.sim.arrays import BoolArray, FloatArray
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.location.residual_features import probed
 from rotemina.sim.gap.noise.disturbances import Disturbance, resting
 from rotemina.sim.gap.thresholds import HALF
 from rotemina.sim.messages import message
@@ -134,9 +135,17 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     """Return how far a sensor drifts, by the remainder (rows,) of the best explanation.
 
     Rest proves a drift; without rest, a reference at which the same explanation leaves nothing. If
-    one record proves it, others that are too quiet or short also count. What comes again in every
-    record is the machine's. The power is in floors of the evidence.
+    one record proves it, others that are too quiet or short also count. What the motion foretells,
+    or what comes again in every record, is the machine's. The power is in floors of the evidence.
     """
+    found = _drift(evidence, left)
+    if found is None or _comes_again(evidence, left):
+        return None
+    unforetold = _drift(evidence, probed(evidence, left).left)
+    return found if unforetold is not None and unforetold.power > HALF * found.power else None
+
+
+def _drift(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     total, rows, rested, walked = 0.0, 0, False, False
     for part in evidence.parts:
         if part.tap is not Tap.MEAS:
@@ -151,8 +160,6 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
             walked |= own.walks
     proven = rested or (walked and evidence.has(Tap.REF))
     if not proven or _true_motion_left(evidence, left) > _SEEN_BY_REF * total / rows:
-        return None
-    if _comes_again(evidence, left):
         return None
     note = message(
         "gap", "The reading drifts regardless of the motion, but the reference does not."

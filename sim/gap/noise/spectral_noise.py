@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from scipy.signal import welch
 
 from rotemina.sim.arrays import FloatArray
@@ -13,6 +14,7 @@ _PIECES = 6  # of a record, of which the quietest tells of its noise
 _BANDS = 4
 _FLAT = 2.0  # of the second band over the last one
 _LEAST_ROWS = 256
+_SLOWEST = 0.1  # of all rows
 
 
 def noise_level(gap: FloatArray) -> float:
@@ -23,6 +25,18 @@ def noise_level(gap: FloatArray) -> float:
     """
     pieces = np.array_split(gap, min(_PIECES, max(len(gap) // _LEAST_ROWS, 1)))
     return float(np.sqrt(min(_level(piece) for piece in pieces)))
+
+
+def slow_level(gaps: Sequence[FloatArray], paces: Sequence[FloatArray]) -> float:
+    """Return the rms of what changes from row to row where the axis is slowest, in the gaps' unit.
+
+    There is no more noise than that: what grows with the pace comes with the motion. Both are
+    (n,) for each record.
+    """
+    bends = np.concatenate([np.diff(gap, 2) for gap in gaps])
+    pace = np.concatenate([sliding_window_view(own, 3).max(axis=1) for own in paces])
+    slow = pace <= np.quantile(pace, _SLOWEST)
+    return float(np.sqrt(np.mean(bends[slow] ** 2) / 6.0))
 
 
 def common_level(levels: Sequence[float]) -> float:

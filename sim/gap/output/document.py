@@ -155,6 +155,7 @@ def _cause(cause: Cause, robot: Robot) -> Json:
         "tap": str(cause.tap),
         "from_axis": cause.from_axis,
         "probability": _number(cause.probability),
+        "weight": _number(cause.weight),
         "ambiguous_with": list(cause.ambiguous_with),
         "gap_before": _number(cause.gap_before),
         "gap_after": _number(cause.gap_after),

@@ -11,7 +11,6 @@ from rotemina.sim.blind.intervals import resampled, share
 from rotemina.sim.blind.picture import draw_confusion
 from rotemina.sim.blind.scoring import (
     Outcome,
-    calibration_curve,
     calibration_table,
     confusion,
     expected_calibration_error,
@@ -180,18 +179,18 @@ def test_causes_count_beside_a_remainder_and_halves_are_told_apart():
     assert parts == {"without_remainder": [extra], "with_remainder": [rest]}
 
 
-def test_the_calibration_rises_with_the_weight():
-    weights = [0.9, 0.5, 0.7, 0.95, 0.6]
-    right = [True, False, False, True, True]
-    made = [
-        outcome(
-            [effect("creep" if there else "delay")], [{**cause("creep"), "probability": weight}]
-        )
-        for weight, there in zip(weights, right, strict=True)
-    ]
-    curve = calibration_curve(made)
-    assert curve == [
-        (0.5, 0.0),
-        (pytest.approx(0.65), 0.5),
-        (pytest.approx(0.925), 1.0),
-    ]
+def test_a_poor_motion_that_tells_the_cause_all_the_same_is_no_error():
+    hidden = {"verdict": "insufficient_excitation", "kind": "poor", "effects": []}
+    hidden["hidden"] = [effect("creep")]
+
+    def answered(*causes):
+        return replace(outcome([], list(causes)), label=hidden)
+
+    right, wrong = answered(cause("creep")), answered(cause("delay"))
+    too_much = answered(cause("creep"), cause("delay"))
+    silent = replace(right, answer={"verdict": "insufficient_excitation", "causes": []})
+    assert [one.right for one in (right, wrong, too_much, silent)] == [True, False, False, True]
+    figures = score([right, wrong, too_much, silent])
+    assert figures["insufficient_recall"].value == 0.25
+    assert figures["insufficient_right"].value == 0.5
+    assert calibration_table([right, wrong]).tolist() == [[0.9, 1.0], [0.9, 0.0]]
