@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from rotemina.sim.gap.fit.evidence import Evidence
+from rotemina.sim.gap.location.residual_features import lagged
 from rotemina.sim.gap.noise.sensor_wander import wander, wandering
 from rotemina.sim.records.record import Record, Tap
 from rotemina.sim.robot.file import load_robot
@@ -114,3 +115,33 @@ def test_what_comes_again_in_every_record_is_no_drift_of_the_sensor(again):
             left[part.rows] += walks[0 if again else part.record]
     found = wander(evidence, left)
     assert (found is None) is again
+
+
+def steps_and_holds(seed):
+    rng = np.random.default_rng(seed)
+    levels = np.repeat(rng.uniform(-0.4, 0.4, 20), 300)
+    time_s, own = np.arange(len(levels)) / 200.0, ROBOT.axes["zn"]
+    return Record.from_signals(
+        time_s, {("zn", Tap.CMD): sum(own.range) / 2 + own.span * levels}, {"zn": own.unit}
+    )
+
+
+def slow_memory(record):
+    """Return what a creep of many time constants leaves of an explanation by fewer, in floors."""
+    command = record.signal("zn", Tap.CMD)
+    activity = (command - command.mean()) / ROBOT.axes["zn"].span
+    slow, slower = (lagged(activity, 200.0 * late_s) for late_s in (1.0, 8.0))
+    return 15.0 * (slow - slower)
+
+
+@pytest.mark.parametrize("walking", [0.0, 0.1])
+def test_what_the_motion_foretells_is_no_drift_of_the_sensor(walking):
+    rng = np.random.default_rng(5)
+    records = [simulate(ROBOT, [], steps_and_holds(seed), rng) for seed in (1, 2, 3)]
+    evidence = Evidence.of(ROBOT, "zn", records)
+    left = evidence.residual()
+    for part in evidence.parts:
+        if part.tap is Tap.MEAS:
+            left[part.rows] += slow_memory(evidence.observations[part.record].record)
+            left[part.rows] += walking * np.cumsum(rng.standard_normal(6000))
+    assert (wander(evidence, left) is None) is (walking == 0.0)
