@@ -142,7 +142,9 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     if found is None or _comes_again(evidence, left):
         return None
     unforetold = _drift(evidence, probed(evidence, left).left)
-    return found if unforetold is not None and unforetold.power > HALF * found.power else None
+    # Much of a walk is foretold by chance, from slow features and the same record's other parts.
+    chance = unforetold is not None and unforetold.power > HALF * found.power
+    return found if chance else unforetold
 
 
 def _drift(evidence: Evidence, left: FloatArray) -> Disturbance | None:
