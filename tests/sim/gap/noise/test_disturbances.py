@@ -114,6 +114,27 @@ def test_noise_behind_a_late_sensor_is_measured_beside_its_lag():
     assert one.power == pytest.approx((3e-8 / declared) ** 2, rel=0.25)
 
 
+@pytest.mark.parametrize("at_rest", [0.0, 10.0])
+def test_noise_of_a_sensor_is_there_at_rest_as_well(at_rest):
+    """A delay that is never quite the same makes a moving axis' reading as rough as noise does."""
+    time_s = np.arange(6000) / RATE_HZ
+    own = ROBOT.axes["zn"]
+    way = np.where(time_s < 5.0, 2.0 / np.pi * np.arcsin(np.sin(np.pi * time_s)), 0.3)
+    command = sum(own.range) / 2 + 0.1 * own.span * way
+    moved = Record.from_signals(time_s, {("zn", Tap.CMD): command}, {"zn": own.unit})
+    records = []
+    for seed in (0, 1):
+        rng = np.random.default_rng(seed)
+        nominal = simulate(ROBOT, [], moved, rng)
+        pace = np.abs(np.gradient(command, time_s))
+        size = own.sensor.noise_rms * np.maximum(at_rest, 10.0 * pace / pace.max())
+        reading = nominal.signal("zn", Tap.MEAS) + size * rng.standard_normal(len(time_s))
+        signals = {("zn", Tap.CMD): command, ("zn", Tap.MEAS): reading}
+        records.append(Record.from_signals(time_s, signals, {"zn": own.unit}))
+    _, found = set_aside(Evidence.of(ROBOT, "zn", records))
+    assert ("sensor_noise" in [one.effect for one in found]) is bool(at_rest)
+
+
 def test_a_wander_of_the_sensor_is_told_from_motion():
     drift = AxisEffect(axis="zn", id="sensor_drift", parameters={"rate": 5e-7})
     raw, clean, found = aside([drift], "zn")
