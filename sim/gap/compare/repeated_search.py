@@ -1,7 +1,6 @@
 """What explains the gap of an axis, each look taking up what the one before has found."""
 
 from collections.abc import Collection, Sequence
-from dataclasses import replace
 
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.gap.compare.attribution import attributed
@@ -41,7 +40,6 @@ def searched(whole: Evidence, account: Account, jobs: int) -> Found:
     found: Found = evidence, aside, *_explained(whole, evidence, aside, account, jobs)
     for look in (
         _looked_again,
-        _without_false_noise,
         _without_false_jumps,
         _without_false_cells,
         _with_even_rows,
@@ -71,41 +69,6 @@ def _looked_again(whole: Evidence, first: Found, account: Account, jobs: int) ->
             break
         first = evidence, found, selection, better
     return first
-
-
-def _without_false_noise(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
-    """Return the findings with the declared floor, if effects can explain the apparent noise.
-
-    Row-to-row remainders of a fast motion, such as an encoder's own error, look like noise; so does
-    an axis at either end of its travel, or with coarse steps.
-    """
-    evidence, aside, selection, best = first
-    if selection.tried and best.fit.cost >= MUCH:  # of the raised floor: it was noise indeed
-        return first
-    # Nothing explains the error of the steps themselves: where so little is left, they are none.
-    steps = bool(selection.tried) and best.fit.cost < SMALL and not evidence.in_cells
-    doubted = {Sign.NOISE, Sign.STEPS} if steps else {Sign.NOISE}
-    raised = {one.sign for one in aside} & doubted
-    if not raised:
-        return first
-    if Sign.STEPS in raised:
-        raised.add(Sign.SPIKES)  # whose rows come back with those that steps left out
-    declared = evidence.with_observations(
-        [
-            replace(
-                own,
-                floor=was.floor,
-                cell=was.cell,
-                kept=was.kept if Sign.SPIKES in raised else own.kept,
-            )
-            for own, was in zip(evidence.observations, whole.observations, strict=True)
-        ]
-    )
-    others = tuple(one for one in aside if one.sign not in raised)
-    second = declared, others, *_explained(whole, declared, others, account, jobs)
-    if not selection.tried and second[3].score > MUCH * second[2].raw:
-        return first  # nothing but noise explains it
-    return second
 
 
 def _without_false_jumps(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
