@@ -1,6 +1,6 @@
 """What explains the gap of an axis, each look taking up what the one before has found."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.gap.compare.attribution import attributed
@@ -8,6 +8,7 @@ from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.diagnosis_progress import Account
 from rotemina.sim.gap.compare.explanations import (
     Explanation,
+    counted_in,
     explain,
     untouched,
 )
@@ -29,6 +30,7 @@ from rotemina.sim.gap.thresholds import (
 )
 from rotemina.sim.robot.model import AxisEffect
 
+_REFITTED = 3  # other explanations, once rows are even
 _LOOKS = 3  # for disturbances, beside what the one before explains
 
 Found = tuple[Evidence, tuple[Disturbance, ...], Selection, Explanation]
@@ -112,16 +114,24 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
     even = huber_weighted(evidence, [one.held_out for one in (best, *tried.tried)])
     if even is None:
         return first
-    fitted = {key for one in tried.tried for key in one.ids}
-    # The search may end at the same causes, or at more: neither replaces the first result.
-    selection, other = _explained(whole, even, aside, account, jobs, fitted, tried.best.ids)
-    if len(other.ids) > len(best.ids) or set(best.ids) >= set(other.ids):
+    counted = [counted_in(even, evidence, one) for one in tried.tried]
+    others = [
+        one
+        for one in counted
+        if 0 < len(one.ids) <= len(best.ids) and not set(one.ids) <= set(best.ids)
+    ]
+    nearest = sorted(others, key=lambda one: one.score)[:_REFITTED]
+    own, *again = (
+        explain(even, [cause for cause in one.causes if not is_own(even, cause)])
+        for one in (best, *nearest)
+    )
+    other = min(again, key=lambda one: one.score, default=own)
+    if other.score > MUCH * own.score:
         return first
-    if len(other.ids) == len(best.ids):
-        again = explain(even, [one for one in best.causes if not is_own(even, one)])
-        if other.score > MUCH * again.score:
-            return first
-    return even, aside, selection, other
+    bare = untouched(even)
+    fits = sorted([own, *again, *counted], key=lambda one: one.score)
+    selection = Selection(bare, counted_in(even, evidence, tried.retuned), other, tuple(fits))
+    return even, aside, selection, attributed(even, bare, other)
 
 
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
@@ -136,8 +146,6 @@ def _explained(
     aside: Sequence[Disturbance],
     account: Account,
     jobs: int,
-    among: Collection[tuple[str, str | None]] | None = None,
-    until: Sequence[tuple[str, str | None]] | None = None,
 ) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
@@ -149,7 +157,7 @@ def _explained(
         tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
         for tap, power in power_by_tap(whole, leaving).items()
     }
-    selection = select(evidence, account, power, among=among, until=until, jobs=jobs)
+    selection = select(evidence, account, power, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
 
 
