@@ -23,6 +23,7 @@ from rotemina.sim.gap.thresholds import (
     CLEARLY,
     GAP,
     MUCH,
+    NEAR,
     NEARLY_ALL,
     NOTICED,
     SAME_SCORE,
@@ -30,7 +31,6 @@ from rotemina.sim.gap.thresholds import (
 )
 from rotemina.sim.robot.model import AxisEffect
 
-_REFITTED = 3  # other explanations, once rows are even
 _LOOKS = 3  # for disturbances, beside what the one before explains
 
 Found = tuple[Evidence, tuple[Disturbance, ...], Selection, Explanation]
@@ -115,23 +115,19 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
     if even is None:
         return first
     counted = [counted_in(even, evidence, one) for one in tried.tried]
-    others = [
-        one
-        for one in counted
-        if 0 < len(one.ids) <= len(best.ids) and not set(one.ids) <= set(best.ids)
-    ]
-    nearest = sorted(others, key=lambda one: one.score)[:_REFITTED]
+    near = NEAR * min(one.score for one in counted)
+    begun = [one for one in counted if one.score < near and len(one.ids) <= len(best.ids)]
     own, *again = (
         explain(even, [cause for cause in one.causes if not is_own(even, cause)])
-        for one in (best, *nearest)
+        for one in (best, *begun)
     )
-    other = min(again, key=lambda one: one.score, default=own)
+    others = [one for one in again if not set(one.ids) <= set(best.ids)]
+    other = min(others, key=lambda one: one.score, default=own)
     if other.score > MUCH * own.score:
         return first
-    bare = untouched(even)
-    fits = sorted([own, *again, *counted], key=lambda one: one.score)
-    selection = Selection(bare, counted_in(even, evidence, tried.retuned), other, tuple(fits))
-    return even, aside, selection, attributed(even, bare, other)
+    bare, alone = untouched(even), explain(even, ())
+    fits = sorted([own, *again, alone], key=lambda one: one.score)
+    return even, aside, Selection(bare, alone, other, tuple(fits)), attributed(even, bare, other)
 
 
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
