@@ -1,6 +1,6 @@
 """The effects that explain the gap of an axis: forward selection on validation data."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
@@ -84,19 +84,14 @@ def select(
     account: Account,
     aside: Mapping[Tap, float],
     *,
-    among: Collection[tuple[str, str | None]] | None = None,
-    until: Sequence[tuple[str, str | None]] | None = None,
     jobs: int = 1,
 ) -> Selection:
     """Find the causes of an axis' gap, together with the model's own re-tuned parameters.
 
     ``account`` hears of stages, and of every candidate what it leaves. ``aside`` is the power at
-    each tap, in its floors squared, of what was set aside before. Only effects ``among``
-    the given ones are tried. The search ends early at the causes ``until``, or at more than these.
+    each tap, in its floors squared, of what was set aside before.
     """
     own = possible_causes(evidence)
-    if among is not None:
-        own = [one for one in own if (one.id, one.from_axis) in among]
     bare = untouched(evidence)
     account.begin(bare.score)
     alone = retuned(evidence)
@@ -104,7 +99,6 @@ def select(
     # A single motion confirms little: a further cause must then take away most of what is left.
     least = HALF if len(evidence.observations) > 1 else CLEARLY
     enters = partial(_enters, bare, aside, evidence.has(Tap.REF), least)
-    most = MOST_CAUSES if until is None else len(until)
     best = alone if enters(bare, alone) else bare
     beam, tried = [bare], [alone]
     if alone.score >= NOTICED and closed(bare.score, alone.score) >= _least_own(bare, alone):
@@ -123,7 +117,7 @@ def select(
             break
         if enters(best, found[0]):
             best = found[0]
-            if _is_enough(bare, best) or best.ids == until or len(best.ids) > most:
+            if _is_enough(bare, best):
                 break
         elif level > 0 or _is_little(bare, best):
             break  # two causes may still do what one alone does not do better than a re-tuning

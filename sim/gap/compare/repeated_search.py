@@ -1,7 +1,6 @@
 """What explains the gap of an axis, each look taking up what the one before has found."""
 
-from collections.abc import Collection, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 from rotemina.sim.effects.identification import Sign
 from rotemina.sim.gap.compare.attribution import attributed
@@ -9,6 +8,7 @@ from rotemina.sim.gap.compare.closed_share import closed
 from rotemina.sim.gap.compare.diagnosis_progress import Account
 from rotemina.sim.gap.compare.explanations import (
     Explanation,
+    counted_in,
     explain,
     untouched,
 )
@@ -23,6 +23,7 @@ from rotemina.sim.gap.thresholds import (
     CLEARLY,
     GAP,
     MUCH,
+    NEAR,
     NEARLY_ALL,
     NOTICED,
     SAME_SCORE,
@@ -41,7 +42,6 @@ def searched(whole: Evidence, account: Account, jobs: int) -> Found:
     found: Found = evidence, aside, *_explained(whole, evidence, aside, account, jobs)
     for look in (
         _looked_again,
-        _without_false_noise,
         _without_false_jumps,
         _without_false_cells,
         _with_even_rows,
@@ -71,41 +71,6 @@ def _looked_again(whole: Evidence, first: Found, account: Account, jobs: int) ->
             break
         first = evidence, found, selection, better
     return first
-
-
-def _without_false_noise(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
-    """Return the findings with the declared floor, if effects can explain the apparent noise.
-
-    Row-to-row remainders of a fast motion, such as an encoder's own error, look like noise; so does
-    an axis at either end of its travel, or with coarse steps.
-    """
-    evidence, aside, selection, best = first
-    if selection.tried and best.fit.cost >= MUCH:  # of the raised floor: it was noise indeed
-        return first
-    # Nothing explains the error of the steps themselves: where so little is left, they are none.
-    steps = bool(selection.tried) and best.fit.cost < SMALL and not evidence.in_cells
-    doubted = {Sign.NOISE, Sign.STEPS} if steps else {Sign.NOISE}
-    raised = {one.sign for one in aside} & doubted
-    if not raised:
-        return first
-    if Sign.STEPS in raised:
-        raised.add(Sign.SPIKES)  # whose rows come back with those that steps left out
-    declared = evidence.with_observations(
-        [
-            replace(
-                own,
-                floor=was.floor,
-                cell=was.cell,
-                kept=was.kept if Sign.SPIKES in raised else own.kept,
-            )
-            for own, was in zip(evidence.observations, whole.observations, strict=True)
-        ]
-    )
-    others = tuple(one for one in aside if one.sign not in raised)
-    second = declared, others, *_explained(whole, declared, others, account, jobs)
-    if not selection.tried and second[3].score > MUCH * second[2].raw:
-        return first  # nothing but noise explains it
-    return second
 
 
 def _without_false_jumps(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
@@ -149,16 +114,20 @@ def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) 
     even = huber_weighted(evidence, [one.held_out for one in (best, *tried.tried)])
     if even is None:
         return first
-    fitted = {key for one in tried.tried for key in one.ids}
-    # The search may end at the same causes, or at more: neither replaces the first result.
-    selection, other = _explained(whole, even, aside, account, jobs, fitted, tried.best.ids)
-    if len(other.ids) > len(best.ids) or set(best.ids) >= set(other.ids):
+    counted = [counted_in(even, evidence, one) for one in tried.tried]
+    near = NEAR * min(one.score for one in counted)
+    begun = [one for one in counted if one.score < near and len(one.ids) <= len(best.ids)]
+    own, *again = (
+        explain(even, [cause for cause in one.causes if not is_own(even, cause)])
+        for one in (best, *begun)
+    )
+    others = [one for one in again if not set(one.ids) <= set(best.ids)]
+    other = min(others, key=lambda one: one.score, default=own)
+    if other.score > MUCH * own.score:
         return first
-    if len(other.ids) == len(best.ids):
-        again = explain(even, [one for one in best.causes if not is_own(even, one)])
-        if other.score > MUCH * again.score:
-            return first
-    return even, aside, selection, other
+    bare, alone = untouched(even), explain(even, ())
+    fits = sorted([own, *again, alone], key=lambda one: one.score)
+    return even, aside, Selection(bare, alone, other, tuple(fits)), attributed(even, bare, other)
 
 
 def _more(found: Sequence[Disturbance], before: Sequence[Disturbance]) -> bool:
@@ -173,8 +142,6 @@ def _explained(
     aside: Sequence[Disturbance],
     account: Account,
     jobs: int,
-    among: Collection[tuple[str, str | None]] | None = None,
-    until: Sequence[tuple[str, str | None]] | None = None,
 ) -> tuple[Selection, Explanation]:
     """Return the selection, and the best explanation with its own parameters as causes."""
     bare = untouched(evidence)
@@ -186,7 +153,7 @@ def _explained(
         tap: power * (whole.floor(tap) / evidence.floor(tap)) ** 2
         for tap, power in power_by_tap(whole, leaving).items()
     }
-    selection = select(evidence, account, power, among=among, until=until, jobs=jobs)
+    selection = select(evidence, account, power, jobs=jobs)
     return selection, attributed(evidence, selection.bare, selection.best)
 
 
