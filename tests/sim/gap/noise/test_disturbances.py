@@ -119,7 +119,8 @@ def test_noise_of_a_sensor_is_there_at_rest_as_well(at_rest):
     """A delay that is never quite the same makes a moving axis' reading as rough as noise does."""
     time_s = np.arange(6000) / RATE_HZ
     own = ROBOT.axes["zn"]
-    way = np.where(time_s < 5.0, 2.0 / np.pi * np.arcsin(np.sin(np.pi * time_s)), 0.3)
+    moving = np.minimum(time_s % 0.5, 0.4) + 0.4 * (time_s // 0.5)  # with short holds
+    way = 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * moving))
     command = sum(own.range) / 2 + 0.1 * own.span * way
     moved = Record.from_signals(time_s, {("zn", Tap.CMD): command}, {"zn": own.unit})
     records = []
