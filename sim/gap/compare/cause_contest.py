@@ -63,8 +63,9 @@ def contested(
     A rival that does about as well with fewer parameters takes a cause's place. A cause in whose
     place several others would do as well is none, as it stands for what the rest leaves; nor is
     one that closes little where the sensor ``wanders``. ``aside`` is the power at each tap, in its
-    floors squared, of what was set aside: beside more than the gap, a cause closes a share of the
-    whole. ``disturbed`` tells that a disturbance is a cause, which makes any other one of several.
+    floors squared, of what was set aside: beside more than the gap, even a lone cause may follow
+    what that left. ``disturbed`` tells that a disturbance is a cause, which makes any other one of
+    several.
     """
     best, ranked = _with_the_likeliest(evidence, selection, best)
     unsure = wanders or max(aside.values(), default=0.0) > selection.raw
@@ -72,10 +73,7 @@ def contested(
     # What nothing that was found explains: one that does not stand may still take a part of it.
     more = [one for one in selection.tried if set(one.ids) >= set(best.ids)]
     fullest = min([best, *more], key=lambda one: one.score).by_tap
-    remains = {
-        tap: max(left - 1.0, 0.0) + (aside.get(tap, 0.0) if unsure and left >= ADEQUATE else 0.0)
-        for tap, left in fullest.items()
-    }
+    remains = {tap: max(left - 1.0, 0.0) for tap, left in fullest.items()}
     once: set[Key] = set()  # a re-tuned parameter may come back in what the others leave
     while len(best.causes) > 1 or (best.causes and beside_others):
         doubted = {
@@ -97,7 +95,7 @@ def contested(
         ranked = rivals_of(evidence, selection, best)
     if once:
         best, ranked = _with_the_likeliest(evidence, selection, best, ranked)
-    return _significant(evidence, selection, best, ranked, remains, aside)
+    return _significant(evidence, selection, best, ranked, remains, aside, alone=not unsure)
 
 
 def _significant(
@@ -107,11 +105,13 @@ def _significant(
     ranked: Ranking,
     remains: Mapping[Tap, float],
     aside: Mapping[Tap, float],
+    *,
+    alone: bool,
 ) -> tuple[Explanation, Ranking]:
     """Return the explanation without causes that may but follow what no catalogue holds.
 
     A re-tuned parameter that takes the place of one is a cause if it stands by itself. A cause that
-    is alone goes only where such parameters do most of what it does.
+    stands ``alone`` goes only where such parameters do most of what it does.
     """
     remainders = RandomRemainders(evidence)
     dropped: set[Key] = set()
@@ -119,14 +119,15 @@ def _significant(
         p_values = {key: _p_value(selection, best, key, aside, remainders) for key in best.ids}
         doubtful = max(p_values, key=lambda key: p_values[key])
         by_own = closed(selection.raw, selection.retuned.score) >= MUCH
-        if p_values[doubtful] <= SIGNIFICANCE or (len(best.causes) == 1 and not by_own):
+        lone = alone and len(best.causes) == 1
+        if p_values[doubtful] <= SIGNIFICANCE or (lone and not by_own):
             break
         dropped.add(doubtful)
         named = set(best.ids)
         kept = [one for one in best.causes if (one.id, one.from_axis) != doubtful]
         if is_whole_own(doubtful[0]):  # it goes on correcting the model
             best = replace(best, causes=tuple(kept))
-        elif not kept:
+        elif not kept and by_own:
             best = attributed(evidence, selection.bare, selection.retuned)
         else:
             best = _with_only(evidence, selection, kept)

@@ -89,15 +89,18 @@ def _without_false_jumps(whole: Evidence, first: Found, account: Account, jobs: 
 
 
 def _without_false_cells(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
-    """Return the findings with steps as noise, if nothing explains deviations beyond the cells.
+    """Return the findings with steps as noise, if deviations beyond the cells are explained worse.
 
     Steps need not be even, and a sensor may drift between them.
     """
     evidence, _, selection, best = first
-    if not evidence.in_cells or closed(selection.raw, best.score) >= CLEARLY:
+    share = closed(selection.raw, best.score)
+    if not evidence.in_cells or share >= CLEARLY:
         return first
     evidence, aside = set_aside(whole, cells=False)
-    return evidence, aside, *_explained(whole, evidence, aside, account, jobs)
+    second = evidence, aside, *_explained(whole, evidence, aside, account, jobs)
+    as_noise = not second[2].tried  # nothing is left beside it
+    return second if as_noise or closed(second[2].raw, second[3].score) > share else first
 
 
 def _with_even_rows(whole: Evidence, first: Found, account: Account, jobs: int) -> Found:
