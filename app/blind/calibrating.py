@@ -9,9 +9,10 @@ from scipy.optimize import minimize
 from rotemina.app.blind.cases import BlindError
 from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.scoring import Cause, Outcome, cause_of
-from rotemina.sim.gap.compare.calibration import Calibration, features_of
+from rotemina.sim.gap.compare.calibration import Calibration, probabilities
 
-_SHRUNK = 0.3  # half the inverse variance of coefficients that no case tells; the constant is free
+_SHRUNK = 0.3  # half the inverse variance of what others on an axis change, if no case tells it
+_NEVER = 1e-6  # least probability, of either
 _LEAST = 20  # causes below which coefficients mean nothing
 
 
@@ -28,16 +29,19 @@ def calibrated(outcomes: Sequence[Outcome]) -> Calibration:
         raise BlindError(
             f"{len(named)} causes were named, {_LEAST} are needed for a calibration; run more cases"
         )
-    features = features_of([(weight, others) for weight, others, _ in named])
-    signs = np.array([1.0 if there else -1.0 for _, _, there in named])
+    weights, others, there = (np.array(column) for column in zip(*named, strict=True))
 
     def loss(x: FloatArray) -> float:
-        return float(np.sum(np.logaddexp(0.0, -signs * (features @ x))) + _SHRUNK * x[1:] @ x[1:])
+        told = np.clip(probabilities(weights, others, *x), _NEVER, 1.0 - _NEVER)
+        return float(_SHRUNK * x[1] ** 2 - np.sum(np.log(np.where(there, told, 1.0 - told))))
 
-    constant, slope, another = (float(x) for x in minimize(loss, np.zeros(3)).x)
+    start, bounds = (2.0, -1.0, 0.5), ((-5.0, 5.0), (-5.0, 0.0), (0.0, 2.0))
+    constant, another, exponent = (
+        float(x) for x in minimize(loss, start, method="Nelder-Mead", bounds=bounds).x
+    )
     suspected = [one in outcome.there for outcome in outcomes for one in _suspected(outcome)]
     share = (sum(suspected) + 1.0) / (len(suspected) + 2.0)  # rule of succession
-    return Calibration(constant, slope, another, share)
+    return Calibration(constant, another, exponent, share)
 
 
 def _weighed(outcome: Outcome) -> Iterator[tuple[float, int, bool]]:

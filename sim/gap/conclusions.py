@@ -281,8 +281,6 @@ def _ranking(examination: Examination, rng: np.random.Generator) -> tuple[Ranked
     leading = (best.causes[0].id, best.causes[0].from_axis)
     tap = next(reversed(evidence.observations[0].taps))
     told = []
-    weight = probability(examination.ranked[leading], leading)
-    trust = _calibrated(examination, weight) / max(weight, _calibrated(examination, weight))
     for one in examination.ranked[leading][:_RANKED]:
         left = one.explanation.held_out
         drawn = np.sqrt(drawn_means(paired_blocks(evidence, [left], tap), rng)[:, 0])
@@ -295,7 +293,7 @@ def _ranking(examination: Examination, rng: np.random.Generator) -> tuple[Ranked
                 effect=one.effect,
                 formulation=formulation,
                 from_axis=one.from_axis,
-                probability=trust * one.probability,
+                probability=_calibrated(examination, one.probability),
                 held_out_rms=rms(left[at_tap(evidence, tap)]),
                 held_out_interval=(float(low), float(high)),
             )

@@ -2,11 +2,12 @@
 
 ::
 
-    logit p = constant + slope · logit w + another · n
+    p = wˢ / (1 + exp(−c − a n))
 
-with the weight w of the cause on these records, and n others that are named on its axis. No weight
-knows of machines that no formula describes, so it promises too much (Platt, Advances in Large
-Margin Classifiers (1999) 61-74). ``rotemina gap blind --calibrate`` writes the file.
+with the weight w of the cause on these records, and n others that are named on its axis. Weights
+tell rivals apart; they know nothing of machines that no formula describes, where all are wrong
+(Platt, Advances in Large Margin Classifiers (1999) 61-74). ``rotemina gap blind --calibrate``
+writes the file.
 """
 
 import json
@@ -17,39 +18,41 @@ from importlib import resources
 from typing import Any
 
 import numpy as np
-from scipy.special import expit, logit
+from scipy.special import expit
 
-from rotemina.sim.arrays import FloatArray
+from rotemina.sim.arrays import FloatArray, IntArray
 
-FORMAT = "rotemina-calibration 2"
+FORMAT = "rotemina-calibration 1"
 SHIPPED = "rotemina.resources.models", "diagnosis_calibration.json"
-_LEAST = 1e-3  # of a weight, and of what it lacks of 1: no more is known of it
 
 
 @dataclass(frozen=True, slots=True)
 class Calibration:
-    """The coefficients, and the share of effects that are only suspected which are there."""
+    """The coefficients c, a and s, and the share of effects only suspected that are there."""
 
     constant: float
-    slope: float
     another: float
+    exponent: float
     suspected: float
 
     def probability(self, weight: float, others: int) -> float:
         """Return how probable a cause of a weight is beside others on its axis."""
-        (features,) = features_of([(weight, others)])
-        return float(expit(features @ np.array([self.constant, self.slope, self.another])))
+        return float(
+            probabilities(
+                np.array([weight]), np.array([others]), self.constant, self.another, self.exponent
+            )[0]
+        )
 
     def as_json(self) -> dict[str, float]:
         """Return it as the file holds it."""
         return asdict(self)
 
 
-def features_of(named: list[tuple[float, int]]) -> FloatArray:
-    """Return (causes, 3), which the coefficients multiply, of weights and numbers of others."""
-    return np.array(
-        [(1.0, float(logit(np.clip(weight, _LEAST, 1.0 - _LEAST))), n) for weight, n in named]
-    ).reshape(-1, 3)
+def probabilities(
+    weights: FloatArray, others: IntArray, constant: float, another: float, exponent: float
+) -> FloatArray:
+    """Return the probabilities (causes,) of weights (causes,) beside others (causes,)."""
+    return np.asarray(np.maximum(weights, 0.0) ** exponent * expit(constant + another * others))
 
 
 def calibration_in(document: Mapping[str, Any]) -> Calibration:

@@ -11,7 +11,7 @@ from rotemina.app.cli.main import main
 from rotemina.sim.blind.scoring import Outcome
 from rotemina.sim.gap.compare.calibration import Calibration, calibration_in, shipped
 
-TRUE = Calibration(constant=0.5, slope=0.4, another=-1.5, suspected=0.25)
+TRUE = Calibration(constant=2.5, another=-1.5, exponent=0.8, suspected=0.25)
 
 
 def named(effect, weight=None, axis="x"):
@@ -54,7 +54,7 @@ def test_a_cause_is_more_probable_with_its_weight_and_less_beside_others():
     calibration = shipped()
     alone = [calibration.probability(weight, 0) for weight in (0.0, 0.3, 0.6, 0.9, 1.0)]
     assert alone == sorted(alone)
-    assert 0.0 < alone[0] < 0.5 < 0.9 < alone[-1] < 1.0
+    assert 0.0 <= alone[0] < 0.5 < 0.9 < alone[-1] < 1.0
     assert calibration.probability(1.0, 1) < alone[-1]
     assert 0.0 < calibration.suspected < 0.5
 
@@ -90,7 +90,7 @@ def test_the_command_counts_the_results_of_several_folders(tmp_path, capsys):
     document = json.loads((tmp_path / "out.json").read_text())
     assert document["done"] == 40
     assert [one["seed"] for one in document["cases"]] == [5, 6]
-    assert calibration_in(document).slope > 0.0
+    assert calibration_in(document).exponent >= 0.0
     capsys.readouterr()
 
 
