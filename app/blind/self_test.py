@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.blind.calibrating import calibrated
+from rotemina.app.blind.weight_calibration import calibrated
 from rotemina.app.blind.cases import BlindError, Cases, FolderCases, GeneratedCases, check_robot
 from rotemina.app.blind.classifier import classifier_for
 from rotemina.app.blind.diagnosis_process import diagnose

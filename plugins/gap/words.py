@@ -40,6 +40,7 @@ FIGURES = (
     mark("false alarms on healthy machines"),
     mark("unknown effects recognised"),
     mark("poor excitation recognised"),
+    mark("… or exactly its cause named"),
     mark("gap closed on unseen data, median"),
     mark("gap closed, 10th percentile"),
     mark("expected calibration error"),

@@ -1683,6 +1683,10 @@ Starten drücken; Kennwerte und Verwechslungsmatrix erscheinen, wenn alle Fälle
         <translation>schlechte Anregung erkannt</translation>
     </message>
     <message>
+        <source>… or exactly its cause named</source>
+        <translation>… oder genau ihre Ursache genannt</translation>
+    </message>
+    <message>
         <source>seconds per case, median</source>
         <translation>Sekunden je Fall, Median</translation>
     </message>

@@ -536,8 +536,12 @@
         <translation>eine Seite schreiben, mit ihrem Bild daneben (Startwerte ab 1000)</translation>
     </message>
     <message>
-        <source>write how often a cause of each probability is present, as JSON (seeds below 1000)</source>
-        <translation>schreiben, wie oft eine Ursache jeder Wahrscheinlichkeit vorliegt, als JSON (Startwerte unter 1000)</translation>
+        <source>write the calibration of probabilities, as JSON (seeds below 1000)</source>
+        <translation>die Kalibrierung der Wahrscheinlichkeiten schreiben, als JSON (Startwerte unter 1000)</translation>
+    </message>
+    <message>
+        <source>count the results of this folder as well in the calibration, such as those of the other generator; may be repeated</source>
+        <translation>auch die Ergebnisse dieses Ordners in der Kalibrierung zählen, etwa die des anderen Generators; mehrfach möglich</translation>
     </message>
     <message>
         <source>score finished cases, and diagnose no more</source>

@@ -43,9 +43,12 @@ class Probe:
         return float(np.mean(self.left**2))
 
 
-def probed(evidence: Evidence, residual: FloatArray) -> Probe:
-    """Try to predict a residual (rows,) over the floor from features of the commands."""
-    groups = _features(evidence)
+def probed(evidence: Evidence, residual: FloatArray, *, by_time: bool = True) -> Probe:
+    """Try to predict a residual (rows,) over the floor from features of the commands.
+
+    And from the time since a record began, unless it is not to count ``by_time``.
+    """
+    groups = {name: one for name, one in _features(evidence).items() if by_time or name != "time"}
     features = np.hstack(list(groups.values()))
     learned = [_Learned.of(features, residual, out) for out in folds(evidence)]
     every = list(range(features.shape[1]))

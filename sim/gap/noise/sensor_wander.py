@@ -12,7 +12,7 @@ from rotemina.sim.effects.identification import Sign
 from rotemina.sim.gap.fit.evidence import Evidence
 from rotemina.sim.gap.location.residual_features import probed
 from rotemina.sim.gap.noise.disturbances import Disturbance, resting
-from rotemina.sim.gap.thresholds import HALF
+from rotemina.sim.gap.thresholds import HALF, SOME
 from rotemina.sim.messages import message
 from rotemina.sim.records.record import Tap
 
@@ -141,9 +141,9 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     found = _drift(evidence, left)
     if found is None or _comes_again(evidence, left):
         return None
-    unforetold = _drift(evidence, probed(evidence, left).left)
+    unforetold = _drift(evidence, probed(evidence, left, by_time=False).left)
     # Much of a walk is foretold by chance, from slow features and the same record's other parts.
-    chance = unforetold is not None and unforetold.power > HALF * found.power
+    chance = unforetold is not None and unforetold.power > SOME * found.power
     return found if chance else unforetold
 
 

@@ -12,7 +12,7 @@ from rotemina.sim.robot.model import AxisEffect
 def anything_stands(monkeypatch):
     """Take no cause for one that follows a remainder by chance."""
     monkeypatch.setattr(
-        cause_contest, "_significant", lambda _e, _s, best, ranked, *_: (best, ranked)
+        cause_contest, "_significant", lambda _e, _s, best, ranked, *_, **__: (best, ranked)
     )
 
 

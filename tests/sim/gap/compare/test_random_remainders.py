@@ -112,7 +112,7 @@ def test_a_curve_beside_a_remainder_is_named_if_it_does_more(monkeypatch, effect
     best = explain(seen, [CURVE, LATE] if LATE in effects else [CURVE])
     monkeypatch.setattr(cause_contest, "rivals_of", lambda *_: {})
     found, _ = cause_contest._significant(
-        seen, Selection(untouched(seen), alone, best, ()), best, {}, {}, {}
+        seen, Selection(untouched(seen), alone, best, ()), best, {}, {}, {}, alone=True
     )
     assert {name for name, _ in found.ids} == named
 
@@ -132,5 +132,7 @@ def test_a_gain_and_a_remainder_are_no_curve(monkeypatch):
     seen = machine(gain, wave=1e-3)
     bare, alone, best = untouched(seen), explain(seen, []), explain(seen, [CURVE])
     monkeypatch.setattr(cause_contest, "rivals_of", lambda *_: {})
-    found, _ = cause_contest._significant(seen, Selection(bare, alone, best, ()), best, {}, {}, {})
+    found, _ = cause_contest._significant(
+        seen, Selection(bare, alone, best, ()), best, {}, {}, {}, alone=True
+    )
     assert found.ids == (("gain_error", None),)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from rotemina.app.blind.calibrating import calibrated
+from rotemina.app.blind.weight_calibration import calibrated
 from rotemina.app.blind.cases import BlindError
 from rotemina.app.cli.main import main
 from rotemina.sim.blind.scoring import Outcome
