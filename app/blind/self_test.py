@@ -8,12 +8,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from rotemina.app.blind.weight_calibration import calibrated
 from rotemina.app.blind.cases import BlindError, Cases, FolderCases, GeneratedCases, check_robot
 from rotemina.app.blind.classifier import classifier_for
 from rotemina.app.blind.diagnosis_process import diagnose
 from rotemina.app.blind.naive_methods import CONTESTANTS, contest
 from rotemina.app.blind.resumable_run import BlindRun, Contest, finished
+from rotemina.app.blind.weight_calibration import calibrated
 from rotemina.app.files import json_text
 from rotemina.sim.blind.figures_table import HALVES, page, plain_table
 from rotemina.sim.blind.intervals import Figure

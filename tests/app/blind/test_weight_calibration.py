@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from rotemina.app.blind.weight_calibration import calibrated
 from rotemina.app.blind.cases import BlindError
+from rotemina.app.blind.weight_calibration import calibrated
 from rotemina.app.cli.main import main
 from rotemina.sim.blind.scoring import Outcome
 from rotemina.sim.gap.compare.calibration import Calibration, calibration_in, shipped
