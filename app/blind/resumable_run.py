@@ -114,6 +114,8 @@ def finished(folder: Path) -> tuple[dict[str, Any], list[Outcome]]:
     BlindError
         If it is no folder of a blind test.
     """
+    if not (folder / "cases.json").is_file():
+        raise BlindError(f"{folder}: it holds no results of a blind test; name one that does")
     key = _read(folder / "cases.json")
     return key, [_outcome(result) for _, result in _results_in(folder) if "label" in result]
 

@@ -26,13 +26,20 @@ from rotemina.sim.whole_files import replaced
 
 FORMAT = "rotemina-blind 1"
 REPORTED_FROM = 1000  # seeds below are for development: what is calibrated or tuned on them
+_NOT_REPORTED = f"seeds from {REPORTED_FROM} on are for reports"
+_BELOW = f"calibrate on one below {REPORTED_FROM}"
 _CASES = 300
+
+Beside = list[tuple[dict[str, Any], list[Outcome]]]
 
 
 def run_test(options: Namespace) -> None:
     """Run the unfinished cases, then score all."""
     _check_seed(options)
+    beside = _finished_beside(options)
     cases, folder = _cases(options)
+    if any(other.resolve() == folder.resolve() for other in options.beside):
+        raise InputError(f"--beside {folder}: it is the folder of this run; leave it out")
     blind = BlindRun(folder, cases)
     ask = partial(diagnose, jobs=options.jobs)
     pending = [] if options.score else blind.pending(options.shard)
@@ -45,7 +52,7 @@ def run_test(options: Namespace) -> None:
     if not outcomes:
         raise BlindError(f"{folder}: no case is done, so there is nothing to score")
     others = {title: blind.outcomes_of(name) for name, title in CONTESTANTS.items()}
-    _write(options, cases, outcomes, {title: o for title, o in others.items() if o})
+    _write(options, cases, outcomes, {title: o for title, o in others.items() if o}, beside)
 
 
 def _check_seed(options: Namespace) -> None:
@@ -57,16 +64,20 @@ def _check_seed(options: Namespace) -> None:
             f"--report with --seed {options.seed}: seeds below {REPORTED_FROM} are for "
             f"development; report cases of a seed from {REPORTED_FROM} on"
         )
-    if options.calibrate is not None:
-        _check_development("--calibrate", f"--seed {options.seed}", options.seed)
+    if options.calibrate is not None and options.seed >= REPORTED_FROM:
+        raise InputError(f"--calibrate with --seed {options.seed}: {_NOT_REPORTED}; {_BELOW}")
 
 
-def _check_development(option: str, what: str, seed: int) -> None:
-    if seed >= REPORTED_FROM:
-        raise InputError(
-            f"{option} with {what}: seeds from {REPORTED_FROM} on are for "
-            f"reports; calibrate on one below {REPORTED_FROM}"
-        )
+def _finished_beside(options: Namespace) -> Beside:
+    """Return what is done in the folders that count in the calibration as well."""
+    if options.beside and options.calibrate is None:
+        raise InputError("--beside goes with --calibrate; give both, or leave it out")
+    found = [finished(folder) for folder in options.beside]
+    for folder, (key, _) in zip(options.beside, found, strict=True):
+        seed = key.get("seed", 0)
+        if not isinstance(seed, int) or seed >= REPORTED_FROM:
+            raise InputError(f"--beside {folder}: its seed is {seed}; {_NOT_REPORTED}; {_BELOW}")
+    return found
 
 
 def _contest(options: Namespace, folder: Path) -> Contest:
@@ -109,6 +120,7 @@ def _write(
     cases: Cases,
     outcomes: list[Outcome],
     others: dict[str, list[Outcome]],
+    beside: Beside,
 ) -> None:
     figures = score(outcomes)
     rivals = {title: _names(score(theirs)) for title, theirs in others.items()}
@@ -130,7 +142,7 @@ def _write(
             )
             draw_confusion(counts, files.enter_context(replaced(picture)))
         if options.calibrate is not None:
-            made = json_text(_calibration(cases, outcomes, options.beside))
+            made = json_text(_calibration(cases, outcomes, beside))
             files.enter_context(replaced(options.calibrate)).write(made.encode("utf-8"))
         if options.json not in (None, "-"):
             files.enter_context(replaced(options.json)).write(text.encode("utf-8"))
@@ -142,17 +154,12 @@ def _write(
         print(f"\n{HALVES[name]}\n{plain_table(each)}")
 
 
-def _calibration(
-    cases: Cases, outcomes: Sequence[Outcome], beside: Sequence[Path]
-) -> dict[str, Any]:
-    """Return the calibration on these outcomes, and on those in the folders beside them."""
-    others = [finished(folder) for folder in beside]
-    for folder, (key, _) in zip(beside, others, strict=True):
-        _check_development("--beside", str(folder), int(key.get("seed", 0)))
-    every = [*outcomes, *(one for _, found in others for one in found)]
+def _calibration(cases: Cases, outcomes: Sequence[Outcome], beside: Beside) -> dict[str, Any]:
+    """Return the calibration on these outcomes, and on those of the folders beside."""
+    every = [*outcomes, *(one for _, found in beside for one in found)]
     return {
         "format": CALIBRATION_FORMAT,
-        "cases": [dict(cases.key), *(dict(key) for key, _ in others)],
+        "cases": [dict(cases.key), *(key for key, _ in beside)],
         "done": len(every),
         **calibrated(every).as_json(),
     }

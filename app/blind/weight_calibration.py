@@ -11,8 +11,8 @@ from rotemina.sim.arrays import FloatArray
 from rotemina.sim.blind.scoring import Cause, Outcome, cause_of
 from rotemina.sim.gap.compare.calibration import Calibration, probabilities
 
-_SHRUNK = 0.3  # half the inverse variance of what others on an axis change, if no case tells it
-_NEVER = 1e-6  # least probability, of either
+_SHRUNK = 0.3  # of the square of what another cause changes, which few cases tell
+_NEVER = 1e-6  # the least probability that is counted
 _LEAST = 20  # causes below which coefficients mean nothing
 
 
@@ -36,12 +36,10 @@ def calibrated(outcomes: Sequence[Outcome]) -> Calibration:
         return float(_SHRUNK * x[1] ** 2 - np.sum(np.log(np.where(there, told, 1.0 - told))))
 
     start, bounds = (2.0, -1.0, 0.5), ((-5.0, 5.0), (-5.0, 0.0), (0.0, 2.0))
-    constant, another, exponent = (
-        float(x) for x in minimize(loss, start, method="Nelder-Mead", bounds=bounds).x
-    )
+    coefficients = minimize(loss, start, method="Nelder-Mead", bounds=bounds).x.tolist()
     suspected = [one in outcome.there for outcome in outcomes for one in _suspected(outcome)]
     share = (sum(suspected) + 1.0) / (len(suspected) + 2.0)  # rule of succession
-    return Calibration(constant, another, exponent, share)
+    return Calibration(*coefficients, share)
 
 
 def _weighed(outcome: Outcome) -> Iterator[tuple[float, int, bool]]:

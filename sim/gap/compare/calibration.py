@@ -2,7 +2,7 @@
 
 ::
 
-    p = wˢ / (1 + exp(−c − a n))
+    p = wˢ / (1 + exp(−c − b n))
 
 with the weight w of the cause on these records, and n others that are named on its axis. Weights
 tell rivals apart; they know nothing of machines that no formula describes, where all are wrong
@@ -12,7 +12,7 @@ writes the file.
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -28,20 +28,17 @@ SHIPPED = "rotemina.resources.models", "diagnosis_calibration.json"
 
 @dataclass(frozen=True, slots=True)
 class Calibration:
-    """The coefficients c, a and s, and the share of effects only suspected that are there."""
+    """The coefficients c, b and s, and the share of effects only suspected that are there."""
 
-    constant: float
-    another: float
+    intercept: float
+    per_other_cause: float
     exponent: float
     suspected: float
 
     def probability(self, weight: float, others: int) -> float:
         """Return how probable a cause of a weight is beside others on its axis."""
-        return float(
-            probabilities(
-                np.array([weight]), np.array([others]), self.constant, self.another, self.exponent
-            )[0]
-        )
+        coefficients = self.intercept, self.per_other_cause, self.exponent
+        return float(probabilities(np.array([weight]), np.array([others]), *coefficients)[0])
 
     def as_json(self) -> dict[str, float]:
         """Return it as the file holds it."""
@@ -49,15 +46,19 @@ class Calibration:
 
 
 def probabilities(
-    weights: FloatArray, others: IntArray, constant: float, another: float, exponent: float
+    weights: FloatArray,
+    others: IntArray,
+    intercept: float,
+    per_other_cause: float,
+    exponent: float,
 ) -> FloatArray:
     """Return the probabilities (causes,) of weights (causes,) beside others (causes,)."""
-    return np.asarray(np.maximum(weights, 0.0) ** exponent * expit(constant + another * others))
+    return np.asarray(weights**exponent * expit(intercept + per_other_cause * others))
 
 
 def calibration_in(document: Mapping[str, Any]) -> Calibration:
     """Return the calibration that a document holds."""
-    return Calibration(**{name: float(document[name]) for name in Calibration.__slots__})
+    return Calibration(**{one.name: float(document[one.name]) for one in fields(Calibration)})
 
 
 @cache

@@ -142,12 +142,13 @@ def wander(evidence: Evidence, left: FloatArray) -> Disturbance | None:
     if found is None or _comes_again(evidence, left):
         return None
     unforetold = _drift(evidence, probed(evidence, left, by_time=False).left)
-    # Much of a walk is foretold by chance, from slow features and the same record's other parts.
-    chance = unforetold is not None and unforetold.power > SOME * found.power
-    return found if chance else unforetold
+    # Slow features foretell much of a walk by chance: it counts as a whole unless little is left.
+    by_chance = unforetold is not None and unforetold.power > SOME * found.power
+    return found if by_chance else unforetold
 
 
 def _drift(evidence: Evidence, left: FloatArray) -> Disturbance | None:
+    """Return what looks like a drift in a remainder (rows,), whatever foretells it."""
     total, rows, rested, walked = 0.0, 0, False, False
     for part in evidence.parts:
         if part.tap is not Tap.MEAS:

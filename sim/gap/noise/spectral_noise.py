@@ -15,6 +15,7 @@ _BANDS = 4
 _FLAT = 2.0  # of the second band over the last one
 _LEAST_ROWS = 256
 _SLOWEST = 0.1  # of all rows
+_BEND = 3  # rows of a second difference
 
 
 def noise_level(gap: FloatArray) -> float:
@@ -31,10 +32,13 @@ def slow_level(gaps: Sequence[FloatArray], paces: Sequence[FloatArray]) -> float
     """Return the rms of what changes from row to row where the axis is slowest, in the gaps' unit.
 
     There is no more noise than that: what grows with the pace comes with the motion. Both are
-    (n,) for each record.
+    (n,) for each record; infinite if all are too short to tell.
     """
-    bends = np.concatenate([np.diff(gap, 2) for gap in gaps])
-    pace = np.concatenate([sliding_window_view(own, 3).max(axis=1) for own in paces])
+    told = [(gap, pace) for gap, pace in zip(gaps, paces, strict=True) if len(gap) > _BEND]
+    if not told:
+        return np.inf
+    bends = np.concatenate([np.diff(gap, 2) for gap, _ in told])
+    pace = np.concatenate([sliding_window_view(own, _BEND).max(axis=1) for _, own in told])
     slow = pace <= np.quantile(pace, _SLOWEST)
     return float(np.sqrt(np.mean(bends[slow] ** 2) / 6.0))
 

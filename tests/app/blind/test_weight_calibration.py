@@ -5,13 +5,13 @@ import json
 import numpy as np
 import pytest
 
-from rotemina.app.blind.cases import BlindError
+from rotemina.app.blind.cases import BlindError, GeneratedCases
 from rotemina.app.blind.weight_calibration import calibrated
 from rotemina.app.cli.main import main
 from rotemina.sim.blind.scoring import Outcome
 from rotemina.sim.gap.compare.calibration import Calibration, calibration_in, shipped
 
-TRUE = Calibration(constant=2.5, another=-1.5, exponent=0.8, suspected=0.25)
+TRUE = Calibration(intercept=2.5, per_other_cause=-1.5, exponent=0.8, suspected=0.25)
 
 
 def named(effect, weight=None, axis="x"):
@@ -59,12 +59,11 @@ def test_a_cause_is_more_probable_with_its_weight_and_less_beside_others():
     assert 0.0 < calibration.suspected < 0.5
 
 
-def results(folder, seed, number=20):
+def results(folder, key):
     """Write a finished run by hand."""
     (folder / "results").mkdir(parents=True)
-    key = {"made by": "`rotemina gap blind`", "seed": seed}
     (folder / "cases.json").write_text(json.dumps(key))
-    for n, one in enumerate(outcomes(number, seed)):
+    for n, one in enumerate(outcomes(20)):
         result = {"format": "rotemina-blind-result 1", "case": f"case_{n:04d}", "seconds": 1.0}
         result |= {
             "label": dict(one.label),
@@ -75,42 +74,55 @@ def results(folder, seed, number=20):
         (folder / "results" / f"case_{n:04d}.json").write_text(json.dumps(result))
 
 
-def run(tmp_path, *words):
-    folder = tmp_path / "run"
-    return main(["gap", "blind", "--cases", "20", "--seed", "5", "--score", "--folder", str(folder),
-                 "--calibrate", str(tmp_path / "out.json"), *words])  # fmt: skip
-
-
-def test_the_command_counts_the_results_of_several_folders(tmp_path, capsys):
-    results(tmp_path / "run", 5)
-    results(tmp_path / "more", 6)
-    key = main_key(tmp_path)
-    (tmp_path / "run" / "cases.json").write_text(json.dumps(key))
-    assert run(tmp_path, "--beside", str(tmp_path / "more")) == 0
-    document = json.loads((tmp_path / "out.json").read_text())
-    assert document["done"] == 40
-    assert [one["seed"] for one in document["cases"]] == [5, 6]
-    assert calibration_in(document).exponent >= 0.0
-    capsys.readouterr()
-
-
-def main_key(tmp_path):
-    from rotemina.app.blind.cases import GeneratedCases
-
+def own_key():
     return dict(GeneratedCases("rotemina", 20, 5).key)
 
 
+@pytest.fixture
+def scored(tmp_path):
+    """Score a finished run of seed 5 and calibrate on it, with further words; the status."""
+    results(tmp_path / "run", own_key())
+
+    def run(*words):
+        asked = ["gap", "blind", "--cases", "20", "--seed", "5", "--score"]
+        asked += ["--folder", str(tmp_path / "run"), "--calibrate", str(tmp_path / "out.json")]
+        return main([*asked, *words])
+
+    return run
+
+
+def test_the_command_counts_the_results_of_several_folders(tmp_path, scored):
+    results(tmp_path / "more", {"seed": 6})
+    assert scored("--beside", str(tmp_path / "more")) == 0
+    document = json.loads((tmp_path / "out.json").read_text())
+    assert document["done"] == 40
+    assert [one["seed"] for one in document["cases"]] == [5, 6]
+    assert calibration_in(document).probability(1.0, 0) > calibration_in(document).suspected
+
+
 @pytest.mark.parametrize(
-    ("seed", "said"),
-    [(1000, "seeds from 1000 on are for reports"), (None, "cannot be read")],
+    ("folder", "key", "said"),
+    [
+        ("more", {"seed": 1000}, "its seed is 1000; seeds from 1000 on are for reports"),
+        ("more", {"seed": "x"}, "its seed is x"),
+        ("none", {}, "it holds no results of a blind test"),
+        ("run", {}, "it is the folder of this run"),
+    ],
 )
-def test_a_folder_beside_must_be_one_of_development(tmp_path, capsys, seed, said):
-    results(tmp_path / "run", 5)
-    (tmp_path / "run" / "cases.json").write_text(json.dumps(main_key(tmp_path)))
-    if seed is not None:
-        results(tmp_path / "more", seed)
-    assert run(tmp_path, "--beside", str(tmp_path / "more")) == 2
+def test_a_folder_beside_must_be_another_one_of_development(
+    tmp_path, capsys, scored, folder, key, said
+):
+    results(tmp_path / "more", key)
+    assert scored("--beside", str(tmp_path / folder)) == 2
     error = capsys.readouterr().err
     assert said in error
-    assert str(tmp_path / "more") in error
+    assert str(tmp_path / folder) in error
     assert not (tmp_path / "out.json").exists()
+
+
+def test_a_folder_beside_counts_in_a_calibration_alone(tmp_path, capsys):
+    results(tmp_path / "more", {"seed": 6})
+    words = ["--cases", "1", "--folder", str(tmp_path / "run"), "--beside", str(tmp_path / "more")]
+    assert main(["gap", "blind", *words]) == 2
+    assert "--beside goes with --calibrate" in capsys.readouterr().err
+    assert not (tmp_path / "run").exists()

@@ -29,6 +29,7 @@ def test_what_is_rough_in_quick_motion_alone_is_no_noise():
     rough, quiet = 20.0 * NOISE[::-1], 0.8 * NOISE
     assert slow_level([rough, quiet], [1.0 + quick, resting]) == pytest.approx(0.8, rel=0.1)
     assert slow_level([2.5 * NOISE + 50.0 * np.sin(TIME_S)], [quick]) == pytest.approx(2.5, rel=0.1)
+    assert slow_level([NOISE[:2]], [resting[:2]]) == np.inf  # too short to tell
 
 
 def test_a_sensor_that_is_noisy_in_one_record_alone_is_not():
