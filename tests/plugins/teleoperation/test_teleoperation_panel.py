@@ -140,6 +140,7 @@ def test_a_key_moves_its_axis_until_it_is_let_go_of(qtbot, bench, panel, notices
     for kind in (QEvent.Type.KeyRelease, QEvent.Type.KeyPress):  # what the keyboard repeats
         panel.pad.area.event(QKeyEvent(kind, RIGHT, Qt.KeyboardModifier.NoModifier, "", True))
     assert bench.operation.pad._deflections["x"] == 1.0
+    qtbot.waitUntil(lambda: bench.session.snapshot().command["x"] > start["x"], timeout=LONG_MS)
     QTest.keyRelease(panel.pad.area, RIGHT)
     driving(qtbot, panel, False)
     now = bench.session.snapshot().command
