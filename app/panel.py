@@ -8,6 +8,7 @@ change. A panel that cannot be loaded is named and left out; the window opens wi
 
 from collections.abc import Callable
 from enum import StrEnum
+from itertools import count
 from time import monotonic
 from typing import ClassVar
 
@@ -20,6 +21,7 @@ from rotemina.sim.plugin_points import API_VERSIONS
 API_VERSION = API_VERSIONS["rotemina.panels"]
 STALE_S = 0.5  # data older than this is shown as old
 HIDDEN_S = 0.2  # between two looks of a panel that is out of sight
+_made = count()
 
 
 class Area(StrEnum):
@@ -64,7 +66,8 @@ class Panel(QWidget):
         super().__init__()
         self.workbench = workbench
         self._looks: list[Callable[[SessionState], object]] = []
-        self._followed_s = float("-inf")
+        # Those out of sight look in turns, not all at one frame.
+        self._followed_s = monotonic() - HIDDEN_S * (0.618 * next(_made) % 1.0)
 
     def follow(self, look: Callable[[SessionState], object]) -> None:
         """Call ``look`` with the machine's state once a frame, less often while out of sight.

@@ -49,6 +49,8 @@ class Table(QTableWidget):
         """
         self.blockSignals(True)
         self.setRowCount(len(rows))
+        model = self.model()
+        model.blockSignals(True)  # columns would be fitted to their contents at every cell
         for row, texts in enumerate(rows):
             for column, text in enumerate(texts):
                 item = QTableWidgetItem(text)
@@ -59,6 +61,10 @@ class Table(QTableWidget):
                 if tips:
                     item.setToolTip(plain_tip(text))
                 self.setItem(row, column, item)
+        model.blockSignals(False)
+        if rows:
+            last = model.index(len(rows) - 1, self.columnCount() - 1)
+            model.dataChanged.emit(model.index(0, 0), last)
         self.blockSignals(False)
 
     def texts(self) -> list[list[str]]:

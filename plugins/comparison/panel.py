@@ -17,6 +17,7 @@ from rotemina.app.shell.workbench import Run, Workbench
 from rotemina.app.widgets.labels import legend, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.table import Table
+from rotemina.app.widgets.when_seen import WhenSeen
 from rotemina.plugins.comparison import mark, tr
 from rotemina.sim.comparison.comparison import TapComparison
 from rotemina.sim.comparison.gap import GapFigure, gap_text
@@ -73,6 +74,7 @@ class ComparisonPanel(Panel):
         self.signals.show_times(True)
         self.gap.show_times(True)
         self._lay_out()
+        self._show_gaps = WhenSeen(self, self._fill)
         workbench.run_changed.connect(self._show_run)
         workbench.theme_changed.connect(self._use_theme)
 
@@ -96,6 +98,12 @@ class ComparisonPanel(Panel):
         )
         self.save.setEnabled(True)
         self.report.setEnabled(True)
+        self._show_gaps()
+
+    def _fill(self) -> None:
+        run = self.workbench.run
+        if run is None:
+            return
         self.table.show_rows(
             [_row(tap, run.gaps[tap.axis, Tap(tap.tap)]) for tap in run.comparison.taps]
         )

@@ -16,6 +16,7 @@ from rotemina.app.shell.record_chooser import ask_records
 from rotemina.app.shell.record_words import moment_text, tip_lines
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.when_seen import WhenSeen
 from rotemina.plugins.gap import mark, tr
 from rotemina.plugins.gap.records import Listed, Records
 
@@ -102,7 +103,8 @@ class RecordList(QTreeWidget):
         head.setSectionResizeMode(1, QHeaderView.ResizeMode.Fixed)
         head.resizeSection(1, _GAP_WIDTH)
         self.itemChanged.connect(self._tick)
-        records.changed.connect(self._fill)
+        fill = WhenSeen(self, self._fill)
+        records.changed.connect(fill)
         self._fill()
 
     def _fill(self) -> None:

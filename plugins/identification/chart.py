@@ -1,6 +1,7 @@
 """A plot of one picture, with linear or logarithmic axes, in the window's colours."""
 
 import math
+from collections.abc import Sequence
 from html import escape
 
 import numpy as np
@@ -19,6 +20,7 @@ from rotemina.sim.arrays import FloatArray
 _AXIS_WIDTH = 50  # three charts stand side by side
 _FEW_DECADES = 1.6
 _PIXELS_A_NUMBER = 34
+_MARGIN = 0.04
 _LEAST_DECADES = 1.0  # of a logarithmic scale: a narrower one may hold no number to read
 
 
@@ -35,10 +37,12 @@ class PicturePlot(SignalPlot):
 
     def draw(self, picture: Picture) -> None:
         """Draw a picture in place of the last."""
-        for curve in self._curves.values():
-            self.removeItem(curve)
-        self._curves.clear()
-        self._pens.clear()
+        lines = {
+            str(number): Line(one.role, one.width) for number, one in enumerate(picture.curves)
+        }
+        for name in [name for name, line in self._pens.items() if lines.get(name) != line]:
+            self.removeItem(self._curves.pop(name))
+            del self._pens[name]
         item = self.getPlotItem()
         for side, logarithmic in (("left", picture.log_y), ("bottom", picture.log_x)):
             axis = item.getAxis(side)
@@ -48,7 +52,8 @@ class PicturePlot(SignalPlot):
         item.setLabel("bottom", localized(picture.bottom))
         for number, curve in enumerate(picture.curves):
             name = str(number)
-            self.add_curve(name, Line(curve.role, curve.width))
+            if name not in self._curves:
+                self.add_curve(name, lines[name])
             x, y = _scaled(curve.x, picture.log_x), _scaled(curve.y, picture.log_y)
             if picture.in_time:
                 self.show_signal(name, x, y)
@@ -62,13 +67,13 @@ class PicturePlot(SignalPlot):
         return np.asarray(x), np.asarray(y)
 
     def _fit(self, picture: Picture) -> None:
-        self.autoRange(padding=0.04)
-        if picture.span is not None:
-            self.setYRange(*picture.span, padding=0.0)
-        low, high = self.viewRange()[1]
+        drawn = [self.values(number) for number in range(len(picture.curves))]
+        across, up = (_with_margin([pair[side] for pair in drawn]) for side in (0, 1))
+        low, high = picture.span if picture.span is not None else up
         if picture.log_y and high - low < _LEAST_DECADES:
             middle = (low + high) / 2.0
-            self.setYRange(middle - _LEAST_DECADES / 2, middle + _LEAST_DECADES / 2, padding=0.0)
+            low, high = middle - _LEAST_DECADES / 2, middle + _LEAST_DECADES / 2
+        self.setRange(xRange=across, yRange=(low, high), padding=0.0)
 
 
 def log_ticks(
@@ -126,6 +131,17 @@ class Chart(QWidget):
         names = ", ".join(name for name, _ in named)  # in full, where the title is cut
         told = localized(self._picture.title)
         self.title.setToolTip(plain_tip(f"{told}: {names}" if names else told))
+
+
+def _with_margin(drawn: Sequence[FloatArray]) -> tuple[float, float]:
+    """Return what holds all finite values, and a little more."""
+    values = np.concatenate([[], *drawn])
+    values = values[np.isfinite(values)]
+    if values.size == 0:
+        return 0.0, 1.0
+    low, high = float(values.min()), float(values.max())
+    margin = _MARGIN * (high - low) or 0.5 * abs(low) or 0.5
+    return low - margin, high + margin
 
 
 def _scaled(values: FloatArray, logarithmic: bool) -> FloatArray:

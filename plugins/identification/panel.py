@@ -19,6 +19,7 @@ from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.app.widgets.table import Table
+from rotemina.app.widgets.when_seen import WhenSeen
 from rotemina.plugins.identification import mark, tr
 from rotemina.plugins.identification.chart import Chart
 from rotemina.plugins.identification.controls import Controls
@@ -66,6 +67,8 @@ class IdentificationPanel(Panel):
         self._question: Question | None = None
         self._known: dict[View, Findings] = {}
         self._lay_out()
+        self._look_when_seen = WhenSeen(self, self._look)
+        self._draw_when_seen = WhenSeen(self, self._draw)
         self._connect()
         self._use_theme(workbench.theme)
         self._show(None)
@@ -157,7 +160,7 @@ class IdentificationPanel(Panel):
         self._question = self.controls.question(
             self._name, self.workbench.robot, self.workbench.settings.folder
         )
-        self._look()
+        self._look_when_seen()
 
     def _look(self) -> None:
         question, view = self._question, self.controls.shown
@@ -171,13 +174,14 @@ class IdentificationPanel(Panel):
         if view in self._known:
             self._show(self._known[view])
             return
-        self._show(None)
+        self._keep_in_grey()
         self.summary.setText(tr("{record}: computing …").format(record=question.name))
         self.workbench.work(
             "identification",
             tr("Identification of {record} …").format(record=question.name),
             lambda: self._answer(question, view),
             lambda findings: self._receive(view, findings),
+            lambda: self._show(None),
         )
 
     def _answer(self, question: Question, view: View) -> Findings:
@@ -194,23 +198,34 @@ class IdentificationPanel(Panel):
         if view is self.controls.shown:
             self._show(findings)
 
+    def _keep_in_grey(self) -> None:
+        """Leave the last curves until the next answer; nothing is laid out twice."""
+        self.findings = None
+        self._allow()
+        self.sheet.show_rows(())
+        for chart in self.charts:
+            chart.plot.set_stale(True)
+
     def _show(self, findings: Findings | None) -> None:
         self.findings = findings
+        self._draw_when_seen()
+
+    def _draw(self) -> None:
+        findings = self.findings
         pictures = findings.pictures if findings is not None else ()
         if len(pictures) != sum(not chart.isHidden() for chart in self.charts):
             self._split.setSizes(WIDTHS[len(pictures)])
         for number, chart in enumerate(self.charts):
             chart.setVisible(number < len(pictures))
             if number < len(pictures):
+                chart.plot.set_stale(False)
                 chart.show_picture(pictures[number])
         self.sheet.set_head(list(map(localized, findings.head)) if findings else ())
         self.sheet.show_rows(
             [list(map(localized, row)) for row in findings.rows] if findings else ()
         )
         self._say(findings.notices if findings is not None else ())
-        for button in (self.controls.copy, self.controls.save):
-            button.setEnabled(findings is not None)
-        self.controls.keep.setEnabled(findings is not None and bool(findings.columns))
+        self._allow()
         if findings is not None:
             record = findings.question.record
             text = tr("{record}: {time:.3f} s, {n} samples")
@@ -219,6 +234,13 @@ class IdentificationPanel(Panel):
                     record=findings.question.name, time=record.duration_s, n=len(record.time_s)
                 )
             )
+
+    def _allow(self) -> None:
+        """Allow what needs findings."""
+        for button in (self.controls.copy, self.controls.save):
+            button.setEnabled(self.findings is not None)
+        keeps = self.findings is not None and bool(self.findings.columns)
+        self.controls.keep.setEnabled(keeps)
 
     def _show_exciting(self, shown: bool) -> None:
         self._exciting.setVisible(shown)

@@ -1,6 +1,7 @@
 """The microscope: its picture, with tools beside it."""
 
 from collections.abc import Callable
+from time import monotonic
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QScrollArea, QStackedWidget, QWidget
@@ -42,6 +43,7 @@ TOOLS = (
     mark("– no tools –"),
 )
 _WIDTH = 250  # of the tools, px
+_LATE_S = 0.07  # after the last picture, two frames of the window
 
 
 class Question(QFrame):
@@ -78,6 +80,7 @@ class MicroscopePanel(Panel):
         super().__init__(workbench)
         self.microscope = workbench.microscope
         self._awaited = False  # whether a picture that came in is yet to be taken notice of
+        self._taken_s = float("-inf")  # when one was
         self.view = PictureView(workbench.theme)
         self.pointer = PointerTools(workbench, self.microscope, self.view)
         self.bar = TopBar(self.view, tuple(tr(tool) for tool in TOOLS))
@@ -98,7 +101,8 @@ class MicroscopePanel(Panel):
         self.stack.write(status, state)
         if not self.isVisible():
             return
-        self._show(status)
+        if monotonic() - self._taken_s > _LATE_S:  # else each picture brings all that lies over it
+            self._show(status)
         self.bar.refresh(self.pointer.against(status, state))
         page = self.bar.tools.currentIndex()
         if page < len(self._refreshing):
@@ -183,6 +187,7 @@ class MicroscopePanel(Panel):
         """Show the newest picture, whichever it is by now."""
         self._awaited = False
         if self.isVisible():
+            self._taken_s = monotonic()
             self._show(self.microscope.status)
 
     def _show(self, status: MicroscopeStatus) -> None:

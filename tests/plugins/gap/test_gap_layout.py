@@ -92,6 +92,7 @@ def test_a_cell_draws_both_gaps_from_zero_with_the_floor_and_chooses_its_axis(qt
 
 
 def test_records_are_ticked_in_the_list_with_the_gap_of_each(qtbot, window, panel, record):
+    window.resize(1900, 800)  # a smaller one has a menu in the list's place
     bench = panel.workbench
     runs = [Run(name, compare(bench.robot, record)) for name in ("first", "second")]
     for run in runs:
