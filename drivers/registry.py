@@ -68,27 +68,29 @@ def discover_drivers() -> Discovery:
 
 
 def driver_named(name: str) -> type[Driver]:
-    """Return an installed driver.
+    """Return an installed driver; the others are not loaded.
 
     Raises
     ------
     InputError
         If there is none of that name, or it cannot be loaded, with the reason.
     """
-    discovery = discover_drivers()
-    if name in discovery.broken:
-        raise InputError(
-            message("engine", "driver {name} cannot be used: {broken}").fill(
-                name=repr(name), broken=discovery.broken[name]
-            )
-        )
-    if name not in discovery.found:
+    points = sorted(entry_points(group=DRIVERS), key=lambda point: (point.name, point.value))
+    point = next((point for point in points if point.name == name), None)
+    if point is None:
         raise InputError(
             message("engine", "there is no driver {name}; installed: {names}").fill(
-                name=repr(name), names=", ".join(discovery.found)
+                name=repr(name), names=", ".join(dict.fromkeys(point.name for point in points))
             )
         )
-    return discovery.found[name]
+    loaded = load_class(point, Driver)
+    if isinstance(loaded, str):
+        raise InputError(
+            message("engine", "driver {name} cannot be used: {broken}").fill(
+                name=repr(name), broken=loaded
+            )
+        )
+    return loaded
 
 
 def load_class(point: EntryPoint, base: type) -> type[Any] | str:
