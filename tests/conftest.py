@@ -132,6 +132,66 @@ def window(make_robot_window):
 
 
 @pytest.fixture
+def press_escape(qtbot):
+    """Return a function that presses Esc in the window of a widget, as the desktop does.
+
+    The desktop sends keys to the window that has the focus.
+    """
+    from PySide6.QtCore import Qt
+    from PySide6.QtGui import QGuiApplication
+    from PySide6.QtTest import QTest
+
+    def press(widget, modifiers=Qt.KeyboardModifier.NoModifier):
+        window = widget.window()
+        window.activateWindow()
+        qtbot.waitUntil(lambda: QGuiApplication.focusWindow() is window.windowHandle())
+        widget.setFocus()
+        QTest.keyClick(window.windowHandle(), Qt.Key.Key_Escape, modifiers)
+
+    return press
+
+
+@pytest.fixture
+def open_menu():
+    """Return a function that clicks on the first menu of a window, and returns the menu."""
+    from PySide6.QtCore import Qt
+    from PySide6.QtTest import QTest
+
+    def open_first(window):
+        bar = window.menuBar()
+        place = bar.mapTo(window, bar.actionGeometry(bar.actions()[0]).center())
+        for act in (QTest.mousePress, QTest.mouseRelease):
+            act(window.windowHandle(), Qt.MouseButton.LeftButton, pos=place)
+        menu = bar.actions()[0].menu()
+        assert menu.isVisible()
+        return menu
+
+    return open_first
+
+
+@pytest.fixture
+def press_behind_menu():
+    """Return a function that presses the mouse on a button while a menu takes all presses."""
+    from PySide6.QtCore import QEvent, QPointF, Qt
+    from PySide6.QtGui import QMouseEvent
+    from PySide6.QtWidgets import QApplication
+
+    def press(menu, button):
+        place, left = button.mapToGlobal(button.rect().center()), Qt.MouseButton.LeftButton
+        event = QMouseEvent(
+            QEvent.Type.MouseButtonPress,
+            QPointF(menu.mapFromGlobal(place)),
+            QPointF(place),
+            left,
+            left,
+            Qt.KeyboardModifier.NoModifier,
+        )
+        QApplication.sendEvent(menu.windowHandle(), event)
+
+    return press
+
+
+@pytest.fixture
 def make_recording():
     """Record a session of 1.2 s: x moves from 0.2 s on, at 1 s somebody notes something."""
     from rotemina.app.motion.recording.session_recorder import SessionRecorder

@@ -102,7 +102,6 @@ class MainWindow(ArrangedWindow):
         self._stop_watch = StopWatch(workbench, self.stop_button, self.emergency_button, self)
         self._stop_watch.start()
         workbench.closing.connect(self._stop_watch.close)
-        self.panels.making_one = self._stop_watch.of_windows_alone
         self._connect()
         self.panels.failed = self._leave_out
         for name, reason in broken.items():

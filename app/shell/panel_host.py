@@ -2,7 +2,6 @@
 
 import logging
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
-from contextlib import AbstractContextManager, nullcontext
 
 from rotemina.app.panel import Panel
 from rotemina.app.shell.language import add_texts_of
@@ -36,8 +35,6 @@ class Panels(MutableMapping[str, Panel]):
         Is told name and panel when one is made.
     failed : callable
         Is told name and reason when one cannot be made; it is in no mapping any more then.
-    making_one : callable
-        Returns a context in which each one is made and placed.
     """
 
     def __init__(self, workbench: Workbench, kinds: Mapping[str, type[Panel]]) -> None:
@@ -47,13 +44,11 @@ class Panels(MutableMapping[str, Panel]):
         self._under_way: set[str] = set()
         self.placed: Callable[[str, Panel], object] = lambda name, panel: None
         self.failed: Callable[[str, str], object] = lambda name, reason: None
-        self.making_one: Callable[[], AbstractContextManager[object]] = nullcontext
 
     def make(self, name: str) -> Panel | None:
         """Return a panel, made if need be; None if there is none of that name, or it fails."""
         if name in self.waiting:
-            with self.making_one():
-                self._make(name)
+            self._make(name)
         return self.made.get(name)
 
     def _make(self, name: str) -> None:

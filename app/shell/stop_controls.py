@@ -1,10 +1,8 @@
 """Stop, and stop and lock: by key and by button, whatever else is open or has the focus."""
 
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 
-from PySide6.QtCore import QEvent, QObject, QRectF, Qt
+from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QGuiApplication,
     QKeyEvent,
@@ -25,6 +23,21 @@ from rotemina.drivers.clock import Clock
 
 RELEASE_AFTER_S = 1.0  # a second press in alarm must not release what the first one latched
 LOCKS_WITHIN_S = 1.0  # of a first press, a second one: alarm leads to the safer state
+_LOOK_MS = 100  # for windows that opened of themselves and have no focus
+_INPUT = frozenset(
+    {
+        QEvent.Type.KeyPress,
+        QEvent.Type.KeyRelease,
+        QEvent.Type.MouseButtonPress,
+        QEvent.Type.MouseButtonRelease,
+        QEvent.Type.MouseButtonDblClick,
+        QEvent.Type.Wheel,
+        QEvent.Type.TouchBegin,
+        QEvent.Type.TouchEnd,
+        QEvent.Type.TabletPress,
+        QEvent.Type.TabletRelease,
+    }
+)
 _SOFTWARE = marked("shell", "This is a stop by software, not the machine's emergency stop switch.")
 
 
@@ -33,7 +46,15 @@ class StopWatch(QObject):
 
     Shift+Esc locks, and so does a second Esc within a second. The event continues to where it was
     meant for, so that Esc closes a dialog too.
+
+    Every key and every click reaches a window before any widget in it, so windows are what is
+    watched: a filter of the whole program would be called in Python for each of the thousands of
+    events that widgets send each other, and would wait each time for what else runs there. Only an
+    input can open a menu that takes the next one before it is known; so the whole program is
+    watched from an input until all that it did is done, and while a menu is open.
     """
+
+    _input_came = Signal()
 
     def __init__(
         self,
@@ -48,50 +69,47 @@ class StopWatch(QObject):
         self._escape = SecondPress(clock)
         self._down = False
         self._stops = ((stop, requests.stop), (emergency, requests.emergency_stop))
-        self._making = 0
+        self._alert = False  # whether the whole program is watched
         self._ended = False
+        self._looks = QTimer(self, interval=_LOOK_MS)
+        self._looks.timeout.connect(self._rest)
 
     def start(self) -> None:
-        """Watch every event of the program."""
-        _application().installEventFilter(self)
+        """Watch every window of the program, also those that open later."""
+        _application().focusWindowChanged.connect(self._watch)
+        self._input_came.connect(self._rest, Qt.ConnectionType.QueuedConnection)
+        self._looks.start()
+        self._watch_all()
 
     def close(self) -> None:
         """End: nothing is left that could be stopped."""
-        self._ended = True
-        _application().removeEventFilter(self)
-
-    @contextmanager
-    def of_windows_alone(self) -> Iterator[None]:
-        """Watch what the desktop sends to windows, not what widgets send each other.
-
-        To make a panel sends thousands of events, and each costs a call into Python. Every key
-        and every click still comes through a window first, also through one that a panel's
-        constructor opens.
-        """
         gui = _application()
-        self._making += 1
-        if self._making == 1:
-            gui.removeEventFilter(self)
-            gui.focusWindowChanged.connect(self._watch_window)
-            for window in gui.topLevelWindows():
-                self._watch_window(window)
-        try:
-            yield
-        finally:
-            self._making -= 1
-            if not self._making:
-                gui.focusWindowChanged.disconnect(self._watch_window)
-                for window in gui.topLevelWindows():
-                    window.removeEventFilter(self)
-                if not self._ended:
-                    gui.installEventFilter(self)
+        self._ended = True
+        self._looks.stop()
+        for watched in (gui, *gui.allWindows()):
+            watched.removeEventFilter(self)
 
-    def _watch_window(self, window: QWindow | None) -> None:
-        if window is not None:
+    def _watch_all(self) -> None:
+        for window in _application().allWindows():
+            self._watch(window)
+
+    def _watch(self, window: QWindow | None) -> None:
+        if window is not None and not self._ended:
             window.installEventFilter(self)
+
+    def _rest(self) -> None:
+        """Watch windows alone again, with those that the input has opened."""
+        self._watch_all()
+        if self._alert and QApplication.activePopupWidget() is None:
+            self._alert = False
+            _application().removeEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
         """Stop, and let the event pass."""
+        if event.type() in _INPUT and not (self._alert or self._ended):
+            self._alert = True
+            _application().installEventFilter(self)
+            self._input_came.emit()
         if isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
             if event.type() == QEvent.Type.KeyPress:
                 self._press(event)

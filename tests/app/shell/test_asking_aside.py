@@ -4,7 +4,6 @@ import threading
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
 
 from rotemina.app.motion.playback import PlaybackPhase
 from rotemina.app.motion.state import Phase
@@ -47,11 +46,13 @@ def planned(qtbot, window):
     return window.workbench
 
 
-def test_esc_stops_while_the_path_to_be_played_is_checked(qtbot, window, planned, check):
+def test_esc_stops_while_the_path_to_be_played_is_checked(
+    qtbot, window, planned, check, press_escape
+):
     session, command = planned.session, planned.session.snapshot().command
     planned.play()  # would hang here
     assert check.begun.wait(LONG_MS / 1e3)
-    qtbot.keyClick(window, Qt.Key.Key_Escape)
+    press_escape(window)
     assert session.snapshot().stop.by == "operator"
     check.may_end.set()
     qtbot.waitUntil(lambda: not planned._aside.busy, timeout=LONG_MS)

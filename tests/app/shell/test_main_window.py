@@ -83,7 +83,7 @@ def test_a_panel_is_made_when_its_dock_comes_into_sight(qtbot, make_robot_window
     window.bring_up("nothing of that name")
 
 
-def test_stop_is_always_in_sight_and_stops_on_escape(qtbot, window):
+def test_stop_is_always_in_sight_and_stops_on_escape(qtbot, window, press_escape):
     window.resize(640, 480)
     for dock in window.docks.values():
         dock.hide()
@@ -95,19 +95,19 @@ def test_stop_is_always_in_sight_and_stops_on_escape(qtbot, window):
     session.go_to({"x": 0.05})
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
     window.activateWindow()
-    qtbot.keyClick(window, Qt.Key.Key_Escape)
+    press_escape(window)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     assert session.snapshot().command["x"] < 0.049
     assert session.snapshot().stop_latency_s is not None
 
 
-def test_escape_stops_even_while_a_dialog_is_open(qtbot, window):
+def test_escape_stops_even_while_a_dialog_is_open(qtbot, window, press_escape):
     session = window.workbench.session
     session.go_to({"x": 0.05})
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
     dialog = QMessageBox(window)
     dialog.open()
-    qtbot.keyClick(dialog, Qt.Key.Key_Escape)
+    press_escape(dialog)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     assert session.snapshot().command["x"] < 0.049
     assert dialog.isHidden()
@@ -316,14 +316,12 @@ def test_a_record_whose_comparison_fails_is_kept_all_the_same(qtbot, window, tmp
     assert list(window.workbench.played_folder.iterdir())
 
 
-def test_the_stop_button_works_under_an_open_menu(qtbot, window):
+def test_the_stop_button_works_under_an_open_menu(qtbot, window, open_menu, press_behind_menu):
     session = window.workbench.session
     session.go_to({"x": 0.05})
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
-    menu = window.menuBar().actions()[0].menu()
-    menu.popup(window.mapToGlobal(window.rect().topLeft()))
-    place = window.stop_button.mapToGlobal(window.stop_button.rect().center())
-    qtbot.mousePress(menu, Qt.MouseButton.LeftButton, pos=menu.mapFromGlobal(place))
+    menu = open_menu(window)
+    press_behind_menu(menu, window.stop_button)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     assert session.snapshot().command["x"] < 0.049
     menu.close()

@@ -60,15 +60,15 @@ def test_the_phase_and_the_reason_are_shown(qtbot, window):
     qtbot.waitUntil(lambda: bar.owner.text() == "Free", timeout=LONG_MS)
 
 
-def test_escape_with_shift_latches_and_without_does_not(qtbot, window):
+def test_escape_with_shift_latches_and_without_does_not(qtbot, window, press_escape):
     session = window.workbench.session
-    qtbot.keyClick(window, Qt.Key.Key_Escape)
+    press_escape(window)
     assert session.snapshot().latched is None
     session.go_to({"x": 0.05}, speeds={"x": 1e-4})
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
     dialog = QMessageBox(window)
     dialog.open()
-    qtbot.keyClick(dialog, Qt.Key.Key_Escape, Qt.KeyboardModifier.ShiftModifier)
+    press_escape(dialog, Qt.KeyboardModifier.ShiftModifier)
     assert session.snapshot().latched == "stop and lock"
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
     window.workbench.jog("x", 1e-3)
@@ -95,7 +95,7 @@ def test_escape_that_is_held_repeats_and_does_not_lock(window):
         QEvent.Type.KeyPress, Qt.Key.Key_Escape, Qt.KeyboardModifier.NoModifier, "", True
     )
     for event in (press, repeated, repeated):
-        QApplication.sendEvent(window, event)
+        QApplication.sendEvent(window.windowHandle(), event)
     assert window.workbench.session.snapshot().latched is None
     assert window.workbench.session.stop_asked_s is not None
 
@@ -108,11 +108,8 @@ def test_a_second_press_of_stop_locks(qtbot, window):
     assert session.snapshot().latched == "stop and lock"
 
 
-def test_escape_on_the_keypad_of_a_field_latches_too(window):
-    event = QKeyEvent(
-        QEvent.Type.KeyPress, Qt.Key.Key_Escape, Qt.KeyboardModifier.ShiftModifier, ""
-    )
-    QApplication.sendEvent(window.panels["control"].rows["x"].target, event)
+def test_escape_on_the_keypad_of_a_field_latches_too(window, press_escape):
+    press_escape(window.panels["control"].rows["x"].target, Qt.KeyboardModifier.ShiftModifier)
     assert window.workbench.session.snapshot().latched is not None
 
 
@@ -160,7 +157,7 @@ def test_the_status_line_tells_link_age_and_the_driver_in_use(qtbot, window):
     qtbot.waitUntil(lambda: "simulator: disconnected" in status.text(), timeout=LONG_MS)
 
 
-def test_escape_stops_under_a_modal_dialog_and_a_file_dialog(qtbot, window, tmp_path):
+def test_escape_stops_under_a_modal_dialog_and_a_file_dialog(qtbot, window, press_escape, tmp_path):
     session = window.workbench.session
     qtbot.waitUntil(lambda: session.snapshot().position_known, timeout=LONG_MS)
     for dialog in (QMessageBox(window), QFileDialog(window, "Open", str(tmp_path))):
@@ -168,7 +165,7 @@ def test_escape_stops_under_a_modal_dialog_and_a_file_dialog(qtbot, window, tmp_
         assert dialog.findChildren(QWidget), "a dialog of the desktop's own sees the keys alone"
         session.go_to({"x": 0.05}, speeds={"x": 1e-4})
         qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
-        qtbot.keyClick(dialog, Qt.Key.Key_Escape)
+        press_escape(dialog)
         qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
         assert session.snapshot().stop.by == OPERATOR
         session.stop()
@@ -202,15 +199,62 @@ def test_escape_stops_in_a_window_that_a_panel_opens_while_it_is_made(qtbot, win
         assert session.snapshot().stop.by == OPERATOR
 
 
+def moving(qtbot, session):
+    """Set an axis in motion, and wait for it."""
+    qtbot.waitUntil(lambda: session.snapshot().position_known, timeout=LONG_MS)
+    session.go_to({"x": 0.05}, speeds={"x": 1e-4})
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
+
+
+def test_escape_stops_in_a_menu_that_a_key_has_just_opened(qtbot, window):
+    session, menu = window.workbench.session, window.menuBar().actions()[0].menu()
+    moving(qtbot, session)
+    held = Qt.KeyboardModifier.NoModifier
+    kinds = QEvent.Type.KeyPress, QEvent.Type.KeyRelease
+    letter = [QKeyEvent(kind, Qt.Key.Key_F, held, "f") for kind in kinds]
+    QApplication.sendEvent(window.windowHandle(), letter[0])
+    menu.popup(window.mapToGlobal(QPoint(0, 0)))  # as that key does
+    # No event loop has run since: nobody can know the window of the menu yet.
+    escape = QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_Escape, held)
+    QApplication.sendEvent(menu.windowHandle(), escape)
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+    assert session.snapshot().stop.by == OPERATOR
+    menu.close()
+
+
+def test_escape_stops_in_a_window_that_opened_of_itself_and_has_no_focus(qtbot, window):
+    session = window.workbench.session
+    moving(qtbot, session)
+    beside = QWidget()
+    qtbot.addWidget(beside)
+    beside.setAttribute(Qt.WidgetAttribute.WA_ShowWithoutActivating)
+    beside.show()
+    QTest.qWait(250)  # longer than between two looks for windows
+    QTest.keyClick(beside.windowHandle(), Qt.Key.Key_Escape)
+    qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
+    assert session.snapshot().stop.by == OPERATOR
+
+
+def test_what_widgets_send_each_other_costs_the_watch_nothing(qtbot, window, monkeypatch):
+    watch, seen = window._stop_watch, []
+    monkeypatch.setattr(type(watch), "eventFilter", lambda *event: bool(seen.append(event)))
+    quiet = QEvent(QEvent.Type.User)
+    QTest.keyClick(window.windowHandle(), Qt.Key.Key_Shift)
+    qtbot.waitUntil(lambda: not watch._alert, timeout=LONG_MS)
+    seen.clear()
+    QApplication.sendEvent(window.stop_button, quiet)
+    assert seen == []
+
+
 @pytest.mark.parametrize("name", ["gap", "no such panel"])
-def test_escape_stops_once_a_panel_was_made_or_could_not_be(qtbot, window, name):
+def test_escape_stops_once_a_panel_was_made_or_could_not_be(qtbot, window, press_escape, name):
     session = window.workbench.session
     qtbot.waitUntil(lambda: session.snapshot().position_known, timeout=LONG_MS)
     window.panels.kinds["no such panel"] = Panel.__new__  # which is no way to make one
     window.panels.make(name)
     session.go_to({"x": 0.05}, speeds={"x": 1e-4})
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.MOVING, timeout=LONG_MS)
-    qtbot.keyClick(window, Qt.Key.Key_Escape)  # to the widget: only the whole program's watch sees
+    press_escape(window)
     qtbot.waitUntil(lambda: session.snapshot().activity is DeviceState.IDLE, timeout=LONG_MS)
 
 

@@ -48,22 +48,23 @@ def test_a_long_recording_does_not_hold_up_the_window(qtbot, window, monkeypatch
     assert list(operation.recordings.glob("*.arrows"))
 
 
-def test_stops_reach_from_a_floating_dock_and_from_a_page(qtbot, window):
+def test_stops_reach_from_a_floating_dock_and_from_a_page(
+    qtbot, window, press_escape, open_menu, press_behind_menu
+):
     session = window.workbench.session
     dock = window.docks["faults"]
     dock.setFloating(True)
     dock.activateWindow()
     window.show_log()
+    window.palette_page.show()
     for widget in (dock, window.log_page.words, window.palette_page.field):
-        qtbot.keyClick(widget, Qt.Key.Key_Escape, Qt.KeyboardModifier.ShiftModifier)
+        press_escape(widget, Qt.KeyboardModifier.ShiftModifier)
         assert session.snapshot().latched is not None
         window.workbench.release()
         assert session.snapshot().latched is None
-    menu = window.menuBar().actions()[0].menu()
-    menu.popup(window.mapToGlobal(window.rect().topLeft()))
+    menu = open_menu(window)
     button = window.emergency_button
-    place = button.mapToGlobal(button.rect().center())
-    qtbot.mousePress(menu, Qt.MouseButton.LeftButton, pos=menu.mapFromGlobal(place))
+    press_behind_menu(menu, button)
     assert session.snapshot().latched is not None
     menu.close()
     qtbot.mouseClick(button, Qt.MouseButton.LeftButton)  # in alarm: it stays latched

@@ -9,7 +9,7 @@ import os
 import sys
 
 from PySide6.QtCore import QSocketNotifier
-from PySide6.QtWidgets import QApplication, QLineEdit, QPushButton
+from PySide6.QtWidgets import QApplication, QComboBox, QLineEdit, QPushButton  # noqa: F401 (asked for)
 
 from rotemina.app.cli.main import main
 from rotemina.app.shell.main_window import MainWindow

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -84,6 +85,11 @@ class Operator:
         """Click where an expression says, as soon as that is seen."""
         x, y = self.wait(where, limit_s)
         self._do("mousemove", str(x), str(y), "click", "1")
+
+    def over(self, where):
+        """Move the mouse there, and leave it."""
+        x, y = self.wait(where)
+        self._do("mousemove", str(x), str(y))
 
     def hold(self, where, until):
         """Hold the mouse button down until something is so."""
@@ -236,6 +242,72 @@ def on_the_simulator(screen, tmp_path):
         operator.wait("window.isVisible()")
         operator.wait("bench.session.snapshot().locked is None")
         yield operator
+
+
+MENUS = "window.menuBar().actions()"
+LANGUAGES = "[a for a in window.menuBar().actions()[2].menu().actions() if 'nguage' in a.text()][0]"
+SPANS = "[c for c in window.findChildren(QComboBox) if c.accessibleName().startswith('Time span')]"
+
+
+def open_menu(hand, number):
+    """Click on a menu of the bar."""
+    at = f"window.menuBar().actionGeometry({MENUS}[{number}]).center()"
+    hand.click(f"place(window.menuBar(), {at})")
+    hand.wait(f"{MENUS}[{number}].menu().isVisible()")
+
+
+def open_menu_within(hand):
+    """Let a menu open of itself, under the mouse at rest, from another one."""
+    open_menu(hand, 2)
+    hand.over(f"item({MENUS}[2].menu(), {LANGUAGES}.text())")
+    hand.wait(f"{LANGUAGES}.menu().isVisible()")
+
+
+def open_list(hand):
+    """Click on a choice, whose list opens."""
+    hand.click(f"place({SPANS}[0])")
+    hand.wait(f"{SPANS}[0].view().isVisible()")
+
+
+def open_dialog(hand):
+    """Ask for a file."""
+    hand.focus("RoTeMiNa")
+    hand.press("ctrl+t")
+    hand.wait("dialog('Load trajectory') is not None")
+    hand.focus("Load trajectory")
+
+
+def open_nothing(hand):
+    """Give the keyboard to the window."""
+    hand.focus("RoTeMiNa")
+
+
+@pytest.mark.parametrize("way", ["Escape", "mouse"])
+def test_stop_acts_whatever_is_open(on_the_simulator, way):
+    hand = on_the_simulator
+    hand.focus("RoTeMiNa")
+    stop = hand.wait("place(window.stop_button)")
+    for opened in (
+        open_nothing,
+        partial(open_menu, number=0),
+        open_menu_within,
+        open_list,
+        *([open_dialog] if way == "Escape" else ()),
+    ):
+        side = 0.05 if hand.see("bench.session.snapshot().command['x']") < 0.0275 else 0.005
+        hand.see(f"bool(bench.session.go_to({{'x': {side}}}, speeds={{'x': 1e-3}}) or True)")
+        hand.wait("bench.session.snapshot().activity.value == 'moving'")
+        opened(hand)
+        assert hand.see("bench.session.snapshot().activity.value") == "moving"
+        if way == "Escape":
+            hand.press("Escape")
+        else:
+            hand.click(str(list(stop)))
+        hand.wait("bench.session.snapshot().activity.value == 'idle'", 3.0)
+        assert hand.see("bench.session.snapshot().stop.by") == "operator", opened
+        while hand.see("QApplication.activePopupWidget() is not None"):  # a menu within a menu
+            hand.press("Escape")
+        hand.see("bool(bench.release() or True)")  # where that was a second press
 
 
 def test_the_loop_closes_on_a_machine_that_moved_before(on_the_simulator, tmp_path):

@@ -228,7 +228,9 @@ def test_the_pages_keep_positions_change_modes_and_arm(qtbot, window, panel):
 
 
 @pytest.mark.parametrize("modifier", ["NoModifier", "ShiftModifier"])
-def test_escape_withdraws_a_large_move_that_was_asked_about(qtbot, window, panel, modifier):
+def test_escape_withdraws_a_large_move_that_was_asked_about(
+    qtbot, window, panel, press_escape, modifier
+):
     session, row = window.workbench.session, panel.rows["x"]
     qtbot.waitUntil(row.go.isEnabled, timeout=LONG_MS)
     before = session.snapshot().command["x"]
@@ -236,7 +238,7 @@ def test_escape_withdraws_a_large_move_that_was_asked_about(qtbot, window, panel
     qtbot.keyClicks(row.target, "2")
     qtbot.keyClick(row.target, Qt.Key.Key_Return)
     assert row.confirmation.asked is not None
-    qtbot.keyClick(row.target, Qt.Key.Key_Escape, Qt.KeyboardModifier[modifier])
+    press_escape(row.target, Qt.KeyboardModifier[modifier])
     session.release()
     qtbot.keyClick(row.target, Qt.Key.Key_Return)  # before any refresh has seen the stop
     state = session.snapshot()

@@ -182,12 +182,14 @@ def test_a_large_move_waits_for_a_yes(qtbot, view, microscope, tools):
 
 
 @pytest.mark.parametrize("way", ["Esc", "stop", "hidden", "frozen", "mode off"])
-def test_what_ends_the_mode_forgets_the_move(qtbot, view, microscope, tools, session, way):
+def test_what_ends_the_mode_forgets_the_move(
+    qtbot, view, microscope, tools, session, press_escape, way
+):
     microscope.confirm = True
     tools.choose(PointerTool.MOVE)
     qtbot.mouseClick(view, LEFT, pos=at(view, 80, 40))
     if way == "Esc":
-        qtbot.keyClick(view, Qt.Key.Key_Escape)
+        press_escape(view)
     elif way == "stop":
         session.stop()
     elif way == "hidden":
