@@ -74,14 +74,28 @@ def main(folder: Path) -> int:
 
 def finish_work(window: "MainWindow") -> None:
     """Let the panels that compute do so, on what was played or on the simulated machine."""
+    import numpy as np
     from PySide6.QtWidgets import QApplication
 
+    from rotemina.sim.calibration.plan import calibration_motion
+    from rotemina.sim.simulation.simulation import simulate
+    from rotemina.sim.trajectory.worn_machine_demo import worn_effects
+
     plate, compensation = window.panels["plate"], window.panels["compensation"]
+    calibration, robot = window.panels["calibration"], window.workbench.robot
+    motion = calibration_motion(robot, "x")
+    rng = np.random.default_rng(0)
+    calibration.fit_record("x.csv", simulate(robot, worn_effects(robot), motion, rng))
     plate.solve()
     axis = compensation.controls.axis
     axis.setCurrentIndex(axis.findData("zn"))  # the one with hysteresis
     compensation.learn_simulated()
-    while window.workbench.busy or compensation.job.running or plate.solved is None:
+    while (
+        window.workbench.busy
+        or compensation.job.running
+        or plate.solved is None
+        or calibration.calibration is None
+    ):
         QApplication.processEvents()
 
 
@@ -136,7 +150,8 @@ def bring_up(window: "MainWindow", name: str) -> None:
     for tabs in window.findChildren(QTabWidget):
         if tabs.indexOf(panel) >= 0:
             tabs.setCurrentWidget(panel)
-    QApplication.processEvents()
+    for _ in range(5):  # what waited until it is seen is drawn by then
+        QApplication.processEvents()
     while name == "microscope" and panel.view.frame is None:
         QApplication.processEvents()
 
