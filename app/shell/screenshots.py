@@ -78,14 +78,15 @@ def finish_work(window: "MainWindow") -> None:
     from PySide6.QtWidgets import QApplication
 
     from rotemina.sim.calibration.plan import calibration_motion
+    from rotemina.sim.robot.model import AxisEffect
     from rotemina.sim.simulation.simulation import simulate
-    from rotemina.sim.trajectory.worn_machine_demo import worn_effects
 
     plate, compensation = window.panels["plate"], window.panels["compensation"]
     calibration, robot = window.panels["calibration"], window.workbench.robot
     motion = calibration_motion(robot, "x")
     rng = np.random.default_rng(0)
-    calibration.fit_record("x.csv", simulate(robot, worn_effects(robot), motion, rng))
+    encoder = AxisEffect(axis="x", id="sensor_gain", parameters={"error": 2e-4})
+    calibration.fit_record("x.csv", simulate(robot, [encoder], motion, rng))
     plate.solve()
     axis = compensation.controls.axis
     axis.setCurrentIndex(axis.findData("zn"))  # the one with hysteresis

@@ -22,7 +22,7 @@ from rotemina.sim.calibration.regression_columns import Run
 from rotemina.sim.calibration.sensor import PLACES, SHARES, SensorModel
 from rotemina.sim.calibration.zero_drift import zero_drifts
 from rotemina.sim.messages import marked, message
-from rotemina.sim.quantities import rounded
+from rotemina.sim.quantities import amount
 from rotemina.sim.records.record import Tap
 from rotemina.sim.robot.model import PiezoAxis, Robot
 
@@ -86,15 +86,12 @@ class Calibration:
             return None
         return message(
             "engine",
-            "{axis}: in the runs left out of the fit the reading's error is {after} {unit} "
-            "rms with the calibration and {before} {same} without; the calibration is not "
-            "better and is not used",
+            "{axis}: in the runs left out of the fit the reading's error is {after} rms with the "
+            "calibration and {before} without; the calibration is not better and is not used",
         ).fill(
             axis=self.axis,
-            after=rounded(self.after_rms, 4),
-            unit=self.unit,
-            before=rounded(self.before_rms, 4),
-            same=self.unit,
+            after=amount(self.after_rms, self.unit),
+            before=amount(self.before_rms, self.unit),
         )
 
 

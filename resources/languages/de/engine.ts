@@ -3870,8 +3870,8 @@
         <translation>jedes Ziel wurde {shape}-mal von jeder Seite angefahren; ISO 230-2 braucht {iso_runs} Läufe, eine Streuung mindestens {least_runs}</translation>
     </message>
     <message>
-        <source>{axis}: in the runs left out of the fit the reading&apos;s error is {after} {unit} rms with the calibration and {before} {same} without; the calibration is not better and is not used</source>
-        <translation>{axis}: bei zurückgehaltenen Läufen ist der Fehler des Messwerts {after} {unit} rms mit der Kalibrierung und {before} {same} ohne; sie ist nicht besser und wird nicht genutzt</translation>
+        <source>{axis}: in the runs left out of the fit the reading&apos;s error is {after} rms with the calibration and {before} without; the calibration is not better and is not used</source>
+        <translation>{axis}: bei zurückgehaltenen Läufen ist der Fehler des Messwerts {after} rms mit der Kalibrierung und {before} ohne; sie ist nicht besser und wird nicht genutzt</translation>
     </message>
     <message>
         <source>{count} runs of {least_run_rows} rows or more; a calibration needs {least_runs}, of which each is held out once; record longer</source>
