@@ -40,6 +40,9 @@ CURVES = {
 }
 _STRIP_SHARE = 0.3  # of the height that trace and strip have
 _LEAST_TRACE = 40  # px: below it there is no strip
+# Least heights of a plot, px: notices and the banner of a replay need room, too.
+_WITH_TIMES, _WITHOUT = 62, 36
+_SPACING = 1
 _NOTHING = np.empty(0)
 _LEAST_DECADES = 2.0  # of a spectrum: fewer have no round numbers to stand beside
 
@@ -70,14 +73,13 @@ class AxisPlot(QWidget):
         workbench: Workbench,
         column: int,
         *,
-        times: bool,
         moved: Callable[[ViewPlot], None] = lambda _: None,
     ) -> None:
         super().__init__()
         name = tuple(workbench.robot.axes)[column]
         axis = workbench.robot.axes[name]
         self._name, self._si_unit = name, axis.unit or "m"
-        self._column, self._times = column, times
+        self._column, self._times = column, False
         self._scale = axis_scale(axis)
         self._gap = scale_in("urad" if axis.unit == "rad" else "um")
         floor = axis.sensor.noise_floor if axis.sensor else axis.span * 1e-5
@@ -98,15 +100,23 @@ class AxisPlot(QWidget):
         self._strip_height = 0
         self._written: tuple[object, ...] = ()  # what the figures say
         self._course: tuple[GapHistory | None, float] = (None, 0.0)  # what the strip shows
-        # Notices and the banner of a replay need room, too; the lowest has the times below it.
-        self.plot.setMinimumHeight(62 if times else 36)
         head = in_row(self._title, self._unit, (self.figures, 1), margins=(4, 0, 4, 0), spacing=6)
-        in_column(head, (self.plot, 1), self.strip, on=self, margins=0, spacing=1)
+        in_column(head, (self.plot, 1), self.strip, on=self, margins=0, spacing=_SPACING)
 
-    def stand_in_strip(self, *, strip: bool) -> None:
-        """Do without times below the plot where there is a strip's height only."""
+    def least_height(self, *, times: bool) -> int:
+        """Return the height that title and trace need, with or without times below, px."""
+        title = self._title.sizeHint().height() + _SPACING
+        return title + (_WITH_TIMES if times else _WITHOUT)
+
+    def stand(self, *, times: bool, strip: bool) -> None:
+        """Have times below the plot or not; in a strip there is no axis for them either."""
         self.plot.showAxis("bottom", not strip)
-        self.plot.setMinimumHeight(62 if self._times and not strip else 36)
+        self.plot.setMinimumHeight(_WITH_TIMES if times else _WITHOUT)
+        if times is not self._times:
+            self._times = times
+            if (view := self._view) is not None:
+                self._view = None
+                self._use_view(view)  # which numbers the scales again
 
     def share_height(self, height: int) -> None:
         """Part the height of trace and strip, px, where there is room for both."""

@@ -76,9 +76,8 @@ class PlotsPanel(Panel):
         self._course: GapHistory | None = None
         self._picture: Picture | None = None
         self._read_view: Shown | None = None  # the view that the cursors stand in
-        lowest = {axes[-1] for axes in stages(workbench.robot).values() if axes}
         self.plots = {
-            name: AxisPlot(workbench, column, times=name in lowest, moved=self._cursor_moved)
+            name: AxisPlot(workbench, column, moved=self._cursor_moved)
             for column, name in enumerate(workbench.robot.axes)
         }
         self.grid = PlotGrid(self.plots, [list(axes) for axes in stages(workbench.robot).values()])
@@ -97,11 +96,10 @@ class PlotsPanel(Panel):
         workbench.model_changed.connect(self._use_model)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
-        """Stand in one row without controls where there is room for a strip only."""
+        """Do without controls, and then with one row of plots, where there is less room."""
         super().resizeEvent(event)
-        strip = self.height() < self._head.sizeHint().height() + self.grid.least_height
-        self.grid.arrange(strip=strip)
-        self._head.setVisible(not strip)
+        head = self._head.sizeHint().height()
+        self._head.setVisible(self.grid.arrange(self.width(), self.height(), head))
         self.grid.share_height()
 
     def refresh(self) -> None:

@@ -229,3 +229,27 @@ def test_old_readings_are_grey_and_their_age_is_said(qtbot, window, panel):
     window.workbench.shown.emit(replace(state, age_s=0.0))
     assert pens() == own
     assert panel.age.isHidden()
+
+
+@pytest.mark.parametrize(
+    ("room", "rows", "head", "times"),
+    [
+        ((940, 390), [["x", "thx"], ["y", "thy"], ["z", "zn"]], True, ["z", "zn"]),
+        ((940, 250), [["x", "y", "z"], ["thx", "thy", "zn"]], True, ["thx", "thy", "zn"]),
+        ((590, 170), [["x", "y", "z"], ["thx", "thy", "zn"]], False, ["thx", "thy", "zn"]),
+        ((1270, 170), [["x", "y", "z", "thx", "thy", "zn"]], False, []),
+        ((590, 90), [["x", "y", "z", "thx", "thy", "zn"]], False, []),
+    ],
+)
+def test_plots_stand_in_as_many_rows_as_fit_and_are_no_narrower_than_can_be_read(
+    panel, room, rows, head, times
+):
+    grid = panel.grid
+    assert grid.arrange(*room, 60) is head
+    placed = {}
+    for name, plot in panel.plots.items():
+        row, column, _, _ = grid.layout().getItemPosition(grid.layout().indexOf(plot))
+        placed[row, column] = name
+    wanted = {(r, c): name for r, names in enumerate(rows) for c, name in enumerate(names)}
+    assert placed == wanted
+    assert [name for name, plot in panel.plots.items() if plot._times] == times
