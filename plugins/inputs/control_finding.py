@@ -55,7 +55,7 @@ class Finding:
         return axis if now_s - self._axis_since_s >= BUTTON_WAIT_S else Findings(None, axis.message)
 
     def _found(self, kind: Kind, now_s: float) -> Findings:
-        """Return what was moved; an axis that has come back to its rest was release."""
+        """Return what was moved; an axis that has come back to its rest was let go."""
         found = self._detections[kind].findings(now_s)
         if kind is Kind.BUTTON or found.detected is None or self._newest is None:
             return found

@@ -138,7 +138,7 @@ class PadArea(QWidget):
         self._drag(event.position())
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 (Qt's name)
-        """Move what was taken; what was release meanwhile has to be taken again."""
+        """Move what was taken; what was released meanwhile has to be taken again."""
         if event.buttons() & Qt.MouseButton.LeftButton and self._stick.dragging:
             self._drag(event.position())
 

@@ -7,7 +7,7 @@ class Button:
     """Debounced: the first change counts at once, its bounces do not.
 
     A button that is down when it is first seen (stuck, taped, held while plugging in) does nothing
-    until it was release.
+    until it has been released.
 
     Parameters
     ----------

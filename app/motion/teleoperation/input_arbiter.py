@@ -192,7 +192,7 @@ class InputArbiter:
             self._lost.append(marked("engine", "input devices are being set up"))
 
     def close_mapping(self) -> None:
-        """Send again, after every stick was seen at rest and every button release."""
+        """Send again, after every stick was seen at rest and every button released."""
         if self.mapping_open:
             self.mapping_open = False
             self._arrange(set(self._plugged))

@@ -59,7 +59,7 @@ class ActionMapping:
     at : float or None
         For an axis: the deflection, −1 to 1 without about 0, from which it counts as pressed.
     hysteresis : float
-        How far nearer to the rest the axis must come back to be release.
+        How far nearer to the rest the axis must come back to count as released.
     """
 
     control: Text

@@ -68,6 +68,13 @@ def replay_to_the_note(qtbot, window, reached):
     replaying, panel = window.workbench.replaying, shown(window)
     qtbot.waitUntil(lambda: len(panel.recordings.table.entries_model.entries) == 1, timeout=LONG_MS)
     panel.recordings.table.selectRow(0)
+    session = window.workbench.session  # which shows no recording while it moves
+
+    def stands():
+        now = session.snapshot()
+        return now.activity is DeviceState.IDLE and not now.queued
+
+    qtbot.waitUntil(stands, timeout=LONG_MS)
     with qtbot.waitSignal(replaying.changed, timeout=LONG_MS):
         click(qtbot, panel.recordings.open)
     replaying.paced.pause()
