@@ -124,7 +124,8 @@ class StopWatch(QObject):
         at = event.globalPosition().toPoint()
         for button, stop in self._stops:
             over = button.isVisible() and button.rect().contains(button.mapFromGlobal(at))
-            if over and not button.isChecked():
+            # A press on the lock that is closed means to release it, which is the button's own.
+            if over and not (button.isCheckable() and self._requests.session.snapshot().latched):
                 stop()
 
     def _press(self, event: QKeyEvent) -> None:
@@ -177,6 +178,7 @@ class EmergencyButton(QPushButton):
             self._show(state.latched)
 
     def _press(self) -> None:
+        self._show(self._requests.session.snapshot().latched)  # now, not at the last frame
         if self._latched_at_s is None:
             self._requests.emergency_stop()
             self._latched_at_s = self._clock()

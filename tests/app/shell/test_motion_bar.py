@@ -235,6 +235,17 @@ def test_escape_stops_in_a_window_that_opened_of_itself_and_has_no_focus(qtbot, 
     assert session.snapshot().stop.by == OPERATOR
 
 
+def test_a_press_locks_although_the_last_frame_showed_a_lock_that_is_released(qtbot, window):
+    session, button = window.workbench.session, window.emergency_button
+    session.emergency_stop("a stick")
+    button.refresh(session.snapshot())
+    button._latched_at_s -= 10.0  # long ago: a press would release it
+    session.release()
+    assert button.isChecked()  # no frame has come since
+    click(qtbot, button)
+    assert session.snapshot().latched == "stop and lock"
+
+
 def test_what_widgets_send_each_other_costs_the_watch_nothing(qtbot, window, monkeypatch):
     watch, seen = window._stop_watch, []
     monkeypatch.setattr(type(watch), "eventFilter", lambda *event: bool(seen.append(event)))
