@@ -66,7 +66,7 @@ class Panel(QWidget):
         super().__init__()
         self.workbench = workbench
         self._looks: list[Callable[[SessionState], object]] = []
-        # Those out of sight look in turns, not all at one frame.
+        # Those out of sight look in turns, not all at one frame: the golden ratio spreads them.
         self._followed_s = monotonic() - HIDDEN_S * (0.618 * next(_made) % 1.0)
 
     def follow(self, look: Callable[[SessionState], object]) -> None:

@@ -23,7 +23,7 @@ from rotemina.drivers.clock import Clock
 
 RELEASE_AFTER_S = 1.0  # a second press in alarm must not release what the first one latched
 LOCKS_WITHIN_S = 1.0  # of a first press, a second one: alarm leads to the safer state
-_LOOK_MS = 100  # for windows that opened of themselves and have no focus
+_LOOK_MS = 100  # for windows that opened by themselves and have no focus
 _INPUT = frozenset(
     {
         QEvent.Type.KeyPress,

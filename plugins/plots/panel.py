@@ -96,7 +96,7 @@ class PlotsPanel(Panel):
         workbench.model_changed.connect(self._use_model)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
-        """Do without controls, and then with one row of plots, where there is less room."""
+        """Leave the controls out and use fewer rows where the panel is low."""
         super().resizeEvent(event)
         head = self._head.sizeHint().height()
         self._head.setVisible(self.grid.arrange(self.width(), self.height(), head))

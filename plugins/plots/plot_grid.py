@@ -32,9 +32,10 @@ class PlotGrid(QWidget):
         self._arrange(self._columns)
 
     def arrange(self, width: int, height: int, head: int) -> bool:
-        """Put the plots into the rows that fit in a room, px; say whether ``head`` does, too.
+        """Put the plots into the rows that fit, px; return whether a head of that height fits too.
 
-        The head goes before the plots stand in one row, and before they are too narrow there.
+        Where the height is short, the head is left out first. All plots share one row only where
+        each is wide enough to be read, or where nothing else fits.
         """
         columns, stages = self._columns, self._stages
         ways = [(columns, height - head), (stages, height - head)]
