@@ -114,9 +114,8 @@ class AxisPlot(QWidget):
         self.plot.setMinimumHeight(_WITH_TIMES if times else _WITHOUT)
         if times is not self._times:
             self._times = times
-            if (view := self._view) is not None:
-                self._view = None
-                self._use_view(view)  # which numbers the scales again
+            if self._view is not None:
+                self._name_scales(self._view)
 
     def share_height(self, height: int) -> None:
         """Part the height of trace and strip, px, where there is room for both."""
@@ -215,17 +214,20 @@ class AxisPlot(QWidget):
             return
         self._view = shown
         self._show_strip()
-        spectral, loop = shown is Shown.SPECTRUM, shown is Shown.LOOP
-        across = tr("frequency [Hz]") if spectral else "" if loop else tr("time [s]")
-        self.plot.show_scales(across, logarithmic=spectral, numbers=loop or self._times)
+        self._name_scales(shown)
         unit = self._scale.symbol
         if shown is Shown.GAP:
             unit = self._gap.symbol
-        elif spectral:
+        elif shown is Shown.SPECTRUM:
             unit = f"{self._gap.symbol}/√Hz"
         self._unit.setText(f"[{unit}]")
         for name in CURVES:
             self.plot.clear_signal(name)
+
+    def _name_scales(self, shown: Shown) -> None:
+        spectral, loop = shown is Shown.SPECTRUM, shown is Shown.LOOP
+        across = tr("frequency [Hz]") if spectral else "" if loop else tr("time [s]")
+        self.plot.show_scales(across, logarithmic=spectral, numbers=loop or self._times)
 
     def _draw_gap(self, picture: Picture) -> None:
         window = picture.window

@@ -231,6 +231,15 @@ def test_old_readings_are_grey_and_their_age_is_said(qtbot, window, panel):
     assert panel.age.isHidden()
 
 
+def test_plots_that_are_arranged_anew_keep_their_curves_while_paused(panel):
+    panel.grid.arrange(940, 390, 60)
+    panel.refresh()
+    panel.pause.click()
+    panel.grid.arrange(1270, 170, 60)
+    for name in panel.plots:
+        assert len(drawn(panel, name, "measured")[0]) > 0
+
+
 @pytest.mark.parametrize(
     ("room", "rows", "head", "times"),
     [
