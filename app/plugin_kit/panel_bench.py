@@ -137,7 +137,7 @@ def panel_bench(kind: type[Panel], robot: str = "rotemina") -> Iterator[PanelBen
     with TemporaryDirectory() as folder:
         clock = VirtualClock(1234.5)
         session = MotionSession(Simulator(load_robot(robot), clock=clock))
-        themes.apply(application, themes.DARK)
+        themes.prepare(application, themes.DARK)
         settings = Settings(Path(folder) / "settings.json")
         workbench = Workbench(session, settings, themes.DARK, Path(folder) / "played")
         panel = None
@@ -145,6 +145,7 @@ def panel_bench(kind: type[Panel], robot: str = "rotemina") -> Iterator[PanelBen
             session.connect()
             session.run_once()
             panel = kind(workbench)
+            themes.dress(panel, themes.DARK)
             yield PanelBench(panel, session, clock)
         finally:
             workbench.close()

@@ -1,7 +1,6 @@
 """Check of a panel: whether it can be made, painted, updated and closed."""
 
 from PySide6.QtCore import QCoreApplication, QEvent
-from PySide6.QtWidgets import QApplication
 
 from rotemina.app.panel import Area, Panel
 from rotemina.app.plugin_kit.escapes import escaped
@@ -30,11 +29,9 @@ def described(bench: PanelBench) -> None:
 
 def painted(bench: PanelBench) -> None:
     """Paint itself in every theme, small and large, and let nothing escape."""
-    application = QApplication.instance()
-    assert isinstance(application, QApplication)
     with escaped() as told:
         for theme in themes.THEMES.values():
-            themes.apply(application, theme)
+            themes.dress(bench.panel, theme)
             bench.workbench.set_theme(theme)
             for width, height in _SIZES:
                 bench.panel.resize(width, height)

@@ -38,6 +38,7 @@ from rotemina.app.shell.motion_bar import MotionBar
 from rotemina.app.shell.notices import NoticeBar
 from rotemina.app.shell.palette import Palette
 from rotemina.app.shell.palette_entries import Entry, command_entries, panel_entries
+from rotemina.app.shell.panel_declarations import PanelKind
 from rotemina.app.shell.panel_host import find_panels
 from rotemina.app.shell.progress_line import ProgressLine
 from rotemina.app.shell.quit_dialog import Leaving
@@ -173,7 +174,7 @@ class MainWindow(ArrangedWindow):
         TabHelp(tabs, pages, self.help_page.open_page)
         return tabs
 
-    def _dock(self, name: str, kind: type[Panel]) -> QDockWidget:
+    def _dock(self, name: str, kind: PanelKind) -> QDockWidget:
         """Return a dock for a panel, which is not made yet."""
         dock = QDockWidget(translate("panels", kind.title))
         dock.setObjectName(f"dock-{name}")

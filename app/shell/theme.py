@@ -6,7 +6,7 @@ from importlib import resources
 from string import Template
 
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,17 +86,27 @@ def scale_for(lines: int) -> float:
     return next((scale for least, scale in _TALL if lines >= least), 1.0)
 
 
-def apply(application: QApplication, theme: Theme, scale: float = 1.0) -> None:
-    """Give the whole application the theme's palette and style sheet, at a size of text."""
-    sheet = style_sheet(theme, scale)
-    if application.styleSheet() == sheet:
-        return
-    if not application.styleSheet():
+def prepare(application: QApplication, theme: Theme) -> None:
+    """Give the whole application the theme's palette."""
+    if application.style().objectName() != "fusion":
         application.setStyle("Fusion")
-    # Without the old sheet first: Qt 6.11 takes a fifth of the time to change it then.
-    application.setStyleSheet("")
     application.setPalette(_palette(theme))
-    application.setStyleSheet(sheet)
+
+
+def dress(window: QWidget, theme: Theme, scale: float = 1.0) -> None:
+    """Give a window, and with it all that it opens, a theme at a size of text.
+
+    The style sheet is a window's, not the application's: under one of the application each part of
+    a panel, from the smallest up, would be styled anew at every widget that it is put into.
+    """
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    sheet = style_sheet(theme, scale)
+    if window.styleSheet() == sheet:
+        return
+    window.setStyleSheet("")  # first: Qt 6.11 takes a fifth of the time to change it then
+    prepare(application, theme)
+    window.setStyleSheet(sheet)
 
 
 def style_sheet(theme: Theme, scale: float = 1.0) -> str:

@@ -1,7 +1,7 @@
 """How the window looks: layouts, theme and size of text, all of them kept between starts."""
 
 from PySide6.QtCore import QByteArray, QObject, QTimer
-from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow
+from PySide6.QtWidgets import QDockWidget, QMainWindow
 
 from rotemina.app.panel import Area
 from rotemina.app.shell import layouts
@@ -194,11 +194,8 @@ class Arrangement(QObject):
         self._dress(self._bench.theme)
 
     def dress(self) -> None:
-        """Take the size of text of the last time."""
-        if self.text_scale != 1.0:
-            self._dress(self._bench.theme)
+        """Dress the window in the theme in use, at the size of text of the last time."""
+        self._dress(self._bench.theme)
 
     def _dress(self, theme: themes.Theme) -> None:
-        application = QApplication.instance()
-        assert isinstance(application, QApplication)
-        themes.apply(application, theme, self.text_scale)
+        themes.dress(self._window, theme, self.text_scale)

@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QShowEvent
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from rotemina.app.widgets.controls import plain_tip, set_property
+from rotemina.app.widgets.when_dressed import leave_room
 
 
 class Figures(QWidget):
@@ -23,7 +23,6 @@ class Figures(QWidget):
         grid.setHorizontalSpacing(10)
         grid.setVerticalSpacing(spacing)
         grid.setColumnStretch(1, 1)
-        self._widest = widest
         self.values: dict[str, QLabel] = {}
         for row, (name, about) in enumerate(names.items()):
             title, value = QLabel(name), QLabel("–")
@@ -38,22 +37,7 @@ class Figures(QWidget):
             grid.addWidget(title, row, 0)
             grid.addWidget(value, row, 1)
             self.values[name] = value
-        self._fit()
-
-    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave room for the widest value whatever the size of text is."""
-        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
-            self._fit()
-        super().changeEvent(event)
-
-    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave room for the widest value; before, the size of text is not known."""
-        self._fit()
-        super().showEvent(event)
-
-    def _fit(self) -> None:
-        for value in self.values.values():
-            value.setMinimumWidth(value.fontMetrics().horizontalAdvance(self._widest))
+            leave_room(value, widest)
 
     def show_values(self, *texts: str) -> None:
         """Show texts in the order of the names."""

@@ -9,6 +9,9 @@ from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
+from rotemina.app.widgets.when_dressed import WhenDressed
+
+_LINES = "lines"  # property of a label: how many it always has room for
 
 
 class ElidedLabel(QLabel):
@@ -85,13 +88,18 @@ def plain_text(text: str = "", *, quiet: bool = True, wrap: bool = False, lines:
     if lines:
         label.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         keep_lines(label, lines)
+        WhenDressed(label, lambda: _fit_lines(label))
     return label
 
 
 def keep_lines(label: QLabel, lines: int) -> None:
     """Give a label room for so many lines, whatever is in it: what is below must not leap."""
-    label.ensurePolished()  # the theme says how large text is
-    label.setFixedHeight(lines * label.fontMetrics().lineSpacing() + 2)
+    label.setProperty(_LINES, lines)
+    _fit_lines(label)
+
+
+def _fit_lines(label: QLabel) -> None:
+    label.setFixedHeight(label.property(_LINES) * label.fontMetrics().lineSpacing() + 2)
 
 
 def show_text(label: QLabel, text: str) -> None:

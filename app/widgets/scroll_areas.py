@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
     QScrollArea,
+    QSizePolicy,
     QStackedWidget,
     QTabBar,
     QVBoxLayout,
@@ -14,9 +15,41 @@ from PySide6.QtWidgets import (
 )
 
 
-def scrolled(content: QWidget, *, sideways: bool = False) -> QScrollArea:
-    """Return an area in which a content is scrolled, ``sideways`` as well or only up and down."""
-    area = QScrollArea()
+class FittedScroll(QScrollArea):
+    """An area that is scrolled up and down alone: as wide as its content and the bar beside it.
+
+    ``least`` is its least width, px.
+    """
+
+    def __init__(self, least: int = 0) -> None:
+        super().__init__()
+        self._least = least
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for the width of the content, in the size of text of now."""
+        size = super().minimumSizeHint()
+        if self.widget() is not None:
+            bar = self.verticalScrollBar().sizeHint().width()
+            size.setWidth(max(self.widget().minimumSizeHint().width() + bar, self._least))
+        return size
+
+    def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Ask for no more width than that."""
+        return QSize(self.minimumSizeHint().width(), super().sizeHint().height())
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Be laid out anew with the content."""
+        if event.type() == QEvent.Type.LayoutRequest:
+            self.updateGeometry()
+        return super().eventFilter(watched, event)
+
+
+def scrolled(content: QWidget, *, sideways: bool = False, least: int | None = None) -> QScrollArea:
+    """Return an area in which a content is scrolled, ``sideways`` as well or only up and down.
+
+    With ``least`` it is as wide as the content needs, and that many px at least.
+    """
+    area = QScrollArea() if least is None else FittedScroll(least)
     area.setObjectName("panelScroll")
     area.setFrameShape(QFrame.Shape.NoFrame)
     area.setWidgetResizable(True)
@@ -26,9 +59,10 @@ def scrolled(content: QWidget, *, sideways: bool = False) -> QScrollArea:
     return area
 
 
-def least_width(area: QScrollArea) -> int:
-    """Return how wide an area must be for its content and the bar beside it."""
-    return area.widget().minimumSizeHint().width() + area.verticalScrollBar().sizeHint().width()
+def keeping_width(widget: QWidget) -> QWidget:
+    """Return a widget that stays as wide as it asks for, however much room there is."""
+    widget.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
+    return widget
 
 
 def tabbed(name: str, pages: Mapping[str, QWidget]) -> tuple[QTabBar, QStackedWidget]:
@@ -48,13 +82,11 @@ def lay_beside(
     panel: QWidget, controls: QWidget, width: int, tabs: QTabBar, views: QStackedWidget
 ) -> None:
     """Lay a panel out: controls at the left, scrolled, at least ``width`` px wide; views beside."""
-    scroll = scrolled(controls)
-    scroll.setFixedWidth(max(least_width(scroll), width))
     right = QVBoxLayout()
     right.setSpacing(4)
     right.addWidget(tabs)
     right.addWidget(views, 1)
     row = QHBoxLayout(panel)
     row.setContentsMargins(10, 6, 10, 6)
-    row.addWidget(scroll)
+    row.addWidget(keeping_width(scrolled(controls, least=width)))
     row.addLayout(right, 1)

@@ -1,5 +1,8 @@
 """The panel's controls for training, applying and tuning."""
 
+from collections.abc import Sequence
+
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -111,11 +114,18 @@ def _told() -> QLabel:
 
 def _switch(texts: tuple[str, str], *, primary: bool = False) -> QPushButton:
     """Return a button with room for both of its texts, which shows the first."""
-    button = QPushButton()
+    button = _Switch([tr(text) for text in texts])
     button.setProperty("primary", primary)  # its bold text takes more room
-    width = 0
-    for text in reversed(texts):
-        button.setText(tr(text))
-        width = max(width, button.sizeHint().width())
-    button.setMinimumWidth(width)
     return button
+
+
+class _Switch(QPushButton):
+    def __init__(self, texts: Sequence[str]) -> None:
+        super().__init__(texts[0])
+        self._texts = texts
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
+        """Leave room for any of the texts."""
+        size, width = super().minimumSizeHint(), self.fontMetrics().horizontalAdvance
+        size.setWidth(size.width() + max(map(width, self._texts)) - width(self.text()))
+        return size

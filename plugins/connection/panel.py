@@ -7,7 +7,7 @@ from rotemina.app.panel import Area, Panel
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.layouts import in_column
-from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.connection.driver_choice import DeviceSection
 from rotemina.plugins.connection.homing_section import PositionSection
 from rotemina.plugins.connection.line_quality import LineSection, StopSection
@@ -47,9 +47,7 @@ class ConnectionPanel(Panel):
         )
         content = QWidget()
         in_column(*self._sections, 1, on=content, margins=(10, 4, 10, 8), spacing=4)
-        scroll = scrolled(content)
-        in_column(scroll, on=self, margins=0)
-        self.setMinimumWidth(max(least_width(scroll), 300))
+        in_column(scrolled(content, least=300), on=self, margins=0)
         self.follow(self._refresh)
         self._refresh(workbench.session.snapshot())
 

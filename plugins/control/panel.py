@@ -96,6 +96,7 @@ class ControlPanel(Panel):
         )
         self.penetration, self.axes = PenetrationPage(workbench), AxesPage(workbench)
         self.tabs, self.pages = QTabBar(), QStackedWidget()
+        self.pages.setMinimumWidth(1)  # the axes say how wide the panel is
         self.tabs.setExpanding(False)
         self.tabs.setUsesScrollButtons(False)
         self.tabs.setStyleSheet(_FIVE_TABS)
@@ -124,15 +125,7 @@ class ControlPanel(Panel):
             self._add_stage(column, stage, axes)
         column.addStretch(1)
         content.setStyleSheet(_CLOSE)
-        scroll = scrolled(content)
-        self._rows, self._bar_width = content, scroll.verticalScrollBar().sizeHint().width()
-        self._keep_width()
-        return scroll
-
-    def _keep_width(self) -> None:
-        """Be as wide as the axes need: they are not scrolled sideways."""
-        needed = self._rows.minimumSizeHint().width() + self._bar_width
-        self.setMinimumWidth(max(needed, 330))
+        return scrolled(content, least=330)
 
     def _add_stage(self, column: QVBoxLayout, stage: str, axes: tuple[str, ...]) -> None:
         title = heading(
@@ -161,7 +154,6 @@ class ControlPanel(Panel):
             row.show_range(session.ranges.of(axis), self._forbidden.get(axis, ()))
             taken_up = axis in approaches and session.backlash.taken_up(axis)
             row.show_aids(*aids(inverses.get(axis), approaches.get(axis), taken_up=taken_up))
-        self._keep_width()  # fonts and texts have changed it
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
         """Give the axes four lines with large digits where all six of them have room."""

@@ -15,7 +15,7 @@ from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.layouts import in_column, in_row
-from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.faults import tr
 from rotemina.plugins.faults.fault_history import Entry, History, Kind, as_text
 from rotemina.plugins.faults.fault_injection import Injection
@@ -69,11 +69,9 @@ class FaultsPanel(Panel):
         buttons = in_row(self.clear_fault, 1, self.copy, self.save, self.empty, spacing=6)
         left = QWidget()
         in_column(buttons, (self.table, 1), on=left, margins=(0, 0, 4, 0))
-        scroll = scrolled(self.injection)
-        scroll.setMinimumWidth(least_width(scroll))
         split = QSplitter(Qt.Orientation.Horizontal)
         split.addWidget(left)
-        split.addWidget(scroll)
+        split.addWidget(scrolled(self.injection, least=0))
         split.setSizes([400, 520])
         split.setChildrenCollapsible(False)
         in_column(split, on=self, margins=(10, 8, 10, 8))

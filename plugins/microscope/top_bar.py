@@ -1,13 +1,13 @@
 """The bar above the picture: click modes, zoom, and tools."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QPushButton, QWidget
 
 from rotemina.app.widgets.controls import allow, button, plain_tip
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
 from rotemina.app.widgets.wheel_safe import SteadyChoice
+from rotemina.app.widgets.when_dressed import leave_room
 from rotemina.plugins.microscope import mark, tr
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
 from rotemina.sim.quantities import fixed
@@ -66,12 +66,8 @@ class TopBar(QWidget):
             self.tools.addItem(name)
         for widget in (self.zoom, self.fit, self.one, self.tools):
             row.addWidget(widget)
+        leave_room(self.zoom, _WIDEST_ZOOM)  # so that the first picture moves nothing
         view.zoomed.connect(lambda: self._show_zoom(view))
-
-    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 (Qt's name)
-        """Leave room for any zoom, so that the first picture moves nothing."""
-        self.zoom.setMinimumWidth(self.zoom.fontMetrics().horizontalAdvance(_WIDEST_ZOOM))
-        super().showEvent(event)
 
     def _show_zoom(self, view: PictureView) -> None:
         """Show how large the picture is; before the first one there is nothing to tell."""

@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QPlainTextEdit,
     QPushButton,
-    QScrollArea,
     QToolButton,
     QWidget,
 )
@@ -25,6 +24,7 @@ from rotemina.app.shell.engine_words import error_text, spoken
 from rotemina.app.widgets.controls import allow, plain_tip
 from rotemina.app.widgets.labels import heading
 from rotemina.app.widgets.layouts import in_column, in_grid, in_row
+from rotemina.app.widgets.scroll_areas import FittedScroll
 from rotemina.app.widgets.wheel_safe import SteadyChoice
 from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.form_fields import NumberField
@@ -56,7 +56,7 @@ _TABLE_TIP = (
 )
 
 
-class ParameterForm(QScrollArea):
+class ParameterForm(FittedScroll):
     """Fields by group; what they hold is taken when a field is left or Enter is pressed.
 
     Signals
@@ -125,7 +125,6 @@ class ParameterForm(QScrollArea):
         content = QWidget()
         in_column(self._body, files, 1, on=content, margins=(0, 0, 8, 4))
         self.setWidget(content)
-        self.setMinimumWidth(content.minimumSizeHint().width() + 12)
 
     def _make_choices(self, robot: Robot) -> None:
         axis = SteadyChoice(

@@ -19,7 +19,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
-from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.app.widgets.scroll_areas import keeping_width, scrolled
 from rotemina.plugins.penetration import mark, tr
 from rotemina.plugins.penetration.cell_list_view import CellListView
 from rotemina.plugins.penetration.cell_view import CellView
@@ -68,8 +68,8 @@ class PenetrationPanel(Panel):
 
     def _lay_out(self) -> None:
         thrust = QWidget()
-        self._beside = scrolled(self.readouts)
-        in_row(self._beside, (self.preview, 1), self.form, on=thrust, margins=0, spacing=12)
+        beside = keeping_width(scrolled(self.readouts, least=0))
+        in_row(beside, (self.preview, 1), self.form, on=thrust, margins=0, spacing=12)
         self.tabs, self.views = QTabBar(), QStackedWidget()
         for name, view in (
             (tr("Thrust"), thrust),
@@ -199,8 +199,6 @@ class PenetrationPanel(Panel):
         if self.message.text() != text:
             self.message.setText(text)
         self.readouts.refresh(status, state, self.plan_preview.parameters)
-        if (width := least_width(self._beside)) != self._beside.maximumWidth():
-            self._beside.setFixedWidth(width)  # the size of text is known once it is seen
         self.cells.refresh(state, status, self._why_not)
         self._draw(status)
         fixed = None

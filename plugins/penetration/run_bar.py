@@ -14,6 +14,7 @@ from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import allow, named
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_row
+from rotemina.app.widgets.when_dressed import leave_room
 from rotemina.drivers.clock import Clock
 from rotemina.plugins.connection.unavailable_reasons import in_motion
 from rotemina.plugins.penetration import tr
@@ -128,7 +129,7 @@ class RunBar(RunButtons):
         self.button.setObjectName("penetration")
         self.button.setMinimumSize(140, 34)
         widest = tr("armed, {left_s:.0f} s").format(left_s=600)
-        self.phase.setMinimumWidth(self.phase.fontMetrics().horizontalAdvance(widest) + 30)
+        leave_room(self.phase, widest, beside=30)
         self.strip = {one: _chip(spoken(one)) for one in STRIP}
         parts = self.arm, self.prepare, self.button, self.phase
         in_row(*parts, 1, *self.strip.values(), 1, on=self, margins=0, spacing=4)

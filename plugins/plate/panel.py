@@ -15,7 +15,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, set_property
 from rotemina.app.widgets.labels import plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
-from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.app.widgets.scroll_areas import keeping_width, scrolled
 from rotemina.plugins.plate import mark, tr
 from rotemina.plugins.plate.background_solution import Solving
 from rotemina.plugins.plate.canvas import Canvas
@@ -76,8 +76,7 @@ class PlatePanel(Panel):
         left = QWidget()
         parts = top, self.doing, self.controls, self.plate_text, saving, 1
         in_column(*parts, on=left, margins=(0, 0, 8, 0), spacing=6)
-        scroll = scrolled(left)
-        scroll.setFixedWidth(max(least_width(scroll), _WIDTH))
+        scroll = keeping_width(scrolled(left, least=_WIDTH))
         right = in_column((self.canvas, 1), self.pose_text)
         in_row(scroll, (right, 1), on=self, margins=(10, 6, 10, 6))
 

@@ -22,6 +22,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, button
 from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.when_dressed import WhenDressed
 from rotemina.plugins.recorder import mark, tr
 from rotemina.plugins.recorder.words import BEGIN, END, span
 from rotemina.sim.errors import InputError
@@ -277,12 +278,16 @@ class RecordsView(QWidget):
         self.question.ask(text, tr("Delete"), lambda: delete(chosen))
 
 
+def _fit(field: QLineEdit, text: str) -> None:
+    room = field.fontMetrics().horizontalAdvance(text)
+    field.setFixedWidth(max(60, room + 28))  # the frame and the cursor
+
+
 def _field(end: str) -> QLineEdit:
     field = QLineEdit()
     what = tr(end)
     field.setPlaceholderText(what)
-    room = field.fontMetrics().horizontalAdvance(what)
-    field.setFixedWidth(max(60, room + 28))  # the frame and the cursor
+    WhenDressed(field, lambda: _fit(field, what))
     field.setAccessibleName(
         tr("{end} of the section in seconds").format(end=what[:1].upper() + what[1:])
     )

@@ -7,7 +7,7 @@ from rotemina.app.panel import STALE_S, Area, Panel
 from rotemina.app.shell.language import marked
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.layouts import in_column
-from rotemina.app.widgets.scroll_areas import least_width, scrolled
+from rotemina.app.widgets.scroll_areas import scrolled
 from rotemina.plugins.teleoperation.coordinates import CoordinateSection
 from rotemina.plugins.teleoperation.mode_buttons import ChoiceSection
 from rotemina.plugins.teleoperation.overview import OverviewSection
@@ -37,10 +37,9 @@ class TeleoperationPanel(Panel):
         # What is read at a glance stays in sight while the rest is scrolled.
         sections = self.pad, self.choices, self.coordinates, self.reserve, self.editor
         in_column(*sections, 1, on=content, margins=(10, 4, 10, 8), spacing=4)
-        scroll = scrolled(content)
+        scroll = scrolled(content, least=300)
         head = in_column(self.head, margins=(10, 4, 10, 0))
         in_column(head, (scroll, 1), on=self, margins=0, spacing=0)
-        self.setMinimumWidth(max(least_width(scroll), 300))
         self.follow(self._refresh)
 
     def _refresh(self, machine: SessionState) -> None:

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QHeaderView,
     QPushButton,
+    QSpinBox,
     QTableWidget,
     QTableWidgetItem,
     QWidget,
@@ -23,6 +24,7 @@ from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import set_property
 from rotemina.app.widgets.labels import heading, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
+from rotemina.app.widgets.when_dressed import WhenDressed
 from rotemina.plugins.trajectory import mark, tr
 from rotemina.plugins.trajectory.dry_run_table import (
     BOUND,
@@ -168,9 +170,7 @@ class TrajectoryPanel(Panel):
         )
         for field in (self.begin, self.times):
             field.setKeyboardTracking(False)
-            field.setMaximumWidth(
-                field.fontMetrics().horizontalAdvance(field.prefix() + "99999 ×") + 28
-            )
+            WhenDressed(field, lambda field=field: _narrow(field))
             field.valueChanged.connect(lambda _: self._take_part())
             field.hide()
 
@@ -290,3 +290,8 @@ def _table() -> QTableWidget:
     table.horizontalHeader().setFixedHeight(23)
     table.verticalHeader().setDefaultSectionSize(21)  # six axes at 1280 × 800
     return table
+
+
+def _narrow(field: QSpinBox | QDoubleSpinBox) -> None:
+    text = field.prefix() + "99999 ×"
+    field.setMaximumWidth(field.fontMetrics().horizontalAdvance(text) + 28)

@@ -54,7 +54,7 @@ def test_every_action_of_every_menu_and_of_the_palette(qtbot, window, silent, mo
     clicked, dressed = [], []
     # Panels test what their own buttons do. (A bound method would not be given the button.)
     monkeypatch.setattr(QPushButton, "click", lambda button: clicked.append(button))
-    monkeypatch.setattr(themes, "apply", lambda _, theme, scale: dressed.append((theme, scale)))
+    monkeypatch.setattr(themes, "dress", lambda _, theme, scale: dressed.append((theme, scale)))
     texts = {command.text for command in window.commands()}
     seen = set()
     for action in all_actions(window.menuBar()):

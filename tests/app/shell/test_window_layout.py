@@ -2,7 +2,7 @@
 
 import pytest
 from PySide6.QtCore import QByteArray, QPoint
-from PySide6.QtWidgets import QApplication, QTabBar
+from PySide6.QtWidgets import QApplication, QLabel, QTabBar
 
 from rotemina.app.panel import Area
 from rotemina.app.shell.folded_panels import FOLDED
@@ -149,13 +149,16 @@ def test_spoilt_layouts_are_no_failure(settings, spoilt):
 
 def text_grows_by_steps_to_its_end_and_is_remembered(window, settings):
     looks = window.arrangement
-    before = window.stop_button.sizeHint().height()
+    before, plain = window.stop_button.sizeHint().height(), QLabel(parent=window)
+    plain.ensurePolished()
+    assert plain.font().pixelSize() == 13
     assert looks.text_scale == 1.0
     settings.set("window.scale", 1.75)
     looks.step_scale(1)
     looks.step_scale(1)
     assert looks.text_scale == 2.0
     assert window.stop_button.sizeHint().height() > 1.5 * before
+    assert plain.font().pixelSize() == 26
     looks.use_theme("contrast")
     assert window.workbench.theme.name == "contrast"
     assert window.stop_button.sizeHint().height() > 1.5 * before  # a theme keeps the size

@@ -10,7 +10,8 @@ from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.figures import Figures
 from rotemina.app.widgets.inline_question import Question
 from rotemina.app.widgets.labels import ElidedLabel, keep_lines, legend, plain_text, show_text
-from rotemina.app.widgets.scroll_areas import least_width, scrolled, tabbed
+from rotemina.app.widgets.layouts import in_column
+from rotemina.app.widgets.scroll_areas import scrolled, tabbed
 from rotemina.app.widgets.section import Section, clear
 from rotemina.app.widgets.table import RIGHT, Table
 from rotemina.app.widgets.wheel_safe import SteadyChoice, SteadyNumber, SteadySlider
@@ -214,7 +215,29 @@ def test_content_is_scrolled_up_and_down_alone(qtbot):
     area = scrolled(QLabel("a text"), sideways=True)
     qtbot.addWidget(area)
     assert area.horizontalScrollBarPolicy() is not off
-    assert least_width(area) > area.widget().minimumSizeHint().width() > 0
+
+
+def test_a_fitted_area_is_as_wide_as_its_content_in_any_size_of_text(qtbot):
+    content = QWidget()
+    label = QLabel("a text")
+    in_column(label, on=content)
+    area = scrolled(content, least=20)
+    qtbot.addWidget(area)
+    area.show()
+    before = area.minimumSizeHint().width()
+    assert before > content.minimumSizeHint().width() > 20
+    area.setStyleSheet("* { font-size: 40px; }")
+    assert area.minimumSizeHint().width() > before + 20
+    assert scrolled(QWidget(), least=300).minimumSizeHint().width() == 300
+
+
+def test_what_depends_on_the_theme_is_fitted_anew(qtbot):
+    label = plain_text(lines=2)
+    qtbot.addWidget(label)
+    before = label.height()
+    label.setStyleSheet("font-size: 40px;")
+    label.show()
+    assert label.height() > 80 > before
 
 
 def test_one_of_several_pages_is_seen(qtbot):

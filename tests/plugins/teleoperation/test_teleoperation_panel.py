@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QPoint, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from rotemina.app.motion import operation as operation_module
 from rotemina.app.motion.session import MotionSession
@@ -57,10 +57,10 @@ def make_panel(qtbot, settings, tmp_path):
     gc.disable()  # as the program does: the session's thread must not free what is Qt's
 
     def make(robot="rotemina"):
-        themes.apply(QApplication.instance(), themes.DARK)
         session = MotionSession(Simulator(load_robot(robot), {"settle_s": 0.02}))
         bench = Workbench(session, settings, themes.DARK, tmp_path / "played")
         found = TeleoperationPanel(bench)
+        themes.dress(found, themes.DARK)
         opened.append(found)
         found.resize(330, 1400)
         found.show()

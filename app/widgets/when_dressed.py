@@ -1,0 +1,36 @@
+"""Sizes that depend on the theme: on its font, and on the frames of its buttons and fields."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QEvent, QObject
+from PySide6.QtWidgets import QWidget
+
+_DRESSED = (QEvent.Type.FontChange, QEvent.Type.StyleChange)
+
+
+class WhenDressed(QObject):
+    """Calls ``fit`` at once, and again whenever a widget gets another font or style.
+
+    A panel is made before the window dresses it, and text may be made larger at any time.
+    """
+
+    def __init__(self, widget: QWidget, fit: Callable[[], object]) -> None:
+        super().__init__(widget)
+        self._fit = fit
+        widget.installEventFilter(self)
+        fit()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
+        """Fit after the widget has taken the change itself."""
+        if event.type() in _DRESSED:
+            self._fit()
+        return False
+
+
+def leave_room(widget: QWidget, text: str, beside: int = 0) -> None:
+    """Keep a widget at least as wide as a text and ``beside`` px, in any size of text."""
+
+    def fit() -> None:
+        widget.setMinimumWidth(widget.fontMetrics().horizontalAdvance(text) + beside)
+
+    WhenDressed(widget, fit)
