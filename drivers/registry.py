@@ -1,7 +1,7 @@
 """Discovery of drivers and other plugins among the installed entry points."""
 
 import inspect
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any
@@ -18,23 +18,26 @@ DRIVERS = "rotemina.drivers"
 class Discovery:
     """The classes ``found`` by name, and why others are ``broken`` and left out."""
 
-    found: dict[str, type[Any]]
+    found: dict[str, Any]
     broken: dict[str, str]
 
 
-def discover(group: str, base: type) -> Discovery:
+def discover(
+    group: str, base: type, known: Callable[[EntryPoint], object | None] = lambda point: None
+) -> Discovery:
     """Load every entry point of a group; a bad one is named and left out, never raised.
 
     A good one is a subclass of ``base`` that leaves nothing abstract and has the same
-    ``api_version``, where the base has one.
+    ``api_version``, where the base has one. What ``known`` returns stands for a class, which is not
+    loaded then.
     """
-    found: dict[str, type[Any]] = {}
+    found: dict[str, Any] = {}
     broken: dict[str, str] = {}
     for point in sorted(entry_points(group=group), key=lambda point: (point.name, point.value)):
         if point.name in found:
             broken[f"{point.name} ({point.value})"] = "another plugin already has this name"
             continue
-        loaded = load_class(point, base)
+        loaded = known(point) or load_class(point, base)
         if isinstance(loaded, str):
             broken[point.name] = loaded
         else:

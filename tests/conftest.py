@@ -74,8 +74,8 @@ def panels_made(request, monkeypatch):
 
     discover = panel_host.discover
 
-    def some(group, base):
-        found = discover(group, base)
+    def some(group, base, known):
+        found = discover(group, base, known)
         kept = {name: one for name, one in found.found.items() if name in {*USUAL, *wanted}}
         return replace(found, found=kept)
 

@@ -1,6 +1,7 @@
 """When panels are made: what is seen at once, the rest gradually, while nobody waits for it."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from threading import Thread
 
 from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 from PySide6.QtWidgets import QDockWidget
@@ -20,6 +21,11 @@ class LatePanels(QObject):
     window stands, so that a start does not wait for them. They are made before anything is read or
     compared in the background: none misses a trajectory or a record.
 
+    Attributes
+    ----------
+    load : callable, optional
+        Begins to load what the others need, on a thread that it returns; they wait for it.
+
     Signals
     -------
     done() : all are made.
@@ -32,6 +38,8 @@ class LatePanels(QObject):
     ) -> None:
         super().__init__(workbench)
         self._panels, self._docks, self._session = panels, docks, workbench.session
+        self.load: Callable[[], Thread] | None = None
+        self._loading: Thread | None = None
         self._since = QElapsedTimer()
         self._look = QTimer(self, singleShot=True, interval=0)
         self._look.timeout.connect(self.make_seen)
@@ -62,6 +70,10 @@ class LatePanels(QObject):
     def _make_next(self) -> None:
         connecting = self._session.snapshot().connection is Connection.CONNECTING
         if connecting and self._since.elapsed() < _CONNECTING_MS:
+            return
+        if self.load is not None:
+            self._loading, self.load = self.load(), None
+        if self._loading is not None and self._loading.is_alive():
             return
         waiting = self._panels.waiting
         if waiting:

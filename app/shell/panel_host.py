@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, MutableMapping
 
 from rotemina.app.panel import Panel
 from rotemina.app.shell.language import add_texts_of
+from rotemina.app.shell.panel_declarations import Declarations, DeclaredPanel, PanelKind
 from rotemina.app.shell.workbench import Workbench
 from rotemina.drivers.registry import discover
 
@@ -23,12 +24,12 @@ class Panels(MutableMapping[str, Panel]):
     Parameters
     ----------
     workbench : Workbench
-    kinds : dict of str to type of Panel
+    kinds : dict of str to PanelKind
 
     Attributes
     ----------
-    kinds : dict of str to type of Panel
-        Of all, whether they are made or not.
+    kinds : dict of str to PanelKind
+        Of all, whether they are made or not. One that is not may not be loaded either.
     made : dict of str to Panel
         Those that are made.
     placed : callable
@@ -37,7 +38,7 @@ class Panels(MutableMapping[str, Panel]):
         Is told name and reason when one cannot be made; it is in no mapping any more then.
     """
 
-    def __init__(self, workbench: Workbench, kinds: Mapping[str, type[Panel]]) -> None:
+    def __init__(self, workbench: Workbench, kinds: Mapping[str, PanelKind]) -> None:
         self._workbench = workbench
         self.kinds = dict(kinds)
         self.made: dict[str, Panel] = {}
@@ -54,7 +55,10 @@ class Panels(MutableMapping[str, Panel]):
     def _make(self, name: str) -> None:
         self._under_way.add(name)
         try:
-            panel = self.made[name] = self.kinds[name](self._workbench)
+            kind = self.kinds[name]
+            if isinstance(kind, DeclaredPanel):
+                kind = self.kinds[name] = kind.load()
+            panel = self.made[name] = kind(self._workbench)
         except BaseException as error:  # whatever it raises, the window goes on
             logger.exception("panel %s cannot be made", name)
             del self.kinds[name]
@@ -74,6 +78,12 @@ class Panels(MutableMapping[str, Panel]):
         """Names of those that are not made yet."""
         begun = self.made.keys() | self._under_way
         return tuple(name for name in self.kinds if name not in begun)
+
+    @property
+    def modules_to_load(self) -> tuple[str, ...]:
+        """Modules of panels that are not loaded yet."""
+        kinds = self.kinds.values()
+        return tuple(kind.point.module for kind in kinds if isinstance(kind, DeclaredPanel))
 
     @property
     def making(self) -> bool:
@@ -111,7 +121,9 @@ def find_panels(workbench: Workbench) -> tuple[Panels, Mapping[str, str]]:
     panels : Panels
     broken : name -> why the panel was left out
     """
-    found = discover(GROUP, Panel)
+    declarations = Declarations(workbench.settings)
+    found = discover(GROUP, Panel, declarations.known)
+    declarations.keep(found.found)
     packages = {kind.__module__.partition(".")[0] for kind in found.found.values()}
     for package in sorted(packages - {_OWN}):
         add_texts_of(package)

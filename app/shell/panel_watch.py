@@ -24,6 +24,7 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QWidget
 from rotemina.app.panel import Panel
 from rotemina.app.shell.help_topics import Explained, Remedy
 from rotemina.app.shell.language import translate
+from rotemina.app.shell.panel_declarations import PanelKind
 from rotemina.app.shell.workbench import Level
 
 logger = logging.getLogger(__name__)
@@ -60,7 +61,7 @@ class PanelWatch(QObject):
         panels: MutableMapping[str, Panel],
         docks: dict[str, QDockWidget],
         tell: Callable[[Level, str], object],
-        kinds: Mapping[str, type[Panel]] | None = None,
+        kinds: Mapping[str, PanelKind] | None = None,
         remedy: Callable[[str], Remedy | None] = lambda _: None,
     ) -> None:
         super().__init__()
@@ -81,10 +82,10 @@ class PanelWatch(QObject):
         self._before = sys.excepthook, threading.excepthook, sys.unraisablehook
         self._raised.connect(self._judge)
 
-    def begin_with(self, name: str, kind: type[Panel]) -> None:
+    def begin_with(self, name: str, kind: PanelKind) -> None:
         """Watch a panel of this class from now on, whatever one of its name did before."""
         self._faults.pop(name, None)
-        if not kind.__module__.startswith(_OWN):
+        if isinstance(kind, type) and not kind.__module__.startswith(_OWN):
             self._classes[kind.__module__, kind.__qualname__] = name
             for module in _upwards(kind.__module__):
                 self._modules.setdefault(module, name)

@@ -1,4 +1,4 @@
-"""Libraries that some view needs at its first use, loaded before that, away from the window."""
+"""What panels and views need at their first use, loaded before that, away from the window."""
 
 import gc
 import importlib
@@ -14,7 +14,7 @@ logger = logging.getLogger(__name__)
 LATE = ("scipy.optimize", "scipy.interpolate", "scipy.signal", "polars", "tifffile")
 
 
-def preload(names: Iterable[str] = LATE) -> threading.Thread:
+def preload(names: Iterable[str]) -> threading.Thread:
     """Begin to load modules on a thread of their own, which is returned.
 
     One that cannot be loaded is left to whoever needs it, and says so then.

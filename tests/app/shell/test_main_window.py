@@ -1,5 +1,6 @@
 """The window as an operator meets it, on the simulator and its real threads."""
 
+import threading
 from importlib.metadata import EntryPoint
 
 import numpy as np
@@ -81,6 +82,30 @@ def test_a_panel_is_made_when_its_dock_comes_into_sight(qtbot, make_robot_window
     window.bring_up("view3d")
     assert window.docks["view3d"].widget() is window.panels.made["view3d"]
     window.bring_up("nothing of that name")
+
+
+@pytest.mark.every_panel
+def test_others_wait_for_what_they_need(qtbot, make_robot_window, monkeypatch):
+    monkeypatch.setattr(LatePanels, "start", lambda _: None)
+    monkeypatch.setattr(LatePanels, "_before_work", lambda *_: None)
+    window, loaded = make_robot_window(), threading.Event()
+    thread = threading.Thread(target=loaded.wait)
+
+    def load():
+        thread.start()
+        return thread
+
+    late, waiting = window.late_panels, window.panels.waiting
+    late.load = load
+    for _ in range(3):
+        late._make_next()
+    assert thread.is_alive()
+    assert window.panels.waiting == waiting != ()
+    loaded.set()
+    thread.join()
+    with qtbot.waitSignal(late.done, timeout=LONG_MS):
+        late._next.start()
+    assert window.panels.waiting == ()
 
 
 def test_stop_is_always_in_sight_and_stops_on_escape(qtbot, window, press_escape):
