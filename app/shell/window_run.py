@@ -4,12 +4,13 @@ import atexit
 import gc
 import signal
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pyqtgraph as pg
 from platformdirs import user_data_path
 from pyqtgraph.util.garbage_collector import GarbageCollector
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QWidget
 
 from rotemina.app.motion.heartbeat import PERIOD_S
@@ -22,9 +23,9 @@ from rotemina.app.shell.application import make_application
 from rotemina.app.shell.exit_guard import exits_refused
 from rotemina.app.shell.layouts import OPERATE
 from rotemina.app.shell.main_window import MainWindow
-from rotemina.app.shell.memory_allocator import trim_heap
+from rotemina.app.shell.memory_allocator import give_back, trim_heap
 from rotemina.app.shell.panel_watch import PanelWatch
-from rotemina.app.shell.preloading import preload
+from rotemina.app.shell.preloading import LATE, preload
 from rotemina.app.shell.workbench import FRAME_MS, Level, Workbench
 from rotemina.app.watchdog.heartbeat_sender import Watched
 from rotemina.sim.errors import InputError
@@ -32,6 +33,7 @@ from rotemina.sim.errors import InputError
 DEFAULT_THEME = "dark"
 # How long another thread may go on once the window's, or the session's, wants to: both do so often.
 SWITCH_S = 0.001
+_GIVE_BACK_MS = 10_000  # between two times that free memory is given back
 
 
 def make_window(
@@ -54,7 +56,7 @@ def make_window(
         application, language.chosen(settings, speaks)
     )  # before anything is made that speaks
     theme = themes.theme_named(settings.get("window.theme", DEFAULT_THEME))
-    themes.apply(application, theme)
+    themes.prepare(application, theme)
     window = MainWindow(Workbench(session, settings, theme, folder))
     _tell_of(settings, window.workbench)
     _narrow(session, settings, window.workbench)
@@ -86,6 +88,24 @@ def _tell_of(settings: Settings, workbench: Workbench) -> None:
     else:
         return
     workbench.notify(Level.WARNING, text, about="window.md")
+
+
+def tidy_memory(parent: QObject) -> Callable[[], None]:
+    """Collect garbage and give free memory back now and then; return what ends that.
+
+    Python's own collector runs on whatever thread happens to allocate, and what it frees on the
+    session's thread may belong to Qt, which allows that on this one alone.
+    """
+    collector = GarbageCollector(interval=1.0)
+    trimming = QTimer(parent, interval=_GIVE_BACK_MS)
+    trimming.timeout.connect(give_back)
+    trimming.start()
+
+    def end() -> None:
+        collector.timer.stop()
+        trimming.stop()
+
+    return end
 
 
 def run(
@@ -136,9 +156,7 @@ def _run(
     )
     window.reloading.renewed.connect(watch.begin_with)
     watch.install()
-    # Python's collector runs on whatever thread happens to allocate, and what it frees on the
-    # session's thread may belong to Qt, which allows that on this one alone.
-    collector = GarbageCollector(interval=1.0)
+    end_tidying = tidy_memory(application)
     with watch.guarding():
         window.show()
         if not settings.get("window.state", ""):  # a first start shows what is needed to begin
@@ -148,7 +166,7 @@ def _run(
     # longer than the boards' set-points last. What is here stays as long as the program.
     gc.freeze()
     window.late_panels.done.connect(gc.freeze)
-    window.late_panels.done.connect(lambda: preload())
+    window.late_panels.load = lambda: preload((*LATE, *panels.modules_to_load))
     window.loop_watch.start()
     beat = QTimer(application, interval=round(1e3 * PERIOD_S))
     beat.timeout.connect(session.screen.beat)
@@ -184,5 +202,5 @@ def _run(
     status = application.exec()
     watched.close()
     watch.remove()
-    collector.timer.stop()
+    end_tidying()
     return status

@@ -190,15 +190,15 @@ def measure(seconds):
     """Use a window, and return what was measured."""
     import gc
 
-    from pyqtgraph.util.garbage_collector import GarbageCollector
     from window_use import UsedWindow
 
     from rotemina.app.cameras.feed import FeedState
+    from rotemina.app.shell.window_run import tidy_memory
 
     logging.basicConfig(level=logging.ERROR)
     load = os.getloadavg()[0]
     used = UsedWindow(times_as_fast=1.0, size=(1600, 1000))
-    collector = GarbageCollector(interval=1.0)  # as the program does
+    end_tidying = tidy_memory(used.application)  # as the program does
     gc.collect()
     gc.freeze()
     window, microscope = used.window, used.bench.microscope
@@ -214,7 +214,7 @@ def measure(seconds):
     told["frames"] = frames(used, min(seconds, 15.0))
     told["beside_3d"] = beside_3d(used, min(seconds, 15.0))
     told["load_after"] = round(os.getloadavg()[0], 2)
-    collector.timer.stop()
+    end_tidying()
     used.close()
     return told
 

@@ -42,17 +42,17 @@ def use(plays: int, actions: int, *, after: float = 0.1, trace: bool = False) ->
     """Use a window; return what it took after each part, and how that grew after a share of all."""
     import tracemalloc
 
-    from pyqtgraph.util.garbage_collector import GarbageCollector
     from PySide6.QtWidgets import QApplication
     from window_use import UsedWindow
 
+    from rotemina.app.shell.window_run import tidy_memory
     from rotemina.plugins.gap import records
 
     # The list of records is full before growth counts, however short the use.
     records.MOST_UNTICKED = min(records.MOST_UNTICKED, max(round(0.5 * after * plays), 1))
     logging.basicConfig(level=logging.ERROR)
     used = UsedWindow()
-    collector = GarbageCollector(interval=1.0)  # as the program does
+    end_tidying = tidy_memory(used.application)  # as the program does
     looks, counts, began_s = [], [], time.monotonic()
     first, begun = None, round(after * PARTS)
     for part in range(PARTS + 1):
@@ -86,7 +86,7 @@ def use(plays: int, actions: int, *, after: float = 0.1, trace: bool = False) ->
         name: round(100.0 * (looks[-1][name] / looks[begun][name] - 1.0), 2)
         for name in ("rss_mb", "pss_mb", "private_mb", "objects", "widgets", "threads", "files")
     }
-    collector.timer.stop()
+    end_tidying()
     used.close()
     return {"looks": looks, "grown_percent": growth, "most_grown": dict(grown.most_common(25))}
 
