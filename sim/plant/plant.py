@@ -316,9 +316,9 @@ class Plant:
             drawn = chance.draw(rows, axes, self.assembly.random)
         return kernel.Given(
             first,
-            clock_s,
-            np.ascontiguousarray(command),
-            np.zeros((0, axes)) if add is None else np.ascontiguousarray(add),
+            _only_read(clock_s),
+            _only_read(command),
+            _only_read(np.zeros((0, axes)) if add is None else add),
             force,
             kick,
             drawn,
@@ -466,3 +466,10 @@ def _rest(plant: Plant, command: bytes) -> PlantState:
         if isinstance(value, np.ndarray):
             value.flags.writeable = False
     return state
+
+
+def _only_read(values: FloatArray) -> FloatArray:
+    """Return values that nobody may change, whoever gave them: one kind is compiled for, not two."""
+    values = np.ascontiguousarray(values).view()
+    values.flags.writeable = False
+    return values

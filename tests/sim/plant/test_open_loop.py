@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rotemina.sim.plant import kernel
 from rotemina.sim.plant.errors import PlantError
 from rotemina.sim.plant.plant import Plant
 from rotemina.sim.plant.response import nominal_response
@@ -52,6 +53,17 @@ def test_reference_responses_are_met_to_1e9_of_the_range(shared_dir, name):
     for axis in ROBOT.axes:
         gap = np.abs(response.signal(axis, Tap.MEAS) - record.signal(axis, Tap.MEAS)).max()
         assert gap <= 1e-9 * ROBOT.axes[axis].span, axis
+
+
+def test_what_may_be_changed_and_what_may_not_is_compiled_for_once():
+    plant, time_s, command = Plant.of(ROBOT), np.array([0.0, 1e-3, 2e-3]), np.tile(CENTRE, (3, 1))
+    rest = plant.at_rest(-1e-3, CENTRE)
+    motion, _ = plant.advance(rest, time_s, command)
+    compiled = list(kernel.run.signatures)
+    time_s.flags.writeable = command.flags.writeable = False
+    again, _ = plant.advance(rest, time_s, command)
+    np.testing.assert_array_equal(motion.position, again.position)
+    assert kernel.run.signatures == compiled
 
 
 @given(st.lists(st.floats(1e-4, 0.3), min_size=3, max_size=60))
