@@ -23,25 +23,29 @@ class FittedScroll(QScrollArea):
 
     def __init__(self, least: int = 0) -> None:
         super().__init__()
-        self._least = least
+        self._least = self._told = least
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """Ask for the width of the content, in the size of text of now."""
-        size = super().minimumSizeHint()
-        if self.widget() is not None:
-            bar = self.verticalScrollBar().sizeHint().width()
-            size.setWidth(max(self.widget().minimumSizeHint().width() + bar, self._least))
-        return size
+        self._told = self._needed()
+        return QSize(self._told, super().minimumSizeHint().height())
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """Ask for no more width than that."""
         return QSize(self.minimumSizeHint().width(), super().sizeHint().height())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Be laid out anew with the content."""
-        if event.type() == QEvent.Type.LayoutRequest:
+        """Be laid out anew where the content needs another width, not at each change in it."""
+        if event.type() == QEvent.Type.LayoutRequest and self._needed() != self._told:
             self.updateGeometry()
         return super().eventFilter(watched, event)
+
+    def _needed(self) -> int:
+        content = self.widget()
+        if content is None:
+            return self._least
+        bar = self.verticalScrollBar().sizeHint().width()
+        return max(content.minimumSizeHint().width() + bar, self._least)
 
 
 def scrolled(content: QWidget, *, sideways: bool = False, least: int | None = None) -> QScrollArea:

@@ -469,7 +469,7 @@ def _rest(plant: Plant, command: bytes) -> PlantState:
 
 
 def _only_read(values: FloatArray) -> FloatArray:
-    """Return values that nobody may change, whoever gave them: one kind is compiled for, not two."""
+    """Return values that nobody may change, so that one kind of rows is compiled for, not two."""
     values = np.ascontiguousarray(values).view()
     values.flags.writeable = False
     return values
