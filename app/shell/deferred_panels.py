@@ -68,8 +68,8 @@ class LatePanels(QObject):
             self._next.start()
 
     def _make_next(self) -> None:
-        connecting = self._session.snapshot().connection is Connection.CONNECTING
-        if connecting and self._since.elapsed() < _CONNECTING_MS:
+        connected = self._session.snapshot().connection is Connection.CONNECTED
+        if not connected and self._since.elapsed() < _CONNECTING_MS:
             return
         if self.load is not None:
             self._loading, self.load = self.load(), None
