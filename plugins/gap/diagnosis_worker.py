@@ -18,7 +18,7 @@ from rotemina.plugins.gap.diagnosis_process import Failure, Request, Unwanted, r
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.compare.diagnosis_progress import Progress
 
-_NICE = 5  # the window and what steers the machine go first
+_NICE = 19  # the window and what steers the machine go first
 
 
 class _UnwantedError(Exception):
