@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 from rotemina.app.display_units import axis_scale
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import set_property
+from rotemina.app.widgets.when_dressed import WhenDressed
 from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import LITTLE
 
@@ -63,7 +64,7 @@ class RangeBar(QWidget):
         rough = scale._replace(decimals=0)
         self.ends = rough.number(self._low), rough.text(self._high)
         self._labelled = False
-        self.setFixedHeight(9)
+        WhenDressed(self, self._fit)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def show_position(self, position: float | None, command: float | None, *, stale: bool) -> None:
@@ -82,8 +83,11 @@ class RangeBar(QWidget):
     def label_ends(self, *, labelled: bool) -> None:
         """Write the ends of the range beside the bar, or leave them to the tooltip."""
         self._labelled = labelled
-        self.setFixedHeight(self.fontMetrics().height() if labelled else 9)
+        self._fit()
         self.update()
+
+    def _fit(self) -> None:
+        self.setFixedHeight(self.fontMetrics().height() if self._labelled else 9)
 
     def track(self) -> QRectF:
         """Return where the range is drawn."""

@@ -7,6 +7,7 @@ from rotemina.app.widgets.controls import named, plain_tip
 from rotemina.app.widgets.labels import plain_text, show_text
 from rotemina.app.widgets.layouts import in_column
 from rotemina.app.widgets.section import Section, clear
+from rotemina.app.widgets.when_dressed import WhenDressed
 from rotemina.plugins.inputs import tr
 from rotemina.plugins.inputs.words import Entry, Trouble
 
@@ -28,6 +29,7 @@ class DeviceList(Section):
         self.column.addWidget(self.list)
         self._entries: tuple[Entry, ...] = ()
         self._picked = ""  # by somebody; until then the first one is looked at
+        WhenDressed(self.list, self._fit)
 
     @property
     def key(self) -> str:
@@ -49,9 +51,11 @@ class DeviceList(Section):
             item.setToolTip(plain_tip(entry.name, entry.key, entry.standing, entry.problem or ""))
         self.none.setVisible(not entries)
         self.list.setVisible(bool(entries))
-        if entries:
-            height = self.list.sizeHintForRow(0) * min(len(entries), _MOST_ROWS) + _ROOM
-            self.list.setFixedHeight(height)
+        self._fit()
+
+    def _fit(self) -> None:
+        rows = min(len(self._entries), _MOST_ROWS)
+        self.list.setFixedHeight(rows * self.list.sizeHintForRow(0) + _ROOM)
 
     def _fill(self, entries: tuple[Entry, ...]) -> None:
         self.list.blockSignals(True)

@@ -94,10 +94,8 @@ class InputsPanel(Panel):
         content = QWidget()
         parts = self.list, self.live, self.troubles, self.profile
         self._column = in_column(*parts, 1, on=content, margins=(10, 0, 10, 8), spacing=4)
-        self._scroll = scrolled(content)
-        in_column(self._head, (self._scroll, 1), on=self, margins=0, spacing=0)
+        in_column(self._head, (scrolled(content, least=320), 1), on=self, margins=0, spacing=0)
         self._show_page(None)
-        self._widen()
 
     def _make_set_up(self) -> tuple[MappingSection, CalibrationSection]:
         """Return mapping and calibration, made if they are not there yet."""
@@ -108,15 +106,7 @@ class InputsPanel(Panel):
             place = self._column.indexOf(self.profile)
             self._column.insertWidget(place, self.calibration)
             self._column.insertWidget(place, self.mapping)
-            self._widen()
         return self.mapping, self.calibration
-
-    def _widen(self) -> None:
-        """Be wide enough: what is in a scroll area could else be cut off."""
-        content = self._column.parentWidget()
-        assert content is not None
-        bar = self._scroll.verticalScrollBar().sizeHint().width()
-        self.setMinimumWidth(max(content.minimumSizeHint().width() + bar, 320))
 
     # --- what is shown ----------------------------------------------------------------------------
 
