@@ -77,7 +77,12 @@ def test_a_run_on_the_simulator_ends_in_a_result(qtbot, panel):
     qtbot.waitUntil(panel.procedure.run.isEnabled, timeout=LONG_MS)
     panel.procedure.run.click()
     qtbot.waitUntil(panel.procedure.stop.isEnabled, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: panel.calibration is not None, timeout=4 * LONG_MS)
+    told, verdict = panel.procedure.told, panel.result.verdict
+    qtbot.waitUntil(
+        lambda: panel.calibration is not None or verdict.text() or "failed" in told.text(),
+        timeout=4 * LONG_MS,
+    )
+    assert panel.calibration is not None, (told.text(), verdict.text())
     assert panel.calibration.model.gain_error == pytest.approx(0.02, abs=1e-4)
 
 
