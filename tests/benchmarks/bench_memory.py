@@ -45,6 +45,7 @@ def use(plays: int, actions: int, *, after: float = 0.1, trace: bool = False) ->
     from PySide6.QtWidgets import QApplication
     from window_use import UsedWindow
 
+    from rotemina.app.shell.memory_allocator import give_back
     from rotemina.app.shell.window_run import tidy_memory
     from rotemina.plugins.gap import records
 
@@ -62,6 +63,7 @@ def use(plays: int, actions: int, *, after: float = 0.1, trace: bool = False) ->
                 used.act(round(actions / plays))
         used.settle(0.3)
         gc.collect()
+        give_back()  # what is free is not counted
         if part == begun and trace:
             tracemalloc.start(12)
             first = tracemalloc.take_snapshot()
