@@ -16,7 +16,7 @@ DRIVERS = "rotemina.drivers"
 
 @dataclass(frozen=True, slots=True)
 class Discovery:
-    """The classes ``found`` by name, and why others are ``broken`` and left out."""
+    """The classes ``found`` by name, or what stands for them, and why others are ``broken``."""
 
     found: dict[str, Any]
     broken: dict[str, str]

@@ -23,7 +23,7 @@ _PROGRAM = Path(__file__).parents[2]
 
 @dataclass(frozen=True, slots=True)
 class DeclaredPanel:
-    """A panel whose module is not loaded yet; attributes as those of its class."""
+    """A panel whose module is not loaded yet; it says what its class says."""
 
     point: EntryPoint
     title: str

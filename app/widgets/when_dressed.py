@@ -21,7 +21,7 @@ class WhenDressed(QObject):
         fit()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 (Qt's name)
-        """Fit after the widget has taken the change itself."""
+        """Fit: a widget has its new font and style by the time it is told of them."""
         if event.type() in _DRESSED:
             self._fit()
         return False
