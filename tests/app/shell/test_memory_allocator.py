@@ -8,44 +8,35 @@ import pytest
 
 from rotemina.app.shell import memory_allocator
 
-BEGIN = """
+PROGRAM = """
+import sys
 import numpy as np
 from pathlib import Path
 from rotemina.app.shell.memory_allocator import give_back, trim_heap
 
 def resident_mb():
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4096 / 1e6
-"""
-LARGE = """
+
+arrays, size = map(int, sys.argv[1:3])
 if trim_heap():
-    np.ones(3_000_000)  # after which such sizes would be kept, left to itself
+    np.ones(3_000_000)  # after which large sizes would be kept, left to itself
     before = resident_mb()
     kept, freed = [], []
-    for _ in range(40):
-        freed.append(np.ones(200_000))
+    for _ in range(arrays):
+        freed.append(np.ones(size))
         kept.append(np.ones(1000))
     freed.clear()
-    print(resident_mb() - before)
-"""
-SMALL = """
-if trim_heap():
-    before = resident_mb()
-    kept, freed = [], []
-    for _ in range(400):
-        freed.append(np.ones(20_000))
-        kept.append(np.ones(1000))
-    freed.clear()
-    give_back()
+    if size < 100_000:  # those that are larger go by themselves
+        give_back()
     print(resident_mb() - before)
 """
 
 
 @pytest.mark.skipif(not Path("/proc/self/statm").is_file(), reason="memory is read in /proc")
-@pytest.mark.parametrize("use", [LARGE, SMALL], ids=["large", "small"])
-def test_arrays_that_are_freed_leave_nothing(use):
-    told = subprocess.run(
-        [sys.executable, "-c", BEGIN + use], check=True, capture_output=True, text=True
-    ).stdout
+@pytest.mark.parametrize(("arrays", "size"), [(40, 200_000), (400, 20_000)])
+def test_arrays_that_are_freed_leave_nothing(arrays, size):
+    command = [sys.executable, "-c", PROGRAM, str(arrays), str(size)]
+    told = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     assert not told or float(told) < 10.0  # of 64 MB; nothing is told by another C library
 
 
