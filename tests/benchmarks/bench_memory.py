@@ -34,8 +34,14 @@ def memory_mb() -> dict[str, float]:
 
 def kinds() -> collections.Counter:
     """Return how many objects there are of each type."""
+    # No other thread may run: a tuple that it is filling would be shared, and filling it fail.
+    interval_s = sys.getswitchinterval()
+    sys.setswitchinterval(1.0)
+    time.sleep(0.01)  # threads that wait already do so by the interval before
     types = map(type, gc.get_objects())
-    return collections.Counter(f"{one.__module__}.{one.__qualname__}" for one in types)
+    found = collections.Counter(f"{one.__module__}.{one.__qualname__}" for one in types)
+    sys.setswitchinterval(interval_s)
+    return found
 
 
 def use(plays: int, actions: int, *, after: float = 0.1, trace: bool = False) -> dict[str, object]:
