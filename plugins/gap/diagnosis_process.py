@@ -4,6 +4,7 @@ What goes between the two is pickled, through pipes that nobody else has.
 """
 
 import copyreg
+import os
 import pickle
 import subprocess
 import sys
@@ -141,9 +142,7 @@ class DiagnosisProcess:
             self.close()
         if self._process is None:
             self._told = SimpleQueue()
-            self._process = subprocess.Popen(
-                [sys.executable, *_WORKER], stdin=subprocess.PIPE, stdout=subprocess.PIPE
-            )
+            self._process = _at_idle([sys.executable, *_WORKER])
             threading.Thread(
                 target=_read_on,
                 args=(self._process.stdout, self._told),
@@ -164,6 +163,27 @@ class DiagnosisProcess:
             return
         process.kill()
         self.close()
+
+
+def _at_idle(command: Sequence[str]) -> subprocess.Popen[bytes]:
+    """Start a process that runs only while no other wants the core.
+
+    The window and what steers the machine go first. On Linux a nice value is not enough: the
+    scheduler puts a thread that wakes on a core that is idle or runs a process of this policy, but
+    lets it wait behind a process that is only nice.
+    """
+    process = subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        creationflags=getattr(subprocess, "IDLE_PRIORITY_CLASS", 0),  # of Windows
+    )
+    with suppress(OSError):  # it may not be allowed here
+        if hasattr(os, "SCHED_IDLE"):
+            os.sched_setscheduler(process.pid, os.SCHED_IDLE, os.sched_param(0))
+        elif hasattr(os, "setpriority"):
+            os.setpriority(os.PRIO_PROCESS, process.pid, 19)
+    return process
 
 
 def write(message: object, stream: IO[bytes]) -> None:

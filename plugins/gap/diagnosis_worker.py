@@ -18,8 +18,6 @@ from rotemina.plugins.gap.diagnosis_process import Failure, Request, Unwanted, r
 from rotemina.sim.errors import InputError
 from rotemina.sim.gap.compare.diagnosis_progress import Progress
 
-_NICE = 19  # the window and what steers the machine go first
-
 
 class _UnwantedError(Exception):
     """Nobody waits for the answer any more."""
@@ -80,8 +78,6 @@ def _reply(request: Request, requests: _Requests, out: IO[bytes]) -> Answer | Fa
 def main() -> int:
     """Answer requests until the input ends; return the exit status."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the window's, which ends this one
-    if hasattr(os, "nice"):
-        os.nice(_NICE)
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints goes elsewhere
     requests = _Requests(sys.stdin.buffer)

@@ -203,8 +203,8 @@ def measure(seconds):
     gc.freeze()
     window, microscope = used.window, used.bench.microscope
     window.loop_watch.start()
-    used.plan(seconds=6.0)
     used.play()
+    used.plan(seconds=6.0)
     window.bring_up("microscope")
     used.until(lambda: microscope.status.cameras)
     microscope.camera.open("simulated:microscope")

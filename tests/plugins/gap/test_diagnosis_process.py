@@ -1,7 +1,9 @@
 """The process of a diagnosis, started for real: its answer, refusals, stop and death."""
 
+import os
 import subprocess
 import sys
+from pathlib import Path
 from pickle import PicklingError
 
 import numpy as np
@@ -75,6 +77,13 @@ def test_one_process_answers_again_and_again(process, started, healthy):
 
 
 @pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "SCHED_IDLE"), reason="a policy of Linux")
+def test_no_thread_of_it_takes_a_core_from_the_window(process, started, healthy):
+    process.answer(ROBOT, ["record"], [healthy], lambda _: None)
+    threads = [int(one.name) for one in Path(f"/proc/{started[0].pid}/task").iterdir()]
+    assert {os.sched_getscheduler(thread) for thread in threads} == {os.SCHED_IDLE}
+
+
 def test_what_cannot_be_diagnosed_is_refused_in_the_same_words(process, healthy):
     short = healthy.part(slice(0, 12))
     with pytest.raises(InputError) as here:
