@@ -9,7 +9,6 @@ from PySide6.QtGui import (
     QColor,
     QFocusEvent,
     QHideEvent,
-    QImage,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -23,10 +22,11 @@ from rotemina.app.microscope.status import MicroscopeStatus
 from rotemina.app.shell.theme import Theme
 from rotemina.drivers.cameras.frame import Frame, Region
 from rotemina.plugins.microscope import painting, tr
-from rotemina.plugins.microscope.contrast import Contrast, levels, shown
+from rotemina.plugins.microscope.contrast import Contrast, levels
 from rotemina.plugins.microscope.feed_notice import feed_notice
 from rotemina.plugins.microscope.geometry import Viewport
 from rotemina.plugins.microscope.overlays import Layer, Look, Shape, Stroke, shapes
+from rotemina.plugins.microscope.picture import Picture, PictureWork, Wanted
 from rotemina.plugins.microscope.scale_bar import scale_bar
 
 _WHEEL = 1.2  # a notch
@@ -79,9 +79,8 @@ class PictureView(QWidget):
         self._panned_from: QPointF | None = None
         self._held = False
         self._space = False
-        self._drawn: tuple[object, ...] | None = None
-        self._image = QImage()
-        self._bytes = np.zeros((1, 1), dtype=np.uint32)  # what the image looks at
+        self._picture: Picture | None = None
+        self._work = PictureWork(self, self._take)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
         self.setMinimumSize(160, 120)
@@ -100,12 +99,14 @@ class PictureView(QWidget):
         before = self.frame
         self.status = status
         frame = self.frame
-        if frame is not None and frame is not before:
-            rows, columns = frame.pixels.shape[:2]
-            if (rows, columns) != (self.viewport.rows, self.viewport.columns):
-                self._view(self.viewport.showing(columns, rows))
-            self.span = levels(frame, self.contrast)
-        self.update()
+        if frame is None or frame is before:
+            self.update()
+            return
+        rows, columns = frame.pixels.shape[:2]
+        if (rows, columns) != (self.viewport.rows, self.viewport.columns):
+            self._view(self.viewport.showing(columns, rows))
+        if not self._work.busy:
+            self._work.begin(self._wanted(frame))
 
     def set_contrast(self, contrast: Contrast) -> None:
         """Show numbers by other colours."""
@@ -165,8 +166,9 @@ class PictureView(QWidget):
         area = QRectF(self.rect())
         painter.fillRect(area, QColor(self._theme.window))
         frame = self.frame
-        if frame is not None:
-            self._draw_picture(painter, frame)
+        picture = None if frame is None else self._picture_in_sight(frame)
+        if picture is not None:
+            picture.draw(painter)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             if Layer.CROSSHAIR in self.layers:
                 painting.draw_crosshair(painter, self.viewport)
@@ -179,27 +181,28 @@ class PictureView(QWidget):
         painting.draw_notice(painter, area, said, self._theme)
         painting.draw_badge(painter, area, said, self._theme)
         painter.end()
-        if frame is not None:
-            self.painted.emit(frame)
+        if picture is not None:
+            self.painted.emit(picture.of.frame)
 
-    def _draw_picture(self, painter: QPainter, frame: Frame) -> None:
-        part = self.viewport.part()
-        wanted = (frame, self.contrast, self.span, part)
-        if wanted != self._drawn:
-            self._bytes = shown(
-                frame,
-                self.contrast,
-                self.span,
-                columns=part.columns,
-                rows=part.rows,
-                size=(part.width, part.height),
-            )
-            height, width = self._bytes.shape
-            self._image = QImage(
-                self._bytes.data, width, height, 4 * width, QImage.Format.Format_RGB32
-            )
-            self._drawn = wanted
-        painter.drawImage(QPointF(round(part.left), round(part.top)), self._image)
+    def _wanted(self, frame: Frame) -> Wanted:
+        return Wanted(frame, self.contrast, self.viewport.part())
+
+    def _take(self, picture: Picture) -> None:
+        """Show what was worked out, and go on with what came meanwhile."""
+        self._picture, self.span = picture, picture.span
+        frame = self.frame
+        if frame is not None and frame is not picture.of.frame:
+            self._work.begin(self._wanted(frame))
+        self.update()
+
+    def _picture_in_sight(self, frame: Frame) -> Picture:
+        """Return the newest picture; what hands change, such as the zoom, is not waited for."""
+        wanted = self._wanted(frame)
+        picture = self._picture
+        if picture is None or not picture.of.looks_like(wanted):
+            picture = self._picture = wanted.worked_out()
+            self.span = picture.span
+        return picture
 
     def _shapes(self) -> list[Shape]:
         found = shapes(self.status, self.layers)

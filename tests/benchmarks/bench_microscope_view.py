@@ -58,6 +58,7 @@ def test_from_the_camera_to_the_screen(tmp_path):
             time.sleep(0.01)
         assert done()
 
+    until(lambda: not window.panels.waiting)  # it is used, not built
     until(lambda: microscope.status.cameras)
     microscope.camera.open("simulated:microscope")
     until(lambda: microscope.status.feed.state is FeedState.LIVE and panel.view.frame is not None)
@@ -81,6 +82,7 @@ def test_from_the_camera_to_the_screen(tmp_path):
 
 @pytest.mark.parametrize("size", SIZES)
 def test_pictures_of_16_bits(size):
+    from PySide6.QtCore import QEventLoop
     from PySide6.QtWidgets import QApplication
 
     from rotemina.app.cameras.feed import FeedState, FeedView
@@ -113,7 +115,8 @@ def test_pictures_of_16_bits(size):
             )
             before = time.process_time()
             view.show_status(status)
-            view.repaint()
+            while not painted or painted[-1] is not frame:
+                QApplication.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
             spent.append(time.process_time() - before)
         rates[table.value] = 1.0 / np.median(spent[5:])
     view.hide()
@@ -121,5 +124,5 @@ def test_pictures_of_16_bits(size):
     cv2.setNumThreads(threads)
     shown = "; ".join(f"{name} {rate:.0f}" for name, rate in rates.items())
     print(f"\n1300x1030 px in {size[0]}x{size[1]}, pictures/s (limit {LEAST_HZ:g}): {shown}")
-    assert len(painted) == 60 * len(Table)
+    assert len({frame.number for frame in painted}) == 60
     assert min(rates.values()) >= LEAST_HZ

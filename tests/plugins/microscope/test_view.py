@@ -96,6 +96,40 @@ def test_the_newest_picture_is_painted_where_it_belongs(qtbot, view, microscope)
     assert QColor(veiled.pixel(corner)).red() > 0  # greyed, so that all see it
 
 
+def test_pictures_that_come_faster_than_they_are_drawn_are_passed_over(qtbot, view, microscope):
+    painted = []
+    view.painted.connect(painted.append)
+    came = [
+        Frame(np.full((103, 130), level, np.uint16), 0.0, level, 12, Region(0, 0, 130, 103))
+        for level in (100, 1000, 2000, 4095)
+    ]
+    view.set_contrast(Contrast(auto=False))
+    for frame in came:
+        microscope.feed(frame=frame)
+        view.show_status(microscope.status)
+    qtbot.waitUntil(lambda: bool(painted) and painted[-1] is came[-1])
+    assert not any(frame is came[1] or frame is came[2] for frame in painted)
+    place = at(view, 65, 30)
+    assert QColor(view.grab().toImage().pixel(place)).red() == 255
+
+
+def test_a_zoom_does_not_wait_for_the_picture(qtbot, view, microscope):
+    for layer in Layer:
+        view.set_layer(layer, False)
+    view.set_contrast(Contrast(auto=False))
+    pixels = np.zeros((103, 130), np.uint16)
+    pixels[45:55, 60:70] = 4095
+    frame = Frame(pixels, 0.0, 1, 12, Region(0, 0, 130, 103))
+    microscope.feed(frame=frame)
+    with qtbot.waitSignal(view.painted, check_params_cb=lambda one: one is frame):
+        view.show_status(microscope.status)
+    view.show_one_to_one()
+    image = view.grab().toImage()
+    for column, row, level in ((61, 46, 255), (68, 53, 255), (58, 50, 0), (72, 50, 0)):
+        place = at(view, column, row)
+        assert QColor(image.pixel(place)).red() == level
+
+
 def test_wheel_pan_and_keys(qtbot, view):
     about = QPointF(60.0, 40.0)
     held = view.viewport.to_picture(60.0, 40.0)
