@@ -10,7 +10,7 @@ from rotemina.drivers.cameras.frame import Frame
 FROZEN_S = 1.0
 _FROZEN_FRAMES = 4
 _BLACK_SHARE = 0.03  # of the largest number: above a camera's black level, below any picture
-_BLACK_QUANTILE = 0.999
+_NOT_BLACK = 0.001  # of the pixels, at most, that may be brighter
 _STRIDE = 8  # rows and columns between the pixels that are looked at
 _ROWS = 4
 
@@ -49,4 +49,5 @@ class FrameCheck:
 
 def _black(frame: Frame) -> bool:
     some = frame.pixels[::_STRIDE, ::_STRIDE]
-    return bool(np.quantile(some, _BLACK_QUANTILE) < _BLACK_SHARE * frame.largest)
+    brighter = np.count_nonzero(some >= _BLACK_SHARE * frame.largest)
+    return bool(brighter <= _NOT_BLACK * some.size)

@@ -299,5 +299,5 @@ class Playback:
     @staticmethod
     def _at(state: PlaybackState, whole: CheckedTrajectory, path_s: float) -> PlaybackState:
         time_s = whole.commands.time_s
-        row = int(np.searchsorted(time_s - time_s[0], path_s + _ROUNDING_S, side="right")) - 1
+        row = int(np.searchsorted(time_s, time_s[0] + path_s + _ROUNDING_S, side="right")) - 1
         return replace(state, row=max(row, 0), path_s=path_s)

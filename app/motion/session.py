@@ -3,7 +3,6 @@
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from datetime import datetime
 
 from rotemina.app.motion.admission import Admission
@@ -316,8 +315,7 @@ class MotionSession:
 
     def snapshot(self) -> SessionState:
         """Return the present state; any thread."""
-        state = self._link.snapshot()
-        return replace(state, tip=self.bounds.tip(state))
+        return self._link.snapshot(self.bounds.tip)
 
     @property
     def at_rest(self) -> bool:

@@ -1,5 +1,8 @@
 """The bounds of the tip in a session, and teaching of the floor at rest."""
 
+from collections.abc import Mapping
+from typing import NamedTuple
+
 import numpy as np
 
 from rotemina.app.motion.admission import Admission
@@ -12,6 +15,14 @@ from rotemina.sim.quantities import rounded
 from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 
+class _Known(NamedTuple):
+    """Where the tip is, m, by which bounds and which commands."""
+
+    zone: KeepOutZone
+    command: Mapping[str, float]
+    tip: tuple[float, float, float]
+
+
 class TipBounds:
     """The keep-out zone that the guard holds motion against."""
 
@@ -19,6 +30,7 @@ class TipBounds:
         self._link = link
         self._admission = admission
         self._guard = guard
+        self._known: _Known | None = None  # asked for far oftener than it changes
 
     @property
     def keep_out(self) -> KeepOutZone | None:
@@ -27,11 +39,14 @@ class TipBounds:
 
     def tip(self, state: SessionState) -> tuple[float, float, float] | None:
         """Return the commanded position of the tip, m; None if there is no tip."""
-        zone = self._guard.zone
-        if zone is None or not state.command:
+        zone, command = self._guard.zone, state.command
+        if zone is None or not command:
             return None
-        x, y, z = zone.tip(np.array([state.command[axis] for axis in self._link.robot.axes]))
-        return float(x), float(y), float(z)
+        known = self._known
+        if known is None or known.zone is not zone or known.command is not command:
+            x, y, z = zone.tip(np.array([command[axis] for axis in self._link.robot.axes]))
+            known = self._known = _Known(zone, command, (float(x), float(y), float(z)))
+        return known.tip
 
     def teach_floor(self, clearance: float = 0.0) -> float:
         """Put the tip's floor where the tip is now, or that much lower; return its height, m.

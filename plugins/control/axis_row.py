@@ -73,6 +73,7 @@ class AxisRow(QFrame):
         self._scale: Scale = axis_scale(self._described)
         self._ends: Range = self._described.range
         self._command: float | None = None
+        self._locked: tuple[object, ...] | None = None  # what the buttons say
         self.confirmation = Confirmation(self._described.span, workbench.session)
         self.holding = Holding(workbench, axis, self)
         self._bar = RangeBar(workbench, axis)
@@ -293,6 +294,10 @@ class AxisRow(QFrame):
 
     def _lock(self, why_not: str | None) -> None:
         name, held = label(self._axis), self._steps.step(self._axis) is None
+        asked = self.confirmation.asked is not None
+        if self._locked == (told := (why_not, held, self._ends, asked)):
+            return
+        self._locked = told
         how = tr("while pressed") if held else tr("one step")
         for button in (self.minus, self.plus):
             button.setProperty("held", held)  # the command palette can only click
@@ -311,7 +316,7 @@ class AxisRow(QFrame):
             self.go,
             why_not,
             tr("A large move: press again to confirm")
-            if self.confirmation.asked is not None
+            if asked
             else tr("Move {name} to the typed position").format(name=name),
         )
 
