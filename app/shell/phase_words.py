@@ -2,8 +2,7 @@
 
 from enum import StrEnum
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.display_units import label
 from rotemina.app.motion.ownership import OPERATOR
@@ -13,6 +12,7 @@ from rotemina.app.motion.stop import LOCKED, StopRequest
 from rotemina.app.shell.engine_words import spoken
 from rotemina.app.shell.language import marked, translate
 from rotemina.app.widgets.controls import set_property
+from rotemina.app.widgets.labels import LiveLabel
 from rotemina.drivers.samples import DeviceState
 
 
@@ -126,12 +126,11 @@ def set_tone(widget: QWidget, value: Tone) -> None:
     set_property(widget, "tone", str(value))
 
 
-class PhaseLabel(QLabel):
+class PhaseLabel(LiveLabel):
     """The phase in one word, in its colour."""
 
     def __init__(self) -> None:
         super().__init__("–")
-        self.setTextFormat(Qt.TextFormat.PlainText)
         self.setAccessibleName(translate("shell", "Phase of the session"))
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         set_tone(self, Tone.QUIET)

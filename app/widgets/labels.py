@@ -11,6 +11,7 @@ from rotemina.app.shell.theme import Theme
 from rotemina.app.widgets.controls import plain_tip
 from rotemina.app.widgets.when_dressed import WhenDressed
 
+_FORM = str.maketrans("123456789-−", "000000000++")  # any digit as the widest, and any sign
 _LINES = "lines"  # property of a label: how many it always has room for
 
 
@@ -64,6 +65,46 @@ class ElidedLabel(QLabel):
         text = next((one for one in forms if metrics.horizontalAdvance(one) <= room), forms[-1])
         cut = metrics.elidedText(text, Qt.TextElideMode.ElideRight, room)
         painter.drawText(self.contentsRect(), int(Qt.AlignmentFlag.AlignVCenter), cut)
+        painter.end()
+
+
+class LiveLabel(QLabel):
+    """Plain text whose digits change at every frame.
+
+    Qt's label would have all of the window laid out anew at each text. This one has that done for
+    another form of it alone: any number of as many digits takes the same place, with any sign.
+    """
+
+    def __init__(self, text: str = "", *, quiet: bool = False) -> None:
+        super().__init__()
+        self._text = ""
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setProperty("quiet", quiet)
+        self.setText(text)
+
+    def text(self) -> str:
+        """Return the text."""
+        return self._text
+
+    def setText(self, text: str) -> None:  # noqa: N802 (Qt's name)
+        """Show another text."""
+        if text == self._text:
+            return
+        self._text = text
+        form = text.translate(_FORM)
+        if form != super().text():
+            super().setText(form)
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 (Qt's name)
+        """Draw the text."""
+        painter = QPainter(self)
+        self.drawFrame(painter)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        flags = int(self.alignment())
+        if self.wordWrap():
+            flags |= int(Qt.TextFlag.TextWordWrap)
+        painter.drawText(self.contentsRect(), flags, self._text)
         painter.end()
 
 

@@ -12,7 +12,7 @@ from rotemina.app.motion.ranges import Range
 from rotemina.app.motion.state import SessionState
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import allow, named, plain_tip, set_property, show_tip
-from rotemina.app.widgets.labels import ElidedLabel, plain_text
+from rotemina.app.widgets.labels import ElidedLabel, LiveLabel
 from rotemina.app.widgets.layouts import in_grid, in_row
 from rotemina.drivers.clock import Clock
 from rotemina.drivers.samples import DeviceState
@@ -79,10 +79,10 @@ class AxisRow(QFrame):
         self._bar = RangeBar(workbench, axis)
         self._readout = Readout(workbench, tr("{label} position").format(label=label(axis)))
         self.status = named(ElidedLabel(), tr("{label} state").format(label=label(axis)))
-        self.left = named(plain_text(), tr("{label} range left").format(label=label(axis)))
+        self.left = named(LiveLabel(quiet=True), tr("{label} range left").format(label=label(axis)))
         self.left.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.difference = named(
-            plain_text(), tr("{label}: measured minus command").format(label=label(axis))
+            LiveLabel(quiet=True), tr("{label}: measured minus command").format(label=label(axis))
         )
         self.difference.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.minus, self.plus = self._jog_button("−", -1), self._jog_button("+", +1)

@@ -4,23 +4,23 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from rotemina.app.display_units import axis_scale
 from rotemina.app.shell.workbench import Workbench
 from rotemina.app.widgets.controls import set_property
+from rotemina.app.widgets.labels import LiveLabel
 from rotemina.app.widgets.when_dressed import WhenDressed
 from rotemina.plugins.control import tr
 from rotemina.plugins.control.wording import LITTLE
 
 
-class Readout(QLabel):
+class Readout(LiveLabel):
     """A large number; too old, it is grey and hatched."""
 
     def __init__(self, workbench: Workbench, name: str) -> None:
         super().__init__("–")
         self._workbench = workbench
-        self.setTextFormat(Qt.TextFormat.PlainText)
         self.setProperty("readout", True)
         self.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.setAccessibleName(name)

@@ -22,7 +22,7 @@ from rotemina.app.shell.language import marked
 from rotemina.app.shell.loaded_trajectory import Plan
 from rotemina.app.shell.workbench import Level, Workbench
 from rotemina.app.widgets.controls import set_property
-from rotemina.app.widgets.labels import heading, plain_text
+from rotemina.app.widgets.labels import LiveLabel, heading, plain_text
 from rotemina.app.widgets.layouts import in_column, in_row
 from rotemina.app.widgets.when_dressed import WhenDressed
 from rotemina.plugins.trajectory import mark, tr
@@ -78,7 +78,8 @@ class TrajectoryPanel(Panel):
         self.transport = Transport(workbench)
         self.name = heading("")
         self.verdict = plain_text(tr(EMPTY), quiet=False, wrap=True)
-        self.gaps = plain_text(wrap=True)
+        self.gaps = LiveLabel(quiet=True)
+        self.gaps.setWordWrap(True)
         self.begin, self.times = QDoubleSpinBox(), QDoubleSpinBox()
         self._make_parts()
         self.table = _table()
