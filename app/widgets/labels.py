@@ -101,10 +101,14 @@ class LiveLabel(QLabel):
         painter = QPainter(self)
         self.drawFrame(painter)
         painter.setPen(self.palette().color(self.foregroundRole()))
-        flags = int(self.alignment())
+        flags, room = int(self.alignment()), self.contentsRect()
         if self.wordWrap():
             flags |= int(Qt.TextFlag.TextWordWrap)
-        painter.drawText(self.contentsRect(), flags, self._text)
+        if self.frameWidth():  # from which Qt's label keeps half an x away
+            away = self.fontMetrics().horizontalAdvance("x") // 2
+            right = bool(self.alignment() & Qt.AlignmentFlag.AlignRight)
+            room.adjust(0 if right else away, 0, -away if right else 0, 0)
+        painter.drawText(room, flags, self._text)
         painter.end()
 
 

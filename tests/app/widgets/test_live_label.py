@@ -35,7 +35,7 @@ def beside(qtbot):
 
 
 def test_only_another_form_is_laid_out(qtbot, beside):
-    window, live, plain = beside
+    window, live, _ = beside
     laid = Laid(window)
     for text in ("−1.234 µm", "+9.871 µm", "+0.000 µm"):
         live.setText(text)
@@ -48,8 +48,10 @@ def test_only_another_form_is_laid_out(qtbot, beside):
     assert live.sizeHint().width() > width
 
 
-def test_it_looks_like_a_label(qtbot, beside):
-    _, live, plain = beside
+@pytest.mark.parametrize("sheet", ["", "QLabel {border: 1px solid red; padding: 1px 9px}"])
+def test_it_looks_like_a_label(beside, sheet):
+    window, live, plain = beside
+    window.setStyleSheet(sheet)
     for text in ("+0.000 µm", "−7.314 µm"):
         live.setText(text)
         plain.setText(text)
