@@ -15,7 +15,7 @@ from rotemina.sim.quantities import rounded
 from rotemina.sim.trajectory.axis_limits import OutOfLimitsError
 
 
-class _Known(NamedTuple):
+class _Located(NamedTuple):
     """Where the tip is, m, by which bounds and which commands."""
 
     zone: KeepOutZone
@@ -30,7 +30,7 @@ class TipBounds:
         self._link = link
         self._admission = admission
         self._guard = guard
-        self._known: _Known | None = None  # asked for far oftener than it changes
+        self._known: _Located | None = None  # asked for far oftener than it changes
 
     @property
     def keep_out(self) -> KeepOutZone | None:
@@ -45,7 +45,7 @@ class TipBounds:
         known = self._known
         if known is None or known.zone is not zone or known.command is not command:
             x, y, z = zone.tip(np.array([command[axis] for axis in self._link.robot.axes]))
-            known = self._known = _Known(zone, command, (float(x), float(y), float(z)))
+            known = self._known = _Located(zone, command, (float(x), float(y), float(z)))
         return known.tip
 
     def teach_floor(self, clearance: float = 0.0) -> float:
