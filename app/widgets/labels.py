@@ -90,6 +90,8 @@ class LiveLabel(QLabel):
         """Show another text."""
         if text == self._text:
             return
+        if self.accessibleName() == self._text:  # a screen reader would read the form
+            self.setAccessibleName(text)
         self._text = text
         form = text.translate(_FORM)
         if form != super().text():
