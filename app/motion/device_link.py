@@ -161,10 +161,8 @@ class DeviceLink:
                 failure = error
         self.worker.stopped(asked_s, failure, request)
 
-    def snapshot(
-        self, tip: Callable[[SessionState], tuple[float, float, float] | None] = lambda _: None
-    ) -> SessionState:
-        """Return the present state; ``tip`` finds where that is, which is left out otherwise."""
+    def snapshot(self) -> SessionState:
+        """Return the present state, without the tip's."""
         state = self.worker.state
         latched = self.gate.latched
         locked = self._locked(state)
@@ -179,7 +177,6 @@ class DeviceLink:
             latched=latched,
             owners=self.worker.ownership.owners,
             stop_latency=self.worker.latency.figures(),
-            tip=tip(state),
         )
 
     def unready(self, state: SessionState) -> str | None:

@@ -3,6 +3,7 @@
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import datetime
 
 from rotemina.app.motion.admission import Admission
@@ -315,7 +316,8 @@ class MotionSession:
 
     def snapshot(self) -> SessionState:
         """Return the present state; any thread."""
-        return self._link.snapshot(self.bounds.tip)
+        state = self._link.snapshot()
+        return replace(state, tip=self.bounds.tip(state))
 
     @property
     def at_rest(self) -> bool:

@@ -1,21 +1,19 @@
 """Names and values in two columns."""
 
 from collections.abc import Mapping
-from functools import partial
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from rotemina.app.widgets.controls import plain_tip, set_property
-from rotemina.app.widgets.when_dressed import WhenDressed
+from rotemina.app.widgets.when_dressed import leave_room
 
 
 class Figures(QWidget):
     """Values by name.
 
-    ``names`` gives each name, as it is shown, a sentence of what it means, or none. With the
-    ``widest`` value all keep the room of that one: another value never has the window laid out
-    anew. ``spacing`` is in pixels, between rows.
+    ``names`` gives each name, as it is shown, a sentence of what it means, or none. There is
+    always room for the ``widest`` value; ``spacing`` is in pixels, between rows.
     """
 
     def __init__(self, names: Mapping[str, str], *, widest: str = "", spacing: int = 3) -> None:
@@ -37,12 +35,9 @@ class Figures(QWidget):
                 for widget in (title, value):
                     widget.setToolTip(plain_tip(about))
             grid.addWidget(title, row, 0)
+            grid.addWidget(value, row, 1)
             self.values[name] = value
-            if widest:
-                grid.addWidget(value, row, 1, Qt.AlignmentFlag.AlignRight)
-                WhenDressed(value, partial(_keep_room, value, widest))
-            else:
-                grid.addWidget(value, row, 1)
+            leave_room(value, widest)
 
     def show_values(self, *texts: str) -> None:
         """Show texts in the order of the names."""
@@ -53,7 +48,3 @@ class Figures(QWidget):
         """Grey values that are too old."""
         for value in self.values.values():
             set_property(value, "stale", stale)
-
-
-def _keep_room(value: QLabel, widest: str) -> None:
-    value.setFixedSize(value.fontMetrics().horizontalAdvance(widest), value.sizeHint().height())

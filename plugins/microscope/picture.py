@@ -14,7 +14,7 @@ from rotemina.plugins.microscope.geometry import Part
 
 
 class Wanted(NamedTuple):
-    """What is to be seen, and how."""
+    """What is to be seen: which part, px, of which frame, and in which colours."""
 
     frame: Frame
     contrast: Contrast
@@ -25,7 +25,7 @@ class Wanted(NamedTuple):
         return (self.contrast, self.part) == (other.contrast, other.part)
 
     def worked_out(self) -> "Picture":
-        """Return it in colours."""
+        """Return it in colours, of (part.height, part.width) screen px; takes milliseconds."""
         frame, contrast, part = self
         span = levels(frame, contrast)
         size = part.width, part.height

@@ -99,6 +99,8 @@ class PictureView(QWidget):
         before = self.frame
         self.status = status
         frame = self.frame
+        if frame is None:
+            self._picture = None  # no other camera's picture may stand for it later
         if frame is None or frame is before:
             self.update()
             return
@@ -189,9 +191,11 @@ class PictureView(QWidget):
 
     def _take(self, picture: Picture) -> None:
         """Show what was worked out, and go on with what came meanwhile."""
-        self._picture, self.span = picture, picture.span
         frame = self.frame
-        if frame is not None and frame is not picture.of.frame:
+        if frame is None:
+            return  # the camera was closed meanwhile
+        self._picture, self.span = picture, picture.span
+        if frame is not picture.of.frame:
             self._work.begin(self._wanted(frame))
         self.update()
 

@@ -155,6 +155,9 @@ def test_figures_have_room_and_show_their_age(qtbot):
     assert way.toolTip() == ""
     figures.show()
     assert load.minimumWidth() >= load.fontMetrics().horizontalAdvance("50000 µm/s")
+    figures.show_values("80000.00 µm", "7 µm")  # a micro axis: wider, and no digit may be cut
+    figures.adjustSize()
+    assert load.width() >= load.fontMetrics().horizontalAdvance("80000.00 µm")
     figures.set_stale(True)
     assert load.property("stale") is True
     with pytest.raises(ValueError, match="zip"):

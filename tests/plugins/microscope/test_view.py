@@ -1,9 +1,13 @@
 """The picture and the pointer tools in it, on a microscope that does what the test says."""
 
+import threading
+
 import numpy as np
 import pytest
+import shiboken6
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QColor, QWheelEvent
+from PySide6.QtWidgets import QApplication
 
 from rotemina.app.cameras.feed import FeedState
 from rotemina.app.microscope.errors import MicroscopeError
@@ -18,6 +22,7 @@ from rotemina.drivers.samples import DeviceState
 from rotemina.plugins.microscope.contrast import Contrast
 from rotemina.plugins.microscope.histogram_view import HistogramView
 from rotemina.plugins.microscope.overlays import Layer
+from rotemina.plugins.microscope.picture import Wanted
 from rotemina.plugins.microscope.picture_view import PictureView, PointerTool
 from rotemina.plugins.microscope.pointer_tools import PointerTools
 
@@ -111,6 +116,54 @@ def test_pictures_that_come_faster_than_they_are_drawn_are_passed_over(qtbot, vi
     assert not any(frame is came[1] or frame is came[2] for frame in painted)
     place = at(view, 65, 30)
     assert QColor(view.grab().toImage().pixel(place)).red() == 255
+
+
+@pytest.fixture
+def held_work(monkeypatch):
+    """Work on pictures that goes on when it is let; on whatever thread it is not the window's."""
+    begun, let = threading.Event(), threading.Event()
+    work = Wanted.worked_out
+
+    def held(wanted):
+        if threading.current_thread() is not threading.main_thread():
+            begun.set()
+            assert let.wait(10.0)
+        return work(wanted)
+
+    monkeypatch.setattr(Wanted, "worked_out", held)
+    yield begun, let
+    let.set()
+
+
+def test_a_camera_that_is_closed_meanwhile_leaves_no_picture(qtbot, view, microscope, held_work):
+    begun, let = held_work
+    qtbot.waitUntil(lambda: not view._work.busy or begun.is_set())
+    let.clear()
+    frame = Frame(np.full((103, 130), 4095, np.uint16), 0.0, 1, 12, Region(0, 0, 130, 103))
+    microscope.feed(frame=frame)
+    view.show_status(microscope.status)
+    microscope.feed(frame=None)
+    view.show_status(microscope.status)
+    let.set()
+    qtbot.waitUntil(lambda: not view._work.busy)
+    dark = Frame(np.zeros((103, 130), np.uint16), 0.0, 2, 12, Region(0, 0, 130, 103))
+    let.clear()
+    microscope.feed(frame=dark)
+    with qtbot.waitSignal(view.painted, check_params_cb=lambda one: one is dark):
+        view.show_status(microscope.status)  # which is under way when it is painted
+        view.repaint()
+
+
+def test_a_view_may_go_while_its_picture_is_worked_out(qtbot, microscope, held_work):
+    begun, let = held_work
+    gone = PictureView(DARK)
+    gone.show_status(microscope.status)
+    assert begun.wait(10.0)
+    thread = gone._work._thread
+    shiboken6.delete(gone)
+    let.set()
+    thread.shutdown(wait=True)  # what it tells reaches nobody, and breaks nothing
+    QApplication.processEvents()
 
 
 def test_a_zoom_does_not_wait_for_the_picture(qtbot, view, microscope):
