@@ -13,6 +13,9 @@ Numbers = NDArray[np.uint16]
 #: The edges of a blurred shape are drawn as far as this many standard deviations from it.
 REACH = 4.0
 
+_REACH = np.float32(REACH)
+_BLOCK = 32  # pixels of a row that are drawn or left out together
+
 _ROOT_HALF = np.float32(0.7071067811865476)
 _ONE, _HALF, _ZERO, _FAR = np.float32(1.0), np.float32(0.5), np.float32(0.0), np.float32(4.0)
 # Abramowitz and Stegun, Handbook of Mathematical Functions (1964), 7.1.28: within 3e-7.
@@ -44,7 +47,6 @@ def _between(across: np.float32, radius: np.float32, share: np.float32) -> np.fl
 @numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
 def draw_tube(
     light: Image,
-    box: tuple[int, int, int, int],
     tip: Image,
     way: Image,
     radius: Image,
@@ -52,13 +54,11 @@ def draw_tube(
     blur: Image,
     absorbed: Image,
 ) -> None:
-    """Darken ``light`` (rows, columns) by a tapering tube, in place.
+    """Darken ``light`` (rows, columns) by a tapering tube, in place; its far parts stay untouched.
 
     Parameters
     ----------
     light : (rows, columns)
-    box : tuple of int
-        First and last row, and column, in which there is anything to draw; the last left out.
     tip : (2,)
         Column and row of the tip.
     way : (2,)
@@ -73,25 +73,36 @@ def draw_tube(
         Share lost in the tube, less through its bore, and the bore's radius over the tube's.
     """
     # Read once: were they arrays in the loop, the compiler could not rule out that it writes them.
-    u0, v0, eu, ev = tip[0] - np.float32(box[2]), tip[1], way[0], way[1]
+    u0, v0, eu, ev = tip[0], tip[1], way[0], way[1]
     narrow, growth, widest = radius[0], radius[1], radius[2]
     away, rise, airy, pixel = depth[0], depth[1], blur[0], blur[1]
     wall, lumen, hollow = absorbed[0], absorbed[1], absorbed[2]
-    for row in range(box[0], box[1]):
+    # No edge is nearer to a pixel of a block than to its middle by more than this.
+    slack = _HALF * np.float32(_BLOCK) * (_ONE + growth + _REACH * np.sqrt(airy) * abs(rise))
+    for row in range(light.shape[0]):
         dv = np.float32(row) - v0
-        line = light[row][box[2] : box[3]]  # whole rows are contiguous, a block is not
-        for column in range(line.shape[0]):
-            du = np.float32(column) - u0
-            along = du * eu + dv * ev
-            across = dv * eu - du * ev
+        for first in range(0, light.shape[1], _BLOCK):
+            du = np.float32(first + _BLOCK // 2) - u0
+            along, across = du * eu + dv * ev, abs(dv * eu - du * ev) - slack
             inside = max(along, _ZERO)
-            wide = min(narrow + growth * inside, widest)
             z = away + rise * inside
-            share = _ROOT_HALF / np.sqrt(airy * (_ONE + z * z) + pixel)
-            whole = _between(across, wide, share)
-            bore = _between(across, wide * hollow, share)
-            end = _HALF * (_ONE + _erf(along * share))
-            line[column] *= _ONE - end * (wall * whole - lumen * bore)
+            reach = _REACH * np.sqrt(airy * (_ONE + z * z) + pixel)
+            if along + slack < -reach or across > min(narrow + growth * inside, widest) + reach:
+                continue
+            line = light[row][first : first + _BLOCK]
+            u = np.float32(first) - u0
+            for column in range(np.int32(line.shape[0])):  # 64 bits are not vectorised
+                du = np.float32(np.int32(column)) + u
+                along = du * eu + dv * ev
+                across = dv * eu - du * ev
+                inside = max(along, _ZERO)
+                wide = min(narrow + growth * inside, widest)
+                z = away + rise * inside
+                share = _ROOT_HALF / np.sqrt(airy * (_ONE + z * z) + pixel)
+                whole = _between(across, wide, share)
+                bore = _between(across, wide * hollow, share)
+                end = _HALF * (_ONE + _erf(along * share))
+                line[column] *= _ONE - end * (wall * whole - lumen * bore)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=True)
@@ -104,8 +115,8 @@ def draw_radial(
 ) -> None:
     """Darken ``light`` (rows, columns) by ``profile`` (n,) over the distance from ``centre``.
 
-    ``box`` is as for :func:`draw_tube`; ``profile`` has ``per_px`` values a px and ends
-    with what holds beyond.
+    ``box`` is the first and last row, and column, to draw in, the last left out; ``profile`` has
+    ``per_px`` values a px and ends with what holds beyond.
     """
     last = np.float32(profile.shape[0] - 2)
     for row in range(box[0], box[1]):
@@ -162,10 +173,10 @@ def expose(
     """
     numbers = np.empty(light.shape, np.uint16)
     for row in range(light.shape[0]):
-        begin = begins[row]
-        for column in range(light.shape[1]):
-            electrons = light[row, column] * scale
-            electrons += np.sqrt(electrons + read_variance) * noise[begin + column]
+        line, converted, shot = light[row], numbers[row], noise[begins[row] :]
+        for column in range(line.shape[0]):
+            electrons = line[column] * scale
+            electrons += np.sqrt(electrons + read_variance) * shot[column]
             number = min(electrons, full_well) * gain + black + _HALF
-            numbers[row, column] = np.uint16(min(max(number, _ZERO), largest))
+            converted[column] = np.uint16(np.int32(min(max(number, _ZERO), largest)))
     return numbers

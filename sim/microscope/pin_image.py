@@ -42,7 +42,7 @@ def body_direction(pin: Pin, tool_axis: FloatArray) -> FloatArray:
 def draw_pin(
     light: Image, optics: Optics, pin: Pin, tip_m: FloatArray, tool_axis: FloatArray, focus_m: float
 ) -> None:
-    """Darken ``light`` (height, width) by the pin, in place; its far parts stay untouched."""
+    """Darken ``light`` (height, width) by the pin, in place."""
     body = body_direction(pin, tool_axis)
     way = optics.mapping @ body
     tip = optics.pixel_of(tip_m)
@@ -55,13 +55,9 @@ def draw_pin(
     ends = (pin.tip_radius_m / optics.pixel_m, pin.shank_radius_m / optics.pixel_m)
     direction = way / hypot(*way)
     rise = float(body @ optics.view[2]) * optics.pixel_m / seen  # depth per px
-    box = _box(light, optics, tip, direction, (ends[0], growth, ends[1]), (away, rise))
-    if box is None:
-        return
     half_depth = optics.depth_of_field_m / 2.0
     kernels.draw_tube(
         light,
-        box,
         _row(float(tip[0]), float(tip[1])),
         _row(float(direction[0]), float(direction[1])),
         _row(ends[0], growth, ends[1]),
@@ -69,34 +65,6 @@ def draw_pin(
         _row(optics.sharpest_px**2, PIXEL_VARIANCE),
         _row(pin.wall, pin.lumen, pin.bore),
     )
-
-
-def _box(
-    light: Image,
-    optics: Optics,
-    tip: FloatArray,
-    way: FloatArray,
-    radius: tuple[float, float, float],
-    depth: tuple[float, float],
-) -> tuple[int, int, int, int] | None:
-    """Return first and last row, and column, that the pin may darken, or None."""
-    height, width = light.shape
-    farthest = float(np.abs(tip).max()) + width + height  # px along the body, out of every picture
-    along = np.linspace(0.0, farthest, 256)
-    half = np.minimum(radius[0] + radius[1] * along, radius[2])
-    reach = half + kernels.REACH * optics.blur_px(depth[0] + depth[1] * along)
-    reach += along[1] * max(radius[1], 1.0)  # between two places
-    middle = tip + along[:, None] * way
-    touched = (
-        (middle[:, 0] + reach >= 0.0)
-        & (middle[:, 0] - reach <= width - 1.0)
-        & (middle[:, 1] + reach >= 0.0)
-        & (middle[:, 1] - reach <= height - 1.0)
-    )
-    if not touched.any():
-        return None
-    middle, reach = middle[touched], reach[touched, None]
-    return _clipped(light, (middle - reach).min(axis=0), (middle + reach).max(axis=0))
 
 
 def _clipped(light: Image, first: FloatArray, last: FloatArray) -> tuple[int, int, int, int]:

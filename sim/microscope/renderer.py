@@ -34,6 +34,7 @@ class Renderer:
         self._grains = rng.standard_normal(shape, dtype=np.float32)
         self._noise = rng.standard_normal(_NOISE + optics.width, dtype=np.float32)
         self._still = self._field.copy()  # with the cell, without the pin
+        self._light = np.empty_like(self._still)  # with the pin; new memory would cost as much
         self._drawn: CellImage | None = None
         self._known: tuple[CellState, float] | None = None
 
@@ -47,10 +48,7 @@ class Renderer:
         self, tip_m: FloatArray, tool_axis: FloatArray, focus_m: float, state: CellState = UNTOUCHED
     ) -> Image:
         """Return the light on every pixel (height, width), over that of the lamp in the middle."""
-        self._draw_still(state, focus_m)
-        light = self._still.copy()
-        draw_pin(light, self.scene.optics, self.scene.pin, tip_m, tool_axis, focus_m)
-        return light
+        return self._lit(tip_m, tool_axis, focus_m, state).copy()
 
     def frame(
         self,
@@ -77,7 +75,7 @@ class Renderer:
             What the tip has done to the cell.
         exposure_s, gain : float
         """
-        return self.exposed(self.light(tip_m, tool_axis, focus_m, state), rng, exposure_s, gain)
+        return self.exposed(self._lit(tip_m, tool_axis, focus_m, state), rng, exposure_s, gain)
 
     def exposed(
         self, light: Image, rng: np.random.Generator, exposure_s: float, gain: float
@@ -96,6 +94,15 @@ class Renderer:
             np.float32(sensor.black_level),
             np.float32(sensor.largest),
         )
+
+    def _lit(
+        self, tip_m: FloatArray, tool_axis: FloatArray, focus_m: float, state: CellState
+    ) -> Image:
+        """Return the light; the next picture overwrites it."""
+        self._draw_still(state, focus_m)
+        np.copyto(self._light, self._still)
+        draw_pin(self._light, self.scene.optics, self.scene.pin, tip_m, tool_axis, focus_m)
+        return self._light
 
     def _draw_still(self, state: CellState, focus_m: float) -> None:
         """Draw the cell again if it, or the focal plane, has changed."""
