@@ -66,12 +66,14 @@ class Panel(QWidget):
         super().__init__()
         self.workbench = workbench
         self._looks: list[Callable[[SessionState], object]] = []
+        self._number = next(_made)
         # Those out of sight look in turns, not all at one frame: the golden ratio spreads them.
-        self._followed_s = monotonic() - HIDDEN_S * (0.618 * next(_made) % 1.0)
+        self._followed_s = monotonic() - HIDDEN_S * (0.618 * self._number % 1.0)
 
     def follow(self, look: Callable[[SessionState], object]) -> None:
-        """Call ``look`` with the machine's state once a frame, less often while out of sight.
+        """Call ``look`` with the machine's state ten times a second, less often while out of sight.
 
+        It is also called as soon as the machine begins to move, comes to rest or is locked.
         Actions of menus that depend on it stay right that way.
         """
         if not self._looks:
@@ -81,7 +83,8 @@ class Panel(QWidget):
     def _hear(self, state: SessionState) -> None:
         now_s = monotonic()
         hidden = not self.isVisible() and self.window().isVisible()
-        if not hidden or now_s - self._followed_s >= HIDDEN_S:
+        due = self.workbench.turns.due(self._number)
+        if now_s - self._followed_s >= HIDDEN_S if hidden else due:
             self._followed_s = now_s
             for look in self._looks:
                 look(state)

@@ -43,6 +43,7 @@ from rotemina.app.shell.record_library import RecordLibrary
 from rotemina.app.shell.replaying import Replaying, opened, remark
 from rotemina.app.shell.requests_at_rest import AtRest
 from rotemina.app.shell.theme import Theme
+from rotemina.app.shell.turns import Turns
 from rotemina.drivers.gate import Permit
 from rotemina.drivers.samples import DeviceState
 from rotemina.sim.records.reading import read_record
@@ -81,7 +82,7 @@ class Workbench(Requests):
     calibration, clicks and vision. ``progress`` is long work that is under way, see
     :meth:`long_work`. ``source`` is what is shown: the machine, or a replay of ``replaying``;
     whoever draws positions reads ``source`` and ``shown``, and whoever acts on the machine reads
-    ``session`` and ``refreshed``.
+    ``session`` and ``refreshed``. ``turns`` tells which texts are written in a frame.
 
     Signals
     -------
@@ -127,6 +128,7 @@ class Workbench(Requests):
         self.run_path: Path | None = None
         self.record: Record | None = None
         self.unsaved: Record | None = None
+        self.turns = Turns()
         self.pace = 1.0
         self.bounds: dict[str, float] = {}
         self.progress: Progress | None = None
@@ -473,6 +475,7 @@ class Workbench(Requests):
 
     def _refresh(self) -> None:
         state = self.session.snapshot()
+        self.turns.begin(state)
         self._check_plan(state)
         self._played.look()
         self._penetrated.look()
@@ -481,6 +484,7 @@ class Workbench(Requests):
         self.replaying.step()
         source = self.source
         self.shown.emit(state if source is self.session else source.snapshot())
+        self.turns.end()
 
     def _check_plan(self, state: SessionState) -> None:
         """Find out anew whether the plan can be played, where the machine stands otherwise now."""

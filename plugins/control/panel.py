@@ -149,7 +149,9 @@ class ControlPanel(Panel):
             self._bounds = bounds
             self._forbidden = forbidden(self.workbench.robot, *bounds)
         inverses, approaches = session.inverses.applied, session.backlash.applied
-        for axis, row in self.rows.items():
+        for number, (axis, row) in enumerate(self.rows.items()):
+            if not self.workbench.turns.due(number):
+                continue
             row.refresh(state)
             row.show_range(session.ranges.of(axis), self._forbidden.get(axis, ()))
             taken_up = axis in approaches and session.backlash.taken_up(axis)
