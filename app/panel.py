@@ -66,9 +66,9 @@ class Panel(QWidget):
         super().__init__()
         self.workbench = workbench
         self._looks: list[Callable[[SessionState], object]] = []
-        self._number = next(_made)
+        self._made = next(_made)
         # Those out of sight look in turns, not all at one frame: the golden ratio spreads them.
-        self._followed_s = monotonic() - HIDDEN_S * (0.618 * self._number % 1.0)
+        self._followed_s = monotonic() - HIDDEN_S * (0.618 * self._made % 1.0)
 
     def follow(self, look: Callable[[SessionState], object]) -> None:
         """Call ``look`` with the machine's state ten times a second, less often while out of sight.
@@ -83,11 +83,15 @@ class Panel(QWidget):
     def _hear(self, state: SessionState) -> None:
         now_s = monotonic()
         hidden = not self.isVisible() and self.window().isVisible()
-        due = self.workbench.turns.due(self._number)
-        if now_s - self._followed_s >= HIDDEN_S if hidden else due:
+        if now_s - self._followed_s >= HIDDEN_S if hidden else self.texts_due:
             self._followed_s = now_s
             for look in self._looks:
                 look(state)
+
+    @property
+    def texts_due(self) -> bool:
+        """Whether texts are to be written in this frame, for a panel that draws in each."""
+        return self.workbench.turns.due(self._made)
 
     @property
     def main_window(self) -> QWidget:

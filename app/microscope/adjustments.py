@@ -68,7 +68,7 @@ class Adjustments:
         camera, found = self._camera.camera, []
         if isinstance(camera, FocusDrive):
             found.append(FocusAxis(FOCUS, camera.focus_m, *camera.focus_range_m))
-        command, axes = self._session.snapshot().command, self._session.robot.axes
+        command, axes = self._session.reported.command, self._session.robot.axes
         for axis in _AXES:
             if axis in axes:
                 low, high = axes[axis].range

@@ -191,7 +191,7 @@ class OpticalSetup:
         save(self._folder, known)
 
     def _joints(self) -> FloatArray | None:
-        command = self._session.snapshot().command
+        command = self._session.reported.command
         if not all(axis in command for axis in JOINTS):
             return None
         return np.array([command[axis] for axis in JOINTS])

@@ -103,7 +103,7 @@ class Playback:
             piece_, whole = self._piece, self._whole
             gaps = watch.gaps if watch is not None else state.gaps
         if state.phase is PlaybackPhase.PLAYING and piece_ is not None and whole is not None:
-            now = self._session.snapshot()
+            now = self._session.reported
             # Until the device begins, its progress is that of what it played before.
             share = now.progress if now.activity is DeviceState.PLAYING else 0.0
             elapsed_s = share * piece_.trajectory.duration_s

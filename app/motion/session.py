@@ -320,6 +320,14 @@ class MotionSession:
         return replace(state, tip=self.bounds.tip(state))
 
     @property
+    def reported(self) -> SessionState:
+        """What the device said last, without age, locks and tip, which are worked out; any thread.
+
+        It costs nothing, for whoever looks at command, activity or progress alone.
+        """
+        return self._link.worker.state
+
+    @property
     def at_rest(self) -> bool:
         """Whether nothing moves, waits, or was handed over since the device was looked at last."""
         return self._link.worker.at_rest

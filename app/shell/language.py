@@ -16,8 +16,6 @@ from collections.abc import Callable
 from functools import partial
 from importlib import resources
 from importlib.resources.abc import Traversable
-from string import Formatter
-from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
@@ -44,19 +42,32 @@ class Template(str):
 
     def format(self, *values: object, **fields: object) -> str:
         """Return it with something in each of its fields."""
-        return _FORMATTER.vformat(self, values, fields)
+        named = {name: _local(value) for name, value in fields.items()}
+        return super().format(*map(_local, values), **named)
 
 
-class _LocalFormatter(Formatter):
-    """Writes numbers with the decimal sign in use."""
+class _Number:
+    """A number that is written with the decimal sign in use."""
 
-    def format_field(self, value: Any, format_spec: str) -> str:
-        if format_spec and isinstance(value, float | np.ndarray | np.number):
-            return formatted(float(value), format_spec)
-        return format(value, format_spec)
+    __slots__ = ("_value",)
+
+    def __init__(self, value: float | np.ndarray | np.number) -> None:
+        self._value = value
+
+    def __format__(self, format_spec: str) -> str:
+        if format_spec:
+            return formatted(float(self._value), format_spec)
+        return format(self._value)
+
+    def __str__(self) -> str:
+        return str(self._value)
+
+    def __repr__(self) -> str:
+        return repr(self._value)
 
 
-_FORMATTER = _LocalFormatter()
+def _local(value: object) -> object:
+    return _Number(value) if isinstance(value, float | np.ndarray | np.number) else value
 
 
 def translate(context: str, text: str) -> Template:

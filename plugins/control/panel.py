@@ -145,7 +145,7 @@ class ControlPanel(Panel):
         """Show what is shown: the machine, or a replay."""
         session = self.workbench.session
         bounds = session.bounds.keep_out, dict(state.command)
-        if bounds != self._bounds:
+        if bounds != self._bounds and self.workbench.turns.due(0):
             self._bounds = bounds
             self._forbidden = forbidden(self.workbench.robot, *bounds)
         inverses, approaches = session.inverses.applied, session.backlash.applied

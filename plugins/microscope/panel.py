@@ -95,14 +95,17 @@ class MicroscopePanel(Panel):
         """Show this moment of the microscope."""
         if not (self.isVisible() or self.saving.needed or self.stack.needed):
             return  # reading the status keeps a camera working
-        status = self.microscope.status
+        brought = self.isVisible() and monotonic() - self._taken_s <= _LATE_S
+        status = self.view.status if brought else self.microscope.status
         self.pointer.refresh(status)
         self.saving.refresh(status, state)  # a video goes on while nobody looks
         self.stack.write(status, state)
         if not self.isVisible():
             return
-        if monotonic() - self._taken_s > _LATE_S:  # else each picture brings all that lies over it
+        if not brought:  # by a picture, with all that lies over it
             self._show(status)
+        if not self.texts_due:
+            return
         self.bar.refresh(self.pointer.against(status, state))
         page = self.bar.tools.currentIndex()
         if page < len(self._refreshing):

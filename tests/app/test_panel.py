@@ -1,4 +1,6 @@
-"""How a panel follows the machine: in every frame while it is seen, else now and then."""
+"""How a panel follows the machine: in its turn while it is seen, else now and then."""
+
+from dataclasses import replace
 
 import pytest
 from PySide6.QtWidgets import QTabWidget
@@ -6,6 +8,8 @@ from PySide6.QtWidgets import QTabWidget
 from rotemina.app import panel as panels
 from rotemina.app.panel import HIDDEN_S, Panel
 from rotemina.app.plugin_kit.panel_bench import panel_bench
+from rotemina.app.shell.turns import TURNS
+from rotemina.drivers.samples import DeviceState
 
 
 class Looking(Panel):
@@ -52,3 +56,29 @@ def test_a_panel_out_of_sight_looks_less_often(at_s):
         assert looks_of(bench, at_s, 0.01) == 4
         bench.panel.setParent(None)
         tabs.close()
+
+
+@pytest.mark.parametrize("change", [{"activity": DeviceState.MOVING}, {"locked": "a reason"}])
+def test_texts_are_written_in_turns_and_at_once_when_it_moves_or_is_locked(change):
+    with panel_bench(Looking) as bench:
+        workbench = bench.workbench
+        others = [Looking(workbench) for _ in range(2 * TURNS - 1)]
+        panels = [bench.panel, *others]
+        state = workbench.session.snapshot()
+
+        def looked(now):
+            before = [one.looks for one in panels]
+            workbench.turns.begin(now)
+            workbench.refreshed.emit(now)
+            workbench.turns.end()
+            return [one.looks - before_it for one, before_it in zip(panels, before, strict=True)]
+
+        assert looked(state) == [1] * len(panels)  # the first frame
+        frames = [looked(state) for _ in range(2 * TURNS)]
+        assert all(sum(one) == 2 for one in frames)  # as many in each
+        assert [sum(one) for one in zip(*frames, strict=True)] == [2] * len(panels)
+        changed = replace(state, **change)
+        assert looked(changed) == [1] * len(panels)
+        assert sum(looked(changed)) == 2
+        workbench.refreshed.emit(changed)  # by hand: all
+        assert all(panel.texts_due for panel in panels)

@@ -1,6 +1,7 @@
 """The thrust: its profile as executed by a board, and how the axis followed it."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -37,7 +38,7 @@ class Resonance(NamedTuple):
     damping_ratio: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ThrustPlan:
     """A thrust.
 
@@ -60,12 +61,12 @@ class ThrustPlan:
         """m/s."""
         return self.wanted.average_speed
 
-    @property
+    @cached_property
     def peak_speed(self) -> float:
         """Greatest instantaneous speed, m/s."""
         return self.wanted.greatest(1)
 
-    @property
+    @cached_property
     def ends(self) -> tuple[float, float]:
         """The lowest and the highest commanded position, from its start, m."""
         at, places = 0.0, [0.0]
