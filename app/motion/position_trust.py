@@ -110,11 +110,10 @@ class PositionWatch:
     def _lasting(self, row: int, time_s: FloatArray, off: BoolArray) -> BoolArray:
         """Return for which axes (axes,) each sample has been ``off`` (n, axes) for long enough."""
         lasting = np.zeros(off.shape[1], dtype=np.bool_)
-        for column in range(off.shape[1]):
+        some = off.any(axis=0)
+        self._since[row, ~some] = np.nan
+        for column in np.flatnonzero(some):
             good = np.flatnonzero(~off[:, column])
-            if len(good) == len(off):
-                self._since[row, column] = np.nan
-                continue
             first = good[-1] + 1 if len(good) else 0
             if first == len(off):
                 self._since[row, column] = np.nan

@@ -106,8 +106,9 @@ class Playing:
     def take(self, until_s: float, held: FloatArray, most: int) -> Chunk:
         """Return the next instants up to a device time; other axes stay at ``held`` (axes,)."""
         schedule, began = self._schedule, self._instant
-        instants = schedule.instants(began, began + most)
         due_s = until_s - self._begin_s + _ON_TIME * self._tick_s
+        most = min(most, max(schedule.count_until(due_s) + 1 - began, 0))
+        instants = schedule.instants(began, began + most)
         count = int(np.searchsorted(instants.time_s, due_s, side="right"))
         time_s, row = instants.time_s[:count], instants.row[:count]
         on_row = instants.on_row[:count]

@@ -92,7 +92,6 @@ class PlotsPanel(Panel):
         workbench.shown.connect(lambda _: self._refresh_by_parts())
         workbench.replaying.changed.connect(self._begin_anew)
         workbench.theme_changed.connect(self._use_theme)
-        workbench.run_changed.connect(lambda _: self._tell_run())
         workbench.model_changed.connect(self._use_model)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 (Qt's name)
@@ -268,12 +267,6 @@ class PlotsPanel(Panel):
 
     def _hold(self, held: bool) -> None:
         self._held = self.workbench.source.history.tail() if held else None
-        self._draw_again()
-
-    def _tell_run(self) -> None:
-        """Show the figures of another run in hand, also where the picture stands still."""
-        if self.pause.isChecked() or not self.isVisible():
-            return
         self._draw_again()
 
     def _use_model(self, _: object) -> None:

@@ -75,6 +75,21 @@ class Schedule:
         part = number - self._starts[row]
         return Instants(self._since_s[row] + part * self._part_s[row], row, part == 0)
 
+    def count_until(self, time_s: float) -> int:
+        """Return how many instants there are up to a time since the first row, that included.
+
+        It may be one more or less where an instant and the time differ by rounding.
+        """
+        if time_s < 0.0:
+            return 0
+        if self._on_ticks:
+            return min(int(time_s / self._tick_s) + 1, self.count)
+        row = int(np.searchsorted(self._since_s, time_s, side="right")) - 1
+        if row >= len(self._part_s) - 1:
+            return self.count
+        part = int((time_s - self._since_s[row]) / self._part_s[row])
+        return min(int(self._starts[row]) + part + 1, int(self._starts[row + 1]))
+
     def _row_at_tick(self, number: IntArray) -> IntArray:
         due_s = (number + ON_TIME) * self._tick_s
         return (np.searchsorted(self._since_s, due_s, side="right") - 1).astype(np.int64)

@@ -113,6 +113,7 @@ HARMLESS = {
     "loops.unavailable": lambda session: session.loops.unavailable,
     "note_contact": lambda session: session.note_contact("a cell"),
     "permit": lambda session: session.permit(),
+    "reported": lambda session: session.reported,
     "reconnect": let_go,
     "loops.applied": lambda session: session.loops.applied,
     "loops.limited": lambda session: session.loops.limited,

@@ -37,6 +37,17 @@ def test_pieces_are_the_whole():
 
 
 @pytest.mark.parametrize("on_ticks", [True, False])
+def test_instants_up_to_a_time_are_counted_without_making_them(on_ticks):
+    whole = schedule(np.cumsum(np.linspace(0.01, 0.4, 30)), on_ticks=on_ticks)
+    instants = whole.instants(0, whole.count).time_s
+    between = np.random.default_rng(0).uniform(-0.5, instants[-1] + 1.0, 500)
+    for time_s in between:
+        assert whole.count_until(time_s) == np.searchsorted(instants, time_s, side="right")
+    for time_s in instants:  # where rounding decides
+        assert abs(whole.count_until(time_s) - np.searchsorted(instants, time_s, "right")) <= 1
+
+
+@pytest.mark.parametrize("on_ticks", [True, False])
 @pytest.mark.parametrize(
     ("time_s", "instant", "speed"),
     [
