@@ -76,6 +76,7 @@ def test_it_follows_what_is_shown_and_its_controls_unless_out_of_sight(qtbot, wi
     assert newest(panel, "note")[0]["shown"] == ["model"]
     window.workbench.theme_changed.emit(LIGHT)  # without the style sheet, which takes seconds
     assert newest(panel, "note")[0]["colours"]["model"] == LIGHT.model
+    qtbot.waitUntil(lambda: window.workbench.session.at_rest, timeout=LONG_MS)
     window.workbench.teach_floor()
     path = "/robot/bounds/floor"
     qtbot.waitUntil(
