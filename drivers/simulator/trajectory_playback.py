@@ -72,6 +72,7 @@ class Playing:
         self._smooth = SmoothRows(trajectory, axes, ticks * tick_s) if smooth else None
         self._axes, self._tick_s, self._ticks = len(axes), tick_s, ticks
         self._instant = 0
+        self._latest_s = 0.0  # time of the latest instant since the first row
         self._begin_s = 0.0
 
     @property
@@ -115,10 +116,12 @@ class Playing:
         command = schedule.commands(row, held)
         if self._smooth is not None:
             command = self._smooth.commands(time_s, command)
-        elapsed_s = schedule.elapsed(began, time_s)
+        elapsed_s = schedule.elapsed(self._latest_s, time_s)
         if began == 0:
             elapsed_s = elapsed_s + self._tick_s
-        self._instant += count
+        if count:
+            self._instant += count
+            self._latest_s = float(time_s[-1])
         even = np.arange(began, began + count) % self._ticks == 0
         own = np.where(on_row, row, -1)
         return Chunk(self._begin_s + time_s, elapsed_s, command, own, on_row | even)
@@ -128,8 +131,3 @@ class Playing:
         if self._smooth is not None:
             return self._smooth.velocity(self._latest_s, self._axes)
         return self._schedule.velocity(self._instant - 1, self._axes)
-
-    @property
-    def _latest_s(self) -> float:
-        """The latest instant's time since the first row."""
-        return float(self._schedule.instants(self._instant - 1, self._instant).time_s[0])

@@ -85,12 +85,12 @@ def _motions(robot: Robot, trajectory: Record, period_s: float) -> Iterator[_Mot
     schedule = Schedule(trajectory, plant.axes, tick_s, on_ticks=looped)
     held = np.array([axis.range[0] for axis in plant.robot.axes.values()], dtype=np.float64)
     state = plant.at_rest(0.0, schedule.commands(np.zeros(1, dtype=np.int64), held)[0])
-    begin, size = 0, _CHUNK
+    begin, size, since_s = 0, _CHUNK, 0.0
     command = np.empty((0, len(plant.axes)))
     while begin < schedule.count:
         instants = schedule.instants(begin, begin + size)
         command = schedule.commands(instants.row, held)
-        elapsed_s = schedule.elapsed(begin, instants.time_s)
+        elapsed_s = schedule.elapsed(since_s, instants.time_s)
         try:
             motion, after = plant.advance(state, elapsed_s, command)
         except PlantError:
@@ -99,14 +99,14 @@ def _motions(robot: Robot, trajectory: Record, period_s: float) -> Iterator[_Mot
             size = max(size // 8, 1)  # to see what came before the number overflowed
             continue
         state = replace(after, time_s=after.time_s - after.time_s[-1])
-        begin += size
+        begin, since_s = begin + size, float(instants.time_s[-1])
         time_s = trajectory.time_s[0] + instants.time_s
         yield _Motion(plant.axes, time_s, command, motion.position, instants.on_row)
-    since_s = (np.arange(1, round(_AFTER_S / tick_s) + 1) * tick_s).astype(np.float64)
-    command = np.repeat(command[-1:], len(since_s), axis=0)
-    motion, _ = plant.advance(state, since_s, command)
-    none = np.zeros(len(since_s), dtype=np.bool_)
-    yield _Motion(plant.axes, trajectory.time_s[-1] + since_s, command, motion.position, none)
+    after_s = (np.arange(1, round(_AFTER_S / tick_s) + 1) * tick_s).astype(np.float64)
+    command = np.repeat(command[-1:], len(after_s), axis=0)
+    motion, _ = plant.advance(state, after_s, command)
+    none = np.zeros(len(after_s), dtype=np.bool_)
+    yield _Motion(plant.axes, trajectory.time_s[-1] + after_s, command, motion.position, none)
 
 
 class _Watch:

@@ -94,9 +94,8 @@ class Schedule:
         due_s = (number + ON_TIME) * self._tick_s
         return (np.searchsorted(self._since_s, due_s, side="right") - 1).astype(np.int64)
 
-    def elapsed(self, begin: int, time_s: FloatArray) -> FloatArray:
-        """Return the times since instant ``begin - 1`` (or the first) of instants' ``time_s``."""
-        since_s = self.instants(max(begin - 1, 0), max(begin - 1, 0) + 1).time_s[0]
+    def elapsed(self, since_s: float, time_s: FloatArray) -> FloatArray:
+        """Return the times since an instant at ``since_s`` of instants' ``time_s``."""
         atoms = np.rint(time_s / self._atom_s) - np.rint(since_s / self._atom_s)
         return np.asarray(atoms * self._atom_s, dtype=np.float64)
 
