@@ -4,7 +4,6 @@ import numpy as np
 
 from rotemina.sim.arrays import FloatArray
 
-
 _AHEAD = 1024  # variates that are drawn at once: each drawing lets other threads take over
 
 
