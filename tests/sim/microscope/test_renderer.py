@@ -8,6 +8,7 @@ import pytest
 
 from rotemina.sim.kinematics.chain import Chain
 from rotemina.sim.kinematics.forward import tip_position, tool_axis
+from rotemina.sim.microscope import kernels
 from rotemina.sim.microscope.cell import UNTOUCHED, CellState, met
 from rotemina.sim.microscope.errors import SceneError
 from rotemina.sim.microscope.optics import Optics
@@ -220,3 +221,24 @@ def test_a_scene_far_out_of_view_is_empty():
 def test_what_is_no_approach_angle(angle):
     with pytest.raises(SceneError, match="approach_angle"):
         Pin(approach_rad=angle)
+
+
+def test_which_blocks_of_a_row_are_left_out_is_not_seen():
+    rng = np.random.default_rng(0)
+    for _ in range(40):
+        angle, shape = rng.uniform(0.0, 2.0 * np.pi), tuple(rng.integers(50, 300, 2))
+        tip = rng.uniform(-200.0, 500.0, 2)
+        rest = (
+            (np.cos(angle), np.sin(angle)),
+            (rng.uniform(0.5, 5.0), rng.uniform(0.0, 0.3), rng.uniform(20.0, 200.0)),
+            (rng.uniform(-20.0, 20.0), rng.uniform(-0.5, 0.5)),
+            (rng.uniform(0.2, 2.0), 0.0833),
+            (0.55, 0.3, 0.6),
+        )
+        drawn = []
+        for shift in (0, 13):  # blocks begin elsewhere
+            light = np.ones((shape[0], shape[1] + shift), np.float32)
+            places = (tip + np.array([shift, 0.0]), *rest)
+            kernels.draw_tube(light, *(np.array(one, dtype=np.float32) for one in places))
+            drawn.append(light[:, shift:])
+        np.testing.assert_allclose(drawn[0], drawn[1], rtol=0, atol=4e-5)
