@@ -106,6 +106,11 @@ class Diagnosing(QObject):
         self._stopped.set()
         self._clock.stop()
 
+    def stand_back(self) -> None:
+        """Let a machine that moves have the cores first."""
+        if self.running:
+            self._process.stand_back()
+
     def close(self) -> None:
         """Stop, and wait until thread and process have ended."""
         self.stop()

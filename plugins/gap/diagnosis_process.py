@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from io import BytesIO
+from pathlib import Path
 from queue import Empty, SimpleQueue
 from types import MappingProxyType
 from typing import IO
@@ -29,6 +30,7 @@ _ENDED = mark(
     "perhaps for lack of memory; diagnose again with fewer or shorter records"
 )
 _WORKER = ("-m", "rotemina.plugins.gap.diagnosis_worker")
+_NICE = 10  # more than the window
 _LOOKS_S = 0.05  # between two questions whether an answer is still wanted
 _PATIENCE_S = 2.0  # before a process that does not end its work is ended itself
 
@@ -67,6 +69,7 @@ class DiagnosisProcess:
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
+        self._behind: subprocess.Popen[bytes] | None = None  # what stands back
         self._told: SimpleQueue[object] = SimpleQueue()
         self._number = 0
 
@@ -105,6 +108,22 @@ class DiagnosisProcess:
         error.add_note(told.trace)  # for the log
         raise error
 
+    def stand_back(self) -> None:
+        """Let the process run only while no other wants the core, for as long as it lives.
+
+        This is for a machine that moves: the window and what steers go first. On Linux a nice value
+        is not enough. The scheduler puts a thread that wakes on a core that is idle or runs a
+        process of this policy, but lets it wait behind a process that is only nice. It raises no
+        process again, so the next request starts another one.
+        """
+        process = self._process
+        if process is None or process is self._behind or not hasattr(os, "SCHED_IDLE"):
+            return
+        self._behind = process
+        with suppress(OSError):  # it may have ended, or not be allowed here
+            for thread in Path(f"/proc/{process.pid}/task").iterdir():
+                os.sched_setscheduler(int(thread.name), os.SCHED_IDLE, os.sched_param(0))
+
     def close(self) -> int | None:
         """End the process, if any, and return its status."""
         process, self._process = self._process, None
@@ -137,12 +156,13 @@ class DiagnosisProcess:
                 raise EOFError
 
     def _started(self) -> subprocess.Popen[bytes]:
-        """Return the process; another one where there is none, or none any more."""
-        if self._process is not None and self._process.poll() is not None:
+        """Return the process; another one where it has ended or stands back, or there is none."""
+        process = self._process
+        if process is not None and (process is self._behind or process.poll() is not None):
             self.close()
         if self._process is None:
             self._told = SimpleQueue()
-            self._process = _at_idle([sys.executable, *_WORKER])
+            self._process = _in_background([sys.executable, *_WORKER])
             threading.Thread(
                 target=_read_on,
                 args=(self._process.stdout, self._told),
@@ -165,24 +185,18 @@ class DiagnosisProcess:
         self.close()
 
 
-def _at_idle(command: Sequence[str]) -> subprocess.Popen[bytes]:
-    """Start a process that runs only while no other wants the core.
-
-    The window and what steers the machine go first. On Linux a nice value is not enough: the
-    scheduler puts a thread that wakes on a core that is idle or runs a process of this policy, but
-    lets it wait behind a process that is only nice.
-    """
+def _in_background(command: Sequence[str]) -> subprocess.Popen[bytes]:
+    """Start a process that leaves others the larger share, but is never kept from the cores."""
     process = subprocess.Popen(
         command,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
-        creationflags=getattr(subprocess, "IDLE_PRIORITY_CLASS", 0),  # of Windows
+        creationflags=getattr(subprocess, "IDLE_PRIORITY_CLASS", 0),  # Windows lifts what starves
     )
-    with suppress(OSError):  # it may not be allowed here
-        if hasattr(os, "SCHED_IDLE"):
-            os.sched_setscheduler(process.pid, os.SCHED_IDLE, os.sched_param(0))
-        elif hasattr(os, "setpriority"):
-            os.setpriority(os.PRIO_PROCESS, process.pid, 19)
+    if hasattr(os, "setpriority"):
+        with suppress(OSError):  # it may not be allowed here
+            own = os.getpriority(os.PRIO_PROCESS, 0)
+            os.setpriority(os.PRIO_PROCESS, process.pid, own + _NICE)
     return process
 
 

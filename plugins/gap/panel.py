@@ -216,8 +216,10 @@ class GapPanel(Panel):
         self.result.offer_use(why_not, doubt)
 
     def _follow_motion(self, state: SessionState) -> None:
-        """Offer the switch of the model at rest only."""
+        """Offer the switch of the model at rest only, and let what moves have the cores."""
         resting = state.activity is DeviceState.IDLE and not state.queued
+        if not resting:
+            self.diagnosing.stand_back()
         if resting is not self._resting:
             self._resting = resting
             self._show_use()

@@ -78,10 +78,19 @@ def test_one_process_answers_again_and_again(process, started, healthy):
 
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "SCHED_IDLE"), reason="a policy of Linux")
-def test_no_thread_of_it_takes_a_core_from_the_window(process, started, healthy):
-    process.answer(ROBOT, ["record"], [healthy], lambda _: None)
-    threads = [int(one.name) for one in Path(f"/proc/{started[0].pid}/task").iterdir()]
-    assert {os.sched_getscheduler(thread) for thread in threads} == {os.SCHED_IDLE}
+def test_it_has_its_share_of_the_cores_until_the_machine_moves(process, started, healthy):
+    process.stand_back()  # there is none yet
+    for policy in (os.SCHED_OTHER, os.SCHED_IDLE, os.SCHED_OTHER):
+        if policy == os.SCHED_IDLE:
+            process.stand_back()
+        else:
+            process.answer(ROBOT, ["record"], [healthy], lambda _: None)
+        threads = [int(one.name) for one in Path(f"/proc/{started[-1].pid}/task").iterdir()]
+        assert {os.sched_getscheduler(thread) for thread in threads} == {policy}
+        assert {os.getpriority(os.PRIO_PROCESS, one) for one in threads} == {
+            min(os.getpriority(os.PRIO_PROCESS, 0) + 10, 19)
+        }
+    assert len(started) == 2  # none is raised again
 
 
 def test_what_cannot_be_diagnosed_is_refused_in_the_same_words(process, healthy):

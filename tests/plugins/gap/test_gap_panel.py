@@ -198,8 +198,10 @@ def test_another_robot_is_chosen_and_a_broken_one_refused(qtbot, window, panel, 
 
 
 def test_a_diagnosis_runs_beside_the_window_and_tells_how_far_it_is(
-    qtbot, window, chosen, stepwise, record
+    qtbot, window, chosen, stepwise, record, monkeypatch
 ):
+    stood_back = []
+    monkeypatch.setattr(DiagnosisProcess, "stand_back", lambda one: stood_back.append(one))
     click(qtbot, chosen.start)
     qtbot.waitUntil(
         lambda: chosen.doing.text().startswith("fitting θx: hysteresis"), timeout=LONG_MS
@@ -211,9 +213,11 @@ def test_a_diagnosis_runs_beside_the_window_and_tells_how_far_it_is(
     window.workbench.record = record
     window.workbench.save_record(window.workbench.played_folder.parent / "meanwhile.csv")
     saved(qtbot, window, window.workbench.played_folder.parent / "meanwhile.csv")
+    assert not stood_back
     window.workbench.go_to({"thx": 6e-4})
     snapshot = window.workbench.session.snapshot
     qtbot.waitUntil(lambda: snapshot().command["thx"] == pytest.approx(6e-4), timeout=LONG_MS)
+    assert stood_back  # for what moves
     stepwise.steps.release(2)
     qtbot.waitUntil(lambda: chosen.answer is not None, timeout=LONG_MS)
     assert chosen.answer.diagnosis is stepwise.diagnosis
